@@ -4,5 +4,8 @@
 //! The modules stand in the order in which a program goes through them; see `ARCHITECTURE.md`.
 
 pub mod diagnostic;
+pub mod ir;
+pub mod math;
+pub mod policy;
 pub mod source;
 pub mod syntax;

@@ -1,0 +1,58 @@
+//! Behaviours: control laws with their partition of the state space (paper, sections II-C and V).
+
+use super::expr::{ExprId, Local, Temp};
+use super::program::State;
+use super::table::{Id, Table};
+
+/// A behaviour with its arguments, such as `goto(A)`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Behavior {
+    /// As it is written in the language.
+    pub name: String,
+    /// What it does; `None` if it is declared only.
+    pub law: Option<Law>,
+}
+
+/// What a behaviour does: its partition {U, S, F, R} and the control law of R.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Law {
+    /// The behaviour's own variables, set in this order when it starts.
+    pub locals: Table<Local>,
+    /// U is where this does not hold: failure, nothing is driven.
+    pub requires: ExprId,
+    /// S, looked at next: success.
+    pub succeed: ExprId,
+    /// F, looked at next: failure.
+    pub fail: ExprId,
+    /// Runs everywhere else, R.
+    pub control: Block,
+}
+
+/// Statements in sequence.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Block(pub Vec<Stmt>);
+
+/// A statement of a control law or of an effect.
+///
+/// Every random draw in the expressions of a statement is made before the statement, in the order of the draws' ids,
+/// whether or not the branch that reads it is taken.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Stmt {
+    /// Binds a name; the value is that of this moment.
+    Let(Id<Temp>, ExprId),
+    /// Sets a state variable; effects and control laws may.
+    SetState(Id<State>, ExprId),
+    /// Sets a variable of the behaviour.
+    SetLocal(Id<Local>, ExprId),
+    /// A branch.
+    If(ExprId, Block, Block),
+    /// Commands the wheels for this tick; at most one on each path.
+    Drive {
+        /// Forward speed in m/s.
+        speed: ExprId,
+        /// Speed to the left in m/s; zero for a differential drive.
+        strafe: ExprId,
+        /// Rate of turn in rad/s, counter-clockwise.
+        turn: ExprId,
+    },
+}

@@ -1,0 +1,120 @@
+//! The whole program.
+
+use super::expr::{ExprId, Pool, Temp};
+use super::law::{Behavior, Block};
+use super::table::{Id, Table};
+use super::task::{Claim, Learner, Task};
+use super::tree::{Atom, Tree};
+use super::world::World;
+
+/// A checked program.
+#[derive(Clone, Debug, Default)]
+pub struct Program {
+    /// Every expression.
+    pub pool: Pool,
+    /// Every name that a statement binds.
+    pub temps: Table<Temp>,
+    /// The world; a program of declared names alone has none.
+    pub world: Option<World>,
+    /// The state variables.
+    pub states: Table<State>,
+    /// The events, in the order in which they are evaluated.
+    pub events: Table<Event>,
+    /// What every tick does.
+    pub each_tick: Block,
+    /// What events do, in order.
+    pub effects: Vec<Effect>,
+    /// The predicates.
+    pub predicates: Table<Predicate>,
+    /// The behaviours.
+    pub behaviors: Table<Behavior>,
+    /// The tasks.
+    pub tasks: Table<Task>,
+    /// The learners.
+    pub learners: Table<Learner>,
+    /// The trees.
+    pub trees: Table<Tree>,
+    /// The claims.
+    pub claims: Vec<Claim>,
+    /// Tables that the file `use`s as the environment of its proofs, by path as written.
+    pub environments: Vec<String>,
+}
+
+/// A state variable; a point is two of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct State {
+    /// As it is written in the language.
+    pub name: String,
+    /// How its number is to be read.
+    pub kind: ValueKind,
+    /// Its value at the start of an episode; a constant.
+    pub initial: ExprId,
+}
+
+/// How a number is to be read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ValueKind {
+    /// 0 or 1.
+    Bool,
+    /// A quantity in SI base units.
+    Quantity,
+    /// The index of a variant.
+    Enum(Vec<String>),
+}
+
+/// An event.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Event {
+    /// As it is written in the language.
+    pub name: String,
+    /// Whether it happens in this tick.
+    pub when: ExprId,
+}
+
+/// What an event does.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Effect {
+    /// Whether it is done.
+    pub on: ExprId,
+    /// What is done.
+    pub block: Block,
+}
+
+/// A predicate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Predicate {
+    /// As it is written in the language, such as `vis(A)`.
+    pub name: String,
+    /// When it holds; `None` if it is declared only.
+    pub when: Option<ExprId>,
+}
+
+impl Program {
+    /// An atom as the language writes it.
+    pub fn atom_name(&self, atom: Atom) -> String {
+        match atom {
+            Atom::Predicate(id) => self.predicates[id].name.clone(),
+            Atom::Done(id) => format!("done({})", self.behaviors[id].name),
+            Atom::Failed(id) => format!("failed({})", self.behaviors[id].name),
+        }
+    }
+
+    /// The atoms of a task's minterms: its predicates, then `done` and `failed` of its behaviours as its history
+    /// window keeps them.
+    pub fn atoms(&self, task: Id<Task>) -> Vec<Atom> {
+        let task = &self.tasks[task];
+        let remembered = |kept: bool| {
+            task.choose
+                .iter()
+                .copied()
+                .filter(move |_| kept && task.history.window > 0)
+        };
+        task.observe
+            .iter()
+            .copied()
+            .map(Atom::Predicate)
+            .chain(remembered(task.history.success).map(Atom::Done))
+            .chain(remembered(task.history.failure).map(Atom::Failed))
+            .collect()
+    }
+}

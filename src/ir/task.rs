@@ -1,0 +1,173 @@
+//! Tasks, learners and claims.
+
+use super::expr::ExprId;
+use super::law::Behavior;
+use super::program::{Event, Predicate, State};
+use super::table::Id;
+use super::tree::Tree;
+
+/// What is worth doing, and when an episode starts and ends.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Task {
+    /// Its name.
+    pub name: String,
+    /// The predicates of a minterm, in order.
+    pub observe: Vec<Id<Predicate>>,
+    /// The behaviours of the policy, in order; ties are decided by it.
+    pub choose: Vec<Id<Behavior>>,
+    /// The history window.
+    pub history: History,
+    /// After so many ticks without another reason a decision is due.
+    pub patience: Option<u64>,
+    /// How an episode starts; the lines run in order.
+    pub start: Vec<StartLine>,
+    /// Events that end an episode.
+    pub end_on: Vec<ExprId>,
+    /// Ticks after which an episode is cut.
+    pub end_after: u64,
+    /// The first line whose event fires gives the reward.
+    pub reward: Vec<RewardLine>,
+    /// The reward of every other transition.
+    pub otherwise: ExprId,
+}
+
+/// The window over the last terminations.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct History {
+    /// How many terminations it holds; 0 for no history.
+    pub window: usize,
+    /// Whether successes enter it.
+    pub success: bool,
+    /// Whether failures enter it.
+    pub failure: bool,
+}
+
+/// `on event: value`
+#[derive(Clone, Debug, PartialEq)]
+pub struct RewardLine {
+    /// As it is written.
+    pub name: String,
+    /// Whether it fires.
+    pub event: ExprId,
+    /// The reward; reads the state before effects.
+    pub value: ExprId,
+}
+
+/// One line of a `start`.
+#[derive(Clone, Debug, PartialEq)]
+pub enum StartLine {
+    /// `pose = anywhere`: uniform over the free arena, any heading.
+    Anywhere,
+    /// `position = (x, y)`
+    Position(ExprId, ExprId),
+    /// `heading = a`
+    Heading(ExprId),
+    /// A state variable.
+    State(Id<State>, ExprId),
+    /// The newest termination in the window, as a code: twice the behaviour's index, plus one for a failure; −1 for
+    /// none. Older places of the window stay empty.
+    History(ExprId),
+}
+
+impl StartLine {
+    /// Whether a line of a learner replaces this line of its task: it sets the same thing.
+    pub fn replaced_by(&self, other: &Self) -> bool {
+        match (self, other) {
+            (StartLine::State(a, _), StartLine::State(b, _)) => a == b,
+            (StartLine::Anywhere, StartLine::Anywhere)
+            | (StartLine::Position(..), StartLine::Position(..))
+            | (StartLine::Heading(_), StartLine::Heading(_))
+            | (StartLine::History(_), StartLine::History(_)) => true,
+            _ => false,
+        }
+    }
+}
+
+/// How a task is learned.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Learner {
+    /// The name of the tree that it learns.
+    pub name: String,
+    /// The task.
+    pub task: Id<Task>,
+    /// The method.
+    pub method: Method,
+    /// How many episodes.
+    pub episodes: u64,
+    /// Their greatest length in ticks.
+    pub episode_ticks: u64,
+    /// The step size, a function of `visits` and `progress`.
+    pub rate: ExprId,
+    /// The probability of a random choice, a function of `visits` and `progress`.
+    pub explore: ExprId,
+    /// How future reward counts.
+    pub discount: Discount,
+    /// The value of a pair that was never tried.
+    pub initial: f64,
+    /// What the policy does in an unseen minterm; the first choice if not said.
+    pub unseen: Option<Id<Behavior>>,
+    /// The seed.
+    pub seed: u64,
+    /// Ticks for which a choice is kept in training, whatever changes.
+    pub dwell: u64,
+    /// The task's start lines, with the learner's own in the place of those that they replace.
+    pub start: Vec<StartLine>,
+}
+
+/// The methods of learning.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// Tabular Q-learning (Watkins 1989; the paper's).
+    QLearning,
+}
+
+/// How future reward counts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Discount {
+    /// This factor a decision.
+    PerDecision(f64),
+    /// This factor a span of simulated seconds (semi-Markov: Sutton, Precup and Singh 1999).
+    PerTime(f64, f64),
+}
+
+/// What is claimed of a tree.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Claim {
+    /// The tree.
+    pub tree: TreeRef,
+    /// As it is written, without the word `claim`.
+    pub text: String,
+    /// What is claimed.
+    pub kind: ClaimKind,
+}
+
+/// A tree that is there, or that a learner will learn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TreeRef {
+    /// A tree of the program.
+    Tree(Id<Tree>),
+    /// The tree that a learner learns.
+    Learned(Id<Learner>),
+}
+
+/// The kinds of claims.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ClaimKind {
+    /// Both trees take the same decisions.
+    Equals(TreeRef),
+    /// The event never happens.
+    Never(Occurrence),
+    /// The event happens.
+    Reaches(Occurrence),
+}
+
+/// An event within a time, with a probability.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Occurrence {
+    /// The event.
+    pub event: Id<Event>,
+    /// The time in ticks; the whole episode if not said.
+    pub within: Option<u64>,
+    /// The probability; 1 if not said.
+    pub probability: f64,
+}

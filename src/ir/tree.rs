@@ -1,0 +1,140 @@
+//! Behaviour trees: subtrees inlined, guards over atoms.
+
+use super::law::Behavior;
+use super::program::Predicate;
+use super::table::Id;
+use super::task::Task;
+
+/// A named tree.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tree {
+    /// Its name.
+    pub name: String,
+    /// The `///` lines before it.
+    pub docs: Vec<String>,
+    /// The task that it is for, whose predicates and behaviours it uses.
+    pub task: Option<Id<Task>>,
+    /// The tree.
+    pub root: Node,
+}
+
+/// What a guard can ask: a predicate, or what the history window says of a behaviour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Atom {
+    /// An observed predicate.
+    Predicate(Id<Predicate>),
+    /// `done(b)`: a success of b is in the window.
+    Done(Id<Behavior>),
+    /// `failed(b)`: a failure of b is in the window.
+    Failed(Id<Behavior>),
+}
+
+/// A boolean formula over atoms.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Guard {
+    /// Always, or never.
+    Const(bool),
+    /// An atom.
+    Atom(Atom),
+    /// Negation.
+    Not(Box<Guard>),
+    /// Conjunction of two or more.
+    And(Vec<Guard>),
+    /// Disjunction of two or more.
+    Or(Vec<Guard>),
+}
+
+impl Guard {
+    /// Its value where the atoms have the values that `holds` gives.
+    pub fn eval(&self, holds: &mut impl FnMut(Atom) -> bool) -> bool {
+        match self {
+            Guard::Const(value) => *value,
+            Guard::Atom(atom) => holds(*atom),
+            Guard::Not(guard) => !guard.eval(holds),
+            Guard::And(guards) => guards.iter().all(|guard| guard.eval(holds)),
+            Guard::Or(guards) => guards.iter().any(|guard| guard.eval(holds)),
+        }
+    }
+}
+
+/// What a node of a tree, or a behaviour, answers to a tick.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Status {
+    /// It has reached its goal.
+    Success,
+    /// It cannot go on.
+    Failure,
+    /// It goes on.
+    Running,
+}
+
+impl Status {
+    /// `success`, `failure` or `running`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Status::Success => "success",
+            Status::Failure => "failure",
+            Status::Running => "running",
+        }
+    }
+}
+
+/// A node.
+///
+/// `guard => node` is a reactive sequence of a condition and the node: there is no node of its own for it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Node {
+    /// Answers at once.
+    Condition(Guard),
+    /// A behaviour leaf.
+    Behavior(Id<Behavior>),
+    /// `selector`, `sequence`, with or without memory. Never empty.
+    Composite {
+        /// Which of the two.
+        kind: Composite,
+        /// Whether it resumes at the running child.
+        memory: bool,
+        /// The children, from the left.
+        children: Vec<Node>,
+    },
+    /// `parallel(n)`: success when `successes` children have succeeded, failure when they no longer can.
+    Parallel {
+        /// How many have to succeed.
+        successes: u32,
+        /// The children, from the left.
+        children: Vec<Node>,
+    },
+    /// A decorator.
+    Decorator {
+        /// Which one.
+        kind: Decorator,
+        /// What it decorates.
+        child: Box<Node>,
+    },
+}
+
+/// The two composites.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Composite {
+    /// Tries its children until one does not fail.
+    Selector,
+    /// Tries its children until one does not succeed.
+    Sequence,
+}
+
+/// The decorators.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Decorator {
+    /// Exchanges success and failure.
+    Invert,
+    /// Turns failure into success.
+    Succeed,
+    /// Turns success into failure.
+    Fail,
+    /// After a failure, tries again (running), this many times at most.
+    Retry(u32),
+    /// After a success, starts again (running), until it has succeeded this many times.
+    Repeat(u32),
+    /// Fails once it has been reached for this many ticks.
+    Timeout(u64),
+}
