@@ -99,8 +99,8 @@ impl<T> Table<T> {
     }
 
     /// The first id whose entry passes.
-    pub fn find(&self, mut test: impl FnMut(&T) -> bool) -> Option<Id<T>> {
-        self.0.iter().position(|entry| test(entry)).map(Id::new)
+    pub fn find(&self, test: impl FnMut(&T) -> bool) -> Option<Id<T>> {
+        self.0.iter().position(test).map(Id::new)
     }
 }
 

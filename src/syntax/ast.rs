@@ -459,6 +459,7 @@ pub struct Learn {
 }
 
 /// An entry of a learner.
+#[allow(clippy::large_enum_variant, reason = "a learner has a dozen of them")]
 #[derive(Clone, Debug, PartialEq)]
 pub enum LearnEntry {
     /// `start { … }`
