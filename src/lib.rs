@@ -3,6 +3,7 @@
 //!
 //! The modules stand in the order in which a program goes through them; see `ARCHITECTURE.md`.
 
+pub mod check;
 pub mod diagnostic;
 pub mod ir;
 pub mod math;

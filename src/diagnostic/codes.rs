@@ -41,6 +41,52 @@ macro_rules! codes {
 
 codes! {
     E0101 "unexpected text",
+
+    E0201 "declared twice",
+    E0202 "not declared",
+    E0203 "a name of the wrong kind",
+    E0204 "a built-in name",
+    E0205 "defined by itself",
+    E0206 "used before it is declared",
+    E0207 "declared only",
+
+    E0301 "units do not match",
+    E0302 "types do not match",
+    E0303 "not a constant",
+    E0304 "a type without a unit",
+    E0305 "arguments do not match",
+    E0306 "a random draw where none is allowed",
+    E0307 "not known here",
+    E0308 "an exponent that leaves the unit unknown",
+    E0309 "out of range",
+    E0310 "cannot be set",
+    E0311 "driven twice",
+    E0312 "an enum without variants",
+    W0301 "a plain number for a ratio",
+
+    E0401 "more than one world",
+    E0402 "something of the world is missing",
+    E0403 "unknown to the world",
+    E0404 "impossible geometry",
+    E0405 "a place that faces nowhere",
+    E0406 "a sensor is missing",
+    E0407 "a world is missing",
+    E0408 "more than one robot that learns",
+
+    E0501 "unknown to a learner",
+    E0502 "something of a task or a learner is missing",
+    E0503 "said twice",
+
+    E0601 "a guard that is no predicate",
+    E0602 "an empty composite",
+    E0603 "a decorator with several children",
+    E0604 "a memory that the node cannot have",
+    E0605 "two children drive",
+    E0606 "arguments of a node do not match",
+    E0607 "the history is not kept",
+    E0608 "a proof with terms",
+
+    E0701 "not built yet",
 }
 
 impl Code {

@@ -138,3 +138,48 @@ pub enum Decorator {
     /// Fails once it has been reached for this many ticks.
     Timeout(u64),
 }
+
+impl Guard {
+    /// Calls `visit` for every atom, from the left.
+    pub fn visit_atoms(&self, visit: &mut impl FnMut(Atom)) {
+        match self {
+            Guard::Const(_) => {}
+            Guard::Atom(atom) => visit(*atom),
+            Guard::Not(guard) => guard.visit_atoms(visit),
+            Guard::And(guards) | Guard::Or(guards) => {
+                guards.iter().for_each(|guard| guard.visit_atoms(visit));
+            }
+        }
+    }
+}
+
+impl Node {
+    /// The children, from the left.
+    pub fn children(&self) -> &[Node] {
+        match self {
+            Node::Condition(_) | Node::Behavior(_) => &[],
+            Node::Composite { children, .. } | Node::Parallel { children, .. } => children,
+            Node::Decorator { child, .. } => std::slice::from_ref(child),
+        }
+    }
+
+    /// Calls `visit` for every atom of every condition, from the left.
+    pub fn visit_atoms(&self, visit: &mut impl FnMut(Atom)) {
+        if let Node::Condition(guard) = self {
+            guard.visit_atoms(visit);
+        }
+        for child in self.children() {
+            child.visit_atoms(visit);
+        }
+    }
+
+    /// Calls `visit` for every behaviour leaf, from the left.
+    pub fn visit_behaviors(&self, visit: &mut impl FnMut(Id<Behavior>)) {
+        if let Node::Behavior(id) = self {
+            visit(*id);
+        }
+        for child in self.children() {
+            child.visit_behaviors(visit);
+        }
+    }
+}

@@ -1,0 +1,299 @@
+//! Behaviours: bodies are checked for themselves, then once more for every set of arguments that is used.
+
+use super::Checker;
+use super::block::Home;
+use super::context::{Binding, Region};
+use super::types::{Type, Value};
+use super::world::spelled;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::ir::Id;
+use crate::ir::expr::{Expr, ExprId, Local};
+use crate::ir::law::{Behavior, Block, Law};
+use crate::ir::table::Table;
+use crate::syntax::ast::{self, ArgKind, BehaviorBody, Clause, ClauseKind, Ref};
+use crate::syntax::print;
+
+/// The id of a behaviour with its arguments.
+pub(super) type BehaviorId = Id<Behavior>;
+
+impl<'a> Checker<'a> {
+    /// Checks a behaviour for itself.
+    pub(super) fn behavior(&mut self, behavior: &'a ast::Behavior) {
+        if self.clean_bodies.contains_key(&behavior.name.span) {
+            return;
+        }
+        let scope = self.unknown_parameters(behavior.params.as_ref());
+        self.body_for_itself(behavior.name.span, Region::Clause, scope, |checker| {
+            match &behavior.body {
+                BehaviorBody::Declared => {}
+                BehaviorBody::Alias(target) => {
+                    checker.context.region = Region::Tree;
+                    checker.alias(target);
+                }
+                BehaviorBody::Clauses(clauses) => {
+                    checker.law(clauses, Table::default());
+                }
+            }
+        });
+    }
+
+    /// The behaviour with the given arguments: a known value, or an unknown one inside a body that is checked for
+    /// itself. `None` if a mistake was reported.
+    pub(super) fn behavior_instance(
+        &mut self,
+        behavior: &'a ast::Behavior,
+        library: bool,
+        reference: &'a Ref,
+    ) -> Option<Value> {
+        if !library {
+            self.behavior(behavior);
+        }
+        let params = behavior.params.as_ref();
+        let mut scope = self.bind_arguments(params, library, reference, Region::Let)?;
+        if scope.iter().any(|binding| binding.value == Value::Unknown) {
+            return Some(Value::Unknown);
+        }
+        let name = self.instance_name(behavior.params.as_ref(), reference, &scope);
+        if let Some(known) = self.behaviors.get(&name) {
+            return known.map(Value::Behavior);
+        }
+        // Arguments that change are evaluated at the start and held.
+        let mut locals = Table::default();
+        for binding in &mut scope {
+            self.hold(binding, &mut locals);
+        }
+        let body = behavior.name.span;
+        let law = self.unrolled(body, reference, library, Region::Clause, scope, |checker| {
+            match &behavior.body {
+                BehaviorBody::Declared => Some(None),
+                BehaviorBody::Alias(target) => {
+                    checker.context.region = Region::Tree;
+                    let target = checker.alias(target)?;
+                    Some(checker.program.behaviors[target].law.clone())
+                }
+                BehaviorBody::Clauses(clauses) => checker.law(clauses, locals).map(Some),
+            }
+        });
+        let id = law
+            .flatten()
+            .map(|law| self.program.behaviors.push(Behavior { name: name.clone(), law }));
+        self.behaviors.insert(name, id);
+        id.map(Value::Behavior)
+    }
+
+    fn alias(&mut self, target: &'a Ref) -> Option<BehaviorId> {
+        let typed = self.reference(target);
+        match (&typed.ty, typed.value) {
+            (_, Value::Behavior(id)) => return Some(id),
+            (Type::Behavior | Type::Error, _) => {}
+            (other, _) => self.report(
+                Diagnostic::new(Code::E0203, target.span, "an alias names a behaviour")
+                    .label(format!("this is {other}")),
+            ),
+        }
+        None
+    }
+
+    /// Makes a local of an argument that is not constant.
+    fn hold(&mut self, binding: &mut Binding, locals: &mut Table<Local>) {
+        let mut held = |id: ExprId| {
+            if self.program.pool.constant(id).is_some() {
+                return id;
+            }
+            let local = locals.push(Local {
+                name: binding.name.clone(),
+                initial: id,
+            });
+            self.program.pool.leaf(Expr::Local(local))
+        };
+        binding.value = match &binding.value {
+            Value::Scalar(id) => Value::Scalar(held(*id)),
+            Value::Point(x, y) => Value::Point(held(*x), held(*y)),
+            other => other.clone(),
+        };
+    }
+
+    /// The clauses of a body as the partition and the control law, in the order that the language gives them.
+    fn law(&mut self, clauses: &'a [Clause], mut locals: Table<Local>) -> Option<Law> {
+        let depth = self.context.scope.len();
+        let mut known = true;
+        self.context.region = Region::Local;
+        for clause in clauses {
+            if let ClauseKind::Local { name, ty, value } = &clause.kind {
+                known &= self.local(name, ty.as_ref(), value, &mut locals);
+            }
+        }
+        let pool = &mut self.program.pool;
+        let (yes, no) = (pool.bool(true), pool.bool(false));
+        let (mut requires, mut succeed, mut fail) = (yes, no, no);
+        let mut control: Option<(&'a ast::Block, Option<Block>)> = None;
+        for clause in clauses {
+            self.context.region = Region::Clause;
+            let mut region = |role: &str, test: &'a ast::Expr| {
+                self.expect(test, &Type::Bool, role).scalar()
+            };
+            match &clause.kind {
+                ClauseKind::Local { .. } => {}
+                ClauseKind::Requires(test) => match region("`requires`", test) {
+                    Some(id) => requires = self.program.pool.and(requires, id),
+                    None => known = false,
+                },
+                ClauseKind::Succeed(test) => match region("`succeed when`", test) {
+                    Some(id) => succeed = self.program.pool.or(succeed, id),
+                    None => known = false,
+                },
+                ClauseKind::Fail(test) => match region("`fail when`", test) {
+                    Some(id) => fail = self.program.pool.or(fail, id),
+                    None => known = false,
+                },
+                ClauseKind::Control(block) => {
+                    if let Some((first, _)) = &control {
+                        self.report(
+                            Diagnostic::new(
+                                Code::E0503,
+                                clause.span,
+                                "a behaviour has one control law",
+                            )
+                            .label("a second `control`")
+                            .also(first.span, "the first is here"),
+                        );
+                        continue;
+                    }
+                    self.context.region = Region::Control;
+                    let lowered = self.block(block, &Home::Control);
+                    self.drives_once(block, None);
+                    control = Some((block, lowered));
+                }
+                ClauseKind::Error => known = false,
+            }
+        }
+        self.context.scope.truncate(depth);
+        let control = match control {
+            Some((_, lowered)) => lowered?,
+            None => Block::default(),
+        };
+        known.then_some(Law {
+            locals,
+            requires,
+            succeed,
+            fail,
+            control,
+        })
+    }
+
+    fn local(
+        &mut self,
+        name: &'a ast::Ident,
+        ty: Option<&'a ast::TypeExpr>,
+        value: &'a ast::Expr,
+        locals: &mut Table<Local>,
+    ) -> bool {
+        let typed = self.declared(ty, value, &name.name);
+        let parts = match typed.value {
+            Value::Scalar(id) => vec![id],
+            Value::Point(x, y) => vec![x, y],
+            _ => Vec::new(),
+        };
+        let ids: Vec<Id<Local>> = parts
+            .into_iter()
+            .map(|initial| {
+                locals.push(Local {
+                    name: spelled(&name.name),
+                    initial,
+                })
+            })
+            .collect();
+        let mut leaves = ids.iter().map(|id| self.program.pool.leaf(Expr::Local(*id)));
+        let value = match (leaves.next(), leaves.next()) {
+            (Some(x), Some(y)) => Value::Point(x, y),
+            (Some(id), None) => Value::Scalar(id),
+            _ => Value::Unknown,
+        };
+        let known = value != Value::Unknown;
+        self.context.scope.push(Binding {
+            name: name.name.clone(),
+            ty: typed.ty,
+            value,
+            locals: ids,
+            span: name.span,
+        });
+        known
+    }
+
+    /// A reference with its arguments as they are printed: by position as long as none is left out, then by name;
+    /// arguments that say what the default says are left out.
+    pub(super) fn instance_name(
+        &self,
+        params: Option<&ast::Params>,
+        reference: &Ref,
+        scope: &[Binding],
+    ) -> String {
+        let params: &[ast::Param] = params.map_or(&[], |params| &params.params);
+        let mut by_name = false;
+        let mut shown = Vec::new();
+        let args = reference.args.as_deref().unwrap_or_default();
+        let positional: Vec<&ast::Expr> = args
+            .iter()
+            .filter_map(|arg| match &arg.kind {
+                ArgKind::Positional(value) => Some(value),
+                _ => None,
+            })
+            .collect();
+        for (position, (param, binding)) in params.iter().zip(scope).enumerate() {
+            let named = args.iter().find_map(|arg| match &arg.kind {
+                ArgKind::Named(name, value) if name.name == param.name.name => Some(value),
+                _ => None,
+            });
+            let given = positional.get(position).copied().or(named);
+            match given {
+                None => by_name = true,
+                Some(given) => {
+                    let text = self.value_text(given, &binding.value);
+                    let default = param.default.as_ref();
+                    if default.is_some_and(|default| print::expr(default) == text) {
+                        by_name = true;
+                    } else if by_name {
+                        shown.push(format!("{} = {text}", spelled(&param.name.name)));
+                    } else {
+                        shown.push(text);
+                    }
+                }
+            }
+        }
+        let name = spelled(&reference.name.name);
+        if shown.is_empty() {
+            name
+        } else {
+            format!("{name}({})", shown.join(", "))
+        }
+    }
+
+    /// An argument as it is printed: a target by its name, a literal in its own spelling.
+    fn value_text(&self, given: &ast::Expr, value: &Value) -> String {
+        let world = self.program.world.as_ref();
+        let by_name = match value {
+            Value::Place(id) => world.map(|world| world.places[*id].name.clone()),
+            Value::Wall(id) => world.map(|world| world.walls[*id].name.clone()),
+            Value::Sensor(id) => world.map(|world| world.robot.sensors[*id].name.clone()),
+            Value::Behavior(id) => Some(self.program.behaviors[*id].name.clone()),
+            // A parameter of a subtree or a shared expression stands for a number that has no spelling here.
+            Value::Scalar(id) if self.mentions_parameter(given) => {
+                self.program.pool.constant(*id).map(|number| number.to_string())
+            }
+            _ => None,
+        };
+        by_name.unwrap_or_else(|| print::expr(given))
+    }
+
+    fn mentions_parameter(&self, given: &ast::Expr) -> bool {
+        match &given.kind {
+            ast::ExprKind::Ref(reference) => self.context.lookup(&reference.name.name).is_some(),
+            ast::ExprKind::Paren(inner) => self.mentions_parameter(inner),
+            ast::ExprKind::Unary { operand, .. } => self.mentions_parameter(operand),
+            ast::ExprKind::Binary { left, right, .. } => {
+                self.mentions_parameter(left) || self.mentions_parameter(right)
+            }
+            _ => false,
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! Claims on trees.
+
+use super::Checker;
+use super::context::{Context, Region};
+use super::names::{Decl, unknown};
+use super::types::Type;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::ir::program::Event;
+use crate::ir::task::{Claim, ClaimKind, Occurrence, TreeRef};
+use crate::ir::Id;
+use crate::syntax::ast::{self, ClaimWhat, Expr, ExprKind, Ident};
+use crate::syntax::print;
+
+impl<'a> Checker<'a> {
+    /// `claim tree equals tree`, `claim tree never event …`
+    pub(super) fn claim(&mut self, claim: &'a ast::Claim) {
+        self.context = Context::new(Region::Tree);
+        let tree = self.tree_ref(&claim.tree);
+        let kind = match &claim.what {
+            ClaimWhat::Equals(other) => {
+                let other = self.tree_ref(other);
+                self.no_terms(claim);
+                other.map(ClaimKind::Equals)
+            }
+            ClaimWhat::Never(event) => self.occurrence(claim, event).map(ClaimKind::Never),
+            ClaimWhat::Reaches(event) => self.occurrence(claim, event).map(ClaimKind::Reaches),
+        };
+        if let (Some(tree), Some(kind)) = (tree, kind) {
+            self.program.claims.push(Claim {
+                tree,
+                text: print::claim(claim),
+                kind,
+            });
+        }
+    }
+
+    /// A tree of the program, or one that a learner will learn.
+    fn tree_ref(&mut self, name: &Ident) -> Option<TreeRef> {
+        let spelled = super::world::spelled(&name.name);
+        if let Some(id) = self.program.trees.find(|tree| tree.name == spelled) {
+            return Some(TreeRef::Tree(id));
+        }
+        if let Some(id) = self.program.learners.find(|learner| learner.name == spelled) {
+            return Some(TreeRef::Learned(id));
+        }
+        let known = self.names.learners.contains_key(name.name.as_str());
+        match self.names.value(&name.name, false) {
+            // Declared, with mistakes that were reported.
+            Some((Decl::Tree(tree), _)) if tree.params.is_none() => {}
+            _ if known => {}
+            Some((Decl::Tree(_), _)) => self.report(
+                Diagnostic::new(
+                    Code::E0203,
+                    name.span,
+                    format!("the tree `{}` has parameters", name.name),
+                )
+                .label("a claim is about a whole tree"),
+            ),
+            _ => {
+                let trees = self
+                    .names
+                    .values(|decl| matches!(decl, Decl::Tree(_)))
+                    .chain(self.names.learners.keys().copied());
+                let diagnostic = unknown(name, "tree", trees);
+                self.report(diagnostic);
+            }
+        }
+        None
+    }
+
+    fn no_terms(&mut self, claim: &'a ast::Claim) {
+        let term = claim.within.as_ref().or(claim.probability.as_ref().map(|(_, p)| p));
+        if let Some(term) = term {
+            self.report(
+                Diagnostic::new(
+                    Code::E0608,
+                    term.span,
+                    "that two trees are equal is proved, not estimated",
+                )
+                .label("neither `within` nor `with probability` belongs here"),
+            );
+        }
+    }
+
+    fn occurrence(&mut self, claim: &'a ast::Claim, event: &'a Expr) -> Option<Occurrence> {
+        let event = self.claimed_event(event);
+        let within = claim.within.as_ref().map(|time| self.ticks(time, "`within`"));
+        let probability = claim.probability.as_ref().map(|(_, p)| {
+            let value = self.constant(p, &Type::Ratio, "a probability")?;
+            if (0.0..=1.0).contains(&value) {
+                Some(value)
+            } else {
+                self.out_of_range(p.span, "a probability goes from 0% to 100%");
+                None
+            }
+        });
+        // Claims on events are checked, and not yet tested: that needs the simulator at check time.
+        let span = match &claim.what {
+            ClaimWhat::Equals(_) => claim.tree.span,
+            ClaimWhat::Never(event) | ClaimWhat::Reaches(event) => event.span,
+        };
+        let occurrence = Occurrence {
+            event: event?,
+            within: match within {
+                Some(ticks) => Some(ticks?),
+                None => None,
+            },
+            probability: match probability {
+                Some(value) => value?,
+                None => 1.0,
+            },
+        };
+        self.not_yet(span, "claims on events");
+        Some(occurrence)
+    }
+
+    fn claimed_event(&mut self, event: &'a Expr) -> Option<Id<Event>> {
+        let reference = match &event.kind {
+            ExprKind::Ref(reference) => reference,
+            ExprKind::Error => return None,
+            _ => {
+                self.report(
+                    Diagnostic::new(Code::E0203, event.span, "a claim names an event")
+                        .label("this is an expression")
+                        .help("declare it: `event NAME = …`"),
+                );
+                return None;
+            }
+        };
+        match self.names.value(&reference.name.name, false) {
+            Some((Decl::Event(decl), _)) => self.events.get(decl.name.name.as_str()).copied(),
+            Some((decl, _)) => {
+                self.wrong_kind(reference, "an event", decl.what());
+                None
+            }
+            None => {
+                let events = self.names.values(|decl| matches!(decl, Decl::Event(_)));
+                let diagnostic = unknown(&reference.name, "event", events);
+                self.report(diagnostic);
+                None
+            }
+        }
+    }
+}

@@ -1,0 +1,261 @@
+//! State variables, events, and what they do.
+
+use super::Checker;
+use super::block::Home;
+use super::context::{Binding, Context, Region};
+use super::types::{Type, Typed, Value};
+use super::world::spelled;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::ir::Id;
+use crate::ir::expr::Expr;
+use crate::ir::program::{Effect, Event, State, ValueKind};
+use crate::syntax::ast::{self, Ref, Trigger};
+
+/// The id of an event.
+pub(super) type EventId = Id<Event>;
+
+/// The variables behind a declared state: one, or two for a point.
+#[derive(Clone, Debug)]
+pub(super) struct StateSlot {
+    /// The declared type.
+    pub(super) ty: Type,
+    /// The variables.
+    pub(super) ids: Vec<Id<State>>,
+}
+
+impl<'a> Checker<'a> {
+    /// `state name: type = constant`
+    pub(super) fn state(&mut self, state: &'a ast::State) {
+        self.context = Context::new(Region::World);
+        if let Some(params) = &state.params {
+            let scope = self.unknown_parameters(Some(params));
+            self.context.scope = scope;
+            self.declared(state.ty.as_ref(), &state.value, &state.name.name);
+            self.context.scope.clear();
+            self.not_yet(params.span, "families of state variables");
+            return;
+        }
+        let value = self.declared(state.ty.as_ref(), &state.value, &state.name.name);
+        let kind = match &value.ty {
+            Type::Error => return,
+            Type::Bool => ValueKind::Bool,
+            Type::Enum(name) => ValueKind::Enum(self.variants(name)),
+            Type::Point | Type::Quantity(_) | Type::Ratio => ValueKind::Quantity,
+            other => {
+                self.report(
+                    Diagnostic::new(
+                        Code::E0302,
+                        value.span,
+                        format!("a state cannot hold {other}"),
+                    )
+                    .label("numbers, truth values, points and enums can be held"),
+                );
+                return;
+            }
+        };
+        let name = spelled(&state.name.name);
+        let parts = match value.value {
+            Value::Scalar(id) => vec![(name, id)],
+            Value::Point(x, y) => vec![(format!("{name}.x"), x), (format!("{name}.y"), y)],
+            _ => return,
+        };
+        let mut ids = Vec::new();
+        for (name, initial) in parts {
+            let part = Typed {
+                value: Value::Scalar(initial),
+                ..value.clone()
+            };
+            if self.constant_of(&part, "the first value of a state").is_none() {
+                return;
+            }
+            ids.push(self.program.states.push(State {
+                name,
+                kind: kind.clone(),
+                initial,
+            }));
+        }
+        let slot = StateSlot { ty: value.ty, ids };
+        self.states.insert(&state.name.name, slot);
+    }
+
+    /// `enum name { … }`: names are collected already; an empty one is a mistake.
+    pub(super) fn enumeration(&mut self, decl: &'a ast::Enum) {
+        if decl.variants.is_empty() {
+            self.report(
+                Diagnostic::new(
+                    Code::E0312,
+                    decl.name.span,
+                    format!("the enum `{}` has no variants", decl.name.name),
+                )
+                .label("nothing could be of it"),
+            );
+        }
+    }
+
+    fn variants(&self, name: &str) -> Vec<String> {
+        match self.names.types.get(name) {
+            Some(super::names::TypeDecl::Enum(decl)) => {
+                decl.variants.iter().map(|v| spelled(&v.name)).collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// A state variable as it is now.
+    pub(super) fn state_value(&mut self, state: &'a ast::State, reference: &'a Ref) -> Typed {
+        let span = reference.span;
+        if state.params.is_some() {
+            for arg in reference.args.iter().flatten() {
+                self.stray_argument(arg);
+            }
+            let ty = state.ty.as_ref().map_or(Type::Error, |ty| self.type_expr(ty));
+            return Typed {
+                ty,
+                value: Value::Unknown,
+                span,
+            };
+        }
+        if reference.args.is_some() {
+            self.report(
+                Diagnostic::new(
+                    Code::E0203,
+                    reference.name.span,
+                    format!("`{}` takes no arguments", reference.name.name),
+                )
+                .label("this is a state variable"),
+            );
+            return Typed::error(span);
+        }
+        let Some(slot) = self.states.get(state.name.name.as_str()).cloned() else {
+            return Typed::error(span);
+        };
+        let pool = &mut self.program.pool;
+        let mut leaves = slot.ids.iter().map(|id| pool.leaf(Expr::State(*id)));
+        let value = match (leaves.next(), leaves.next()) {
+            (Some(x), Some(y)) => Value::Point(x, y),
+            (Some(id), None) => Value::Scalar(id),
+            _ => Value::Unknown,
+        };
+        Typed {
+            ty: slot.ty,
+            value,
+            span,
+        }
+    }
+
+    /// `event name = expr`
+    pub(super) fn event(&mut self, event: &'a ast::Event) {
+        let scope = self.unknown_parameters(event.params.as_ref());
+        let mut when = None;
+        self.body_for_itself(event.name.span, Region::Event, scope, |checker| {
+            let role = format!("the event `{}`", event.name.name);
+            when = checker.expect(&event.value, &Type::Bool, &role).scalar();
+        });
+        if let Some(params) = &event.params {
+            self.not_yet(params.span, "families of events");
+            return;
+        }
+        let never = self.program.pool.bool(false);
+        let id = self.program.events.push(Event {
+            name: spelled(&event.name.name),
+            when: when.unwrap_or(never),
+        });
+        self.events.insert(&event.name.name, id);
+    }
+
+    /// Whether an event happens in this tick.
+    pub(super) fn event_value(&mut self, event: &'a ast::Event, reference: &'a Ref) -> Typed {
+        let span = reference.span;
+        for arg in reference.args.iter().flatten() {
+            self.stray_argument(arg);
+        }
+        if event.params.is_some() {
+            return Typed {
+                ty: Type::Bool,
+                value: Value::Unknown,
+                span,
+            };
+        }
+        if reference.args.is_some() {
+            self.report(
+                Diagnostic::new(
+                    Code::E0203,
+                    reference.name.span,
+                    format!("`{}` takes no arguments", reference.name.name),
+                )
+                .label("this is an event"),
+            );
+            return Typed::error(span);
+        }
+        if !self.context.region.sees_events() {
+            self.report(
+                Diagnostic::new(
+                    Code::E0307,
+                    span,
+                    format!(
+                        "the event `{}` cannot be asked in {}",
+                        reference.name.name,
+                        self.context.region.name()
+                    ),
+                )
+                .label("events are known to events, effects and rewards only")
+                .help("remember it in a state: `on EVENT { seen = true }`"),
+            );
+            return Typed::error(span);
+        }
+        match self.events.get(event.name.name.as_str()) {
+            Some(id) => self.leaf(Expr::Event(*id), Type::Bool, span),
+            None => {
+                self.report(
+                    Diagnostic::new(
+                        Code::E0206,
+                        span,
+                        format!("the event `{}` is declared later", reference.name.name),
+                    )
+                    .label("events are evaluated in the order of their declaration")
+                    .also(event.name.span, "declared here"),
+                );
+                Typed::error(span)
+            }
+        }
+    }
+
+    /// `each tick { … }`
+    pub(super) fn each_tick(&mut self, block: &'a ast::Block) {
+        self.context = Context::new(Region::EachTick);
+        if let Some(block) = self.block(block, &Home::Effect) {
+            self.program.each_tick.0.extend(block.0);
+        }
+    }
+
+    /// `on event { … }`
+    pub(super) fn on(&mut self, on: &'a ast::On) {
+        self.context = Context::new(Region::Event);
+        match &on.trigger {
+            Trigger::Expr(event) => {
+                let when = self.expect(event, &Type::Bool, "what an `on` waits for");
+                self.context = Context::new(Region::Effect);
+                let block = self.block(&on.block, &Home::Effect);
+                if let (Some(on), Some(block)) = (when.scalar(), block) {
+                    self.program.effects.push(Effect { on, block });
+                }
+            }
+            Trigger::Family { name, params } => {
+                let known = self.names.value(&name.name, false);
+                if !matches!(known, Some((super::names::Decl::Event(_), _))) {
+                    let events = self
+                        .names
+                        .values(|decl| matches!(decl, super::names::Decl::Event(_)));
+                    let diagnostic = super::names::unknown(name, "event", events);
+                    self.report(diagnostic);
+                }
+                let scope: Vec<Binding> = self.unknown_parameters(Some(params));
+                self.context = Context::new(Region::Effect);
+                self.context.scope = scope;
+                self.block(&on.block, &Home::Effect);
+                self.not_yet(params.span, "effects of families of events");
+            }
+        }
+        self.context.scope.clear();
+    }
+}

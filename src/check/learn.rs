@@ -1,0 +1,315 @@
+//! Learners: the settings by which a task is learned.
+
+use super::Checker;
+use super::context::{Context, Region};
+use super::names::{learned_name, unknown};
+use super::types::Type;
+use super::units::Dim;
+use crate::diagnostic::{Applicability, Code, Diagnostic, suggest};
+use crate::ir::expr::{Binary, Expr, ExprId};
+use crate::ir::task::{Discount, Learner, Method};
+use crate::source::Span;
+use crate::syntax::ast::{self, ExprKind, LearnEntry, Link, Ref, Setting};
+use std::collections::BTreeMap;
+
+/// The settings of a learner.
+const SETTINGS: [&str; 9] = [
+    "method", "episodes", "rate", "initial", "discount", "explore", "unseen", "dwell", "seed",
+];
+
+impl<'a> Checker<'a> {
+    /// `learn name for task { … }`
+    pub(super) fn learn(&mut self, learn: &'a ast::Learn) {
+        self.context = Context::new(Region::Schedule);
+        let task = self.names.tasks.get(learn.task.name.as_str()).copied();
+        if task.is_none() {
+            let diagnostic = unknown(&learn.task, "task", self.names.tasks.keys().copied());
+            self.report(diagnostic);
+        }
+        let spelled = super::world::spelled(&learn.task.name);
+        let task = self.program.tasks.find(|task| task.name == spelled);
+        let pool = &mut self.program.pool;
+        // The defaults: steps of visits^-0.7, exploration from 30 % to 5 %.
+        let visits = pool.leaf(Expr::Visits);
+        let exponent = pool.num(-0.7);
+        let rate = pool.binary(Binary::Pow, visits, exponent);
+        let (from, to) = (pool.num(0.3), pool.num(0.05));
+        let explore = self.ramp(from, to);
+        let mut built = Learner {
+            name: super::world::spelled(learned_name(learn)),
+            task: task.unwrap_or(crate::ir::Id::new(0)),
+            method: Method::QLearning,
+            episodes: 0,
+            episode_ticks: task.map_or(0, |task| self.program.tasks[task].end_after),
+            rate,
+            explore,
+            discount: Discount::PerDecision(0.95),
+            initial: 0.0,
+            unseen: None,
+            seed: 1,
+            dwell: 0,
+            start: task.map_or(Vec::new(), |task| self.program.tasks[task].start.clone()),
+        };
+        let mut seen: BTreeMap<&str, Span> = BTreeMap::new();
+        for entry in &learn.entries {
+            match entry {
+                LearnEntry::Start(start) => {
+                    for line in self.start(start) {
+                        match built.start.iter_mut().find(|old| old.replaced_by(&line)) {
+                            Some(old) => *old = line,
+                            None => built.start.push(line),
+                        }
+                    }
+                }
+                LearnEntry::Setting(setting) => {
+                    let name = setting.name.name.as_str();
+                    if let Some(first) = seen.insert(name, setting.name.span) {
+                        self.report(
+                            Diagnostic::new(
+                                Code::E0503,
+                                setting.name.span,
+                                format!("`{name}` is there twice"),
+                            )
+                            .label("said again here")
+                            .also(first, "first said here"),
+                        );
+                        continue;
+                    }
+                    self.context = Context::new(Region::Schedule);
+                    self.setting(setting, &mut built);
+                }
+                LearnEntry::Error(_) => {}
+            }
+        }
+        if !seen.contains_key("episodes") {
+            self.report(
+                Diagnostic::new(
+                    Code::E0502,
+                    learn.task.span,
+                    "the learner does not say its `episodes`",
+                )
+                .label("`episodes` is missing")
+                .help("for example: `episodes = 4_000`"),
+            );
+        }
+        if task.is_some() {
+            self.program.learners.push(built);
+        }
+    }
+
+    fn setting(&mut self, setting: &'a Setting, learner: &mut Learner) {
+        let name = setting.name.name.as_str();
+        let allowed: &[Link] = match name {
+            "episodes" => &[Link::Of],
+            "discount" => &[Link::Per],
+            "rate" | "explore" => &[Link::Arrow],
+            _ => &[],
+        };
+        if let Some((link, tail)) = &setting.tail
+            && !allowed.contains(&link.node)
+            && SETTINGS.contains(&name)
+        {
+            let word = match link.node {
+                Link::Of => "of",
+                Link::Per => "per",
+                Link::Arrow => "->",
+            };
+            self.report(
+                Diagnostic::new(
+                    Code::E0501,
+                    link.span.to(tail.span),
+                    format!("`{name}` takes no `{word}`"),
+                )
+                .label("this says nothing here"),
+            );
+            return;
+        }
+        let tail = setting.tail.as_ref().map(|(_, tail)| tail);
+        match name {
+            "method" => self.method(&setting.value),
+            "episodes" => {
+                if let Some(n) = self.whole(&setting.value, "`episodes`", 1.0) {
+                    learner.episodes = n;
+                }
+                if let Some(tail) = tail
+                    && let Some(ticks) = self.ticks(tail, "the length of an episode")
+                {
+                    learner.episode_ticks = ticks;
+                }
+            }
+            "rate" => {
+                if let Some(id) = self.schedule(&setting.value, tail, "`rate`") {
+                    learner.rate = id;
+                }
+            }
+            "explore" => {
+                if let Some(id) = self.schedule(&setting.value, tail, "`explore`") {
+                    learner.explore = id;
+                }
+            }
+            "initial" => {
+                if let Some(value) = self.constant(&setting.value, &Type::NUMBER, "`initial`") {
+                    learner.initial = value;
+                }
+            }
+            "discount" => self.discount(setting, tail, learner),
+            "unseen" => match &setting.value.kind {
+                ExprKind::Ref(reference) => {
+                    self.context.region = Region::Tree;
+                    learner.unseen = self.behavior_ref(reference);
+                }
+                ExprKind::Error => {}
+                _ => self.report(
+                    Diagnostic::new(
+                        Code::E0203,
+                        setting.value.span,
+                        "`unseen` names a behaviour",
+                    )
+                    .label("this is an expression"),
+                ),
+            },
+            "dwell" => {
+                if let Some(ticks) = self.ticks(&setting.value, "`dwell`") {
+                    learner.dwell = ticks;
+                }
+            }
+            "seed" => {
+                if let Some(seed) = self.whole(&setting.value, "`seed`", 0.0) {
+                    learner.seed = seed;
+                }
+            }
+            _ => self.unknown_setting(setting),
+        }
+    }
+
+    fn unknown_setting(&mut self, setting: &Setting) {
+        let name = &setting.name;
+        let diagnostic = Diagnostic::new(
+            Code::E0501,
+            name.span,
+            format!("a learner has no setting `{}`", name.name),
+        )
+        .label("unknown");
+        let diagnostic = match suggest::nearest(&name.name, SETTINGS) {
+            Some(likely) => diagnostic.fix(
+                format!("did you mean `{likely}`?"),
+                name.span,
+                likely,
+                Applicability::Unsafe,
+            ),
+            None => diagnostic.help(format!("it has: {}", SETTINGS.join(", "))),
+        };
+        self.report(diagnostic);
+    }
+
+    fn method(&mut self, value: &'a ast::Expr) {
+        let word = match &value.kind {
+            ExprKind::Ref(Ref {
+                name, args: None, ..
+            }) => name.name.as_str(),
+            ExprKind::Error => return,
+            _ => "",
+        };
+        match word {
+            "q_learning" => {}
+            "double_q" | "model" => self.not_yet(value.span, "double Q-learning and model learning"),
+            _ => self.report(
+                Diagnostic::new(Code::E0501, value.span, "there is no such method")
+                    .label("`q_learning` is one"),
+            ),
+        }
+    }
+
+    /// A whole number that is not less than `least`.
+    fn whole(&mut self, value: &'a ast::Expr, role: &str, least: f64) -> Option<u64> {
+        let number = self.constant(value, &Type::NUMBER, role)?;
+        if number.fract() == 0.0 && (least..=9e15).contains(&number) {
+            return Some(number as u64);
+        }
+        self.out_of_range(value.span, &format!("{role} is a whole number from {least} up"));
+        None
+    }
+
+    /// `a`, or `a -> b`, which goes from one to the other in step with `progress`.
+    fn schedule(
+        &mut self,
+        value: &'a ast::Expr,
+        tail: Option<&'a ast::Expr>,
+        role: &str,
+    ) -> Option<ExprId> {
+        let from = self.expect(value, &Type::NUMBER, role);
+        let to = tail.map(|tail| self.expect(tail, &Type::NUMBER, role));
+        let from_id = from.scalar()?;
+        let id = match to {
+            Some(to) => self.ramp(from_id, to.scalar()?),
+            None => from_id,
+        };
+        let strange = self.program.pool.any(id, &mut |expr| {
+            !matches!(
+                expr,
+                Expr::Num(_)
+                    | Expr::Bool(_)
+                    | Expr::Visits
+                    | Expr::Progress
+                    | Expr::Unary(..)
+                    | Expr::Binary(..)
+                    | Expr::Select(..)
+            )
+        });
+        if strange {
+            self.report(
+                Diagnostic::new(
+                    Code::E0307,
+                    value.span,
+                    format!("{role} depends on `visits` and `progress` only"),
+                )
+                .label("this reads the world"),
+            );
+            return None;
+        }
+        Some(id)
+    }
+
+    /// `from + (to - from) * progress`
+    fn ramp(&mut self, from: ExprId, to: ExprId) -> ExprId {
+        let pool = &mut self.program.pool;
+        let progress = pool.leaf(Expr::Progress);
+        let rise = pool.binary(Binary::Sub, to, from);
+        let risen = pool.binary(Binary::Mul, rise, progress);
+        pool.binary(Binary::Add, from, risen)
+    }
+
+    /// `d per decision`, `d per 1 s`
+    fn discount(
+        &mut self,
+        setting: &'a Setting,
+        tail: Option<&'a ast::Expr>,
+        learner: &mut Learner,
+    ) {
+        let Some(factor) = self.constant(&setting.value, &Type::NUMBER, "`discount`") else {
+            return;
+        };
+        if !(0.0..=1.0).contains(&factor) {
+            self.out_of_range(setting.value.span, "a discount goes from 0 to 1");
+            return;
+        }
+        let per_decision = |tail: &ast::Expr| {
+            matches!(&tail.kind, ExprKind::Ref(Ref { name, args: None, .. }) if name.name == "decision")
+        };
+        learner.discount = match tail {
+            None => Discount::PerDecision(factor),
+            Some(tail) if per_decision(tail) => Discount::PerDecision(factor),
+            Some(tail) => {
+                let time = Type::Quantity(Dim::TIME);
+                match self.constant(tail, &time, "the time of a discount") {
+                    Some(span) if span > 0.0 => Discount::PerTime(factor, span),
+                    Some(_) => {
+                        self.out_of_range(tail.span, "the time of a discount is above zero");
+                        return;
+                    }
+                    None => return,
+                }
+            }
+        };
+    }
+}

@@ -1,0 +1,115 @@
+//! Predicates and their families.
+
+use super::Checker;
+use super::context::{Binding, Region};
+use super::types::{Type, Typed, Value};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::ir::Id;
+use crate::ir::expr::ExprId;
+use crate::ir::program::Predicate;
+use crate::syntax::ast::{self, Ref};
+
+/// The id of a predicate with its arguments.
+pub(super) type PredicateId = Id<Predicate>;
+
+impl<'a> Checker<'a> {
+    /// Checks a predicate for itself.
+    pub(super) fn predicate(&mut self, predicate: &'a ast::Predicate) {
+        if self.clean_bodies.contains_key(&predicate.name.span) {
+            return;
+        }
+        let scope = self.unknown_parameters(predicate.params.as_ref());
+        self.body_for_itself(predicate.name.span, Region::Predicate, scope, |checker| {
+            checker.predicate_body(predicate);
+        });
+    }
+
+    fn predicate_body(&mut self, predicate: &'a ast::Predicate) -> Option<ExprId> {
+        let value = predicate.value.as_ref()?;
+        let role = format!("the predicate `{}`", predicate.name.name);
+        self.expect(value, &Type::Bool, &role).scalar()
+    }
+
+    fn bound(
+        &mut self,
+        predicate: &'a ast::Predicate,
+        library: bool,
+        reference: &'a Ref,
+    ) -> Option<Vec<Binding>> {
+        if !library {
+            self.predicate(predicate);
+        }
+        let params = predicate.params.as_ref();
+        self.bind_arguments(params, library, reference, Region::Let)
+    }
+
+    /// A predicate as a truth value in an expression.
+    pub(super) fn predicate_value(
+        &mut self,
+        predicate: &'a ast::Predicate,
+        library: bool,
+        reference: &'a Ref,
+    ) -> Typed {
+        let span = reference.span;
+        let Some(scope) = self.bound(predicate, library, reference) else {
+            return Typed::error(span);
+        };
+        if predicate.value.is_none() {
+            self.report(
+                Diagnostic::new(
+                    Code::E0207,
+                    span,
+                    format!("the predicate `{}` is declared only", reference.name.name),
+                )
+                .label("it has no definition to evaluate")
+                .also(predicate.name.span, "declared here, without `= …`"),
+            );
+            return Typed::error(span);
+        }
+        let body = predicate.name.span;
+        let value = self
+            .unrolled(body, reference, library, Region::Predicate, scope, |checker| {
+                checker.predicate_body(predicate)
+            })
+            .flatten();
+        Typed {
+            ty: Type::Bool,
+            value: value.map_or(Value::Unknown, Value::Scalar),
+            span,
+        }
+    }
+
+    /// The predicate with the given arguments, as an atom of tables and trees.
+    pub(super) fn predicate_instance(
+        &mut self,
+        predicate: &'a ast::Predicate,
+        library: bool,
+        reference: &'a Ref,
+    ) -> Option<PredicateId> {
+        let scope = self.bound(predicate, library, reference)?;
+        if scope.iter().any(|binding| binding.value == Value::Unknown) {
+            return None;
+        }
+        let name = self.instance_name(predicate.params.as_ref(), reference, &scope);
+        if let Some(known) = self.predicates.get(&name) {
+            return *known;
+        }
+        let when = if predicate.value.is_some() {
+            let body = predicate.name.span;
+            self.unrolled(body, reference, library, Region::Predicate, scope, |checker| {
+                checker.predicate_body(predicate)
+            })
+            .map(|when| when.map(Some))
+        } else {
+            Some(Some(None))
+        };
+        let id = when.flatten().map(|when| {
+            self.program.predicates.push(Predicate {
+                name: name.clone(),
+                when,
+            })
+        });
+        self.predicates.insert(name, id);
+        id
+    }
+}

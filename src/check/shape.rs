@@ -1,0 +1,166 @@
+//! Shapes of the world: constants, checked for sense.
+
+use super::Checker;
+use super::builtin::Function;
+use super::types::{Type, Value};
+use super::units::Dim;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::ir::world::{Point, Shape};
+use crate::source::Span;
+use crate::syntax::ast::{self, Ref};
+
+impl<'a> Checker<'a> {
+    /// `disc(centre, radius)`, `rect(corner, corner)`, `polygon(…)`, `polyline(…)`, `line(from, to)`.
+    pub(super) fn shape(&mut self, function: Function, reference: &'a Ref) -> Option<Shape> {
+        let span = reference.span;
+        match function {
+            Function::Disc => {
+                let values = self.positional(reference, 2, 2)?;
+                let [center, radius] = values.as_slice() else {
+                    return None;
+                };
+                let center = self.constant_point(center);
+                let radius = self.radius(radius)?;
+                Some(Shape::Disc {
+                    center: center?,
+                    radius,
+                })
+            }
+            Function::Rect => {
+                let points = self.points(reference, 2, 2)?;
+                let [[ax, ay], [bx, by]] = *points.as_slice() else {
+                    return None;
+                };
+                if ax == bx || ay == by {
+                    return self.senseless(span, "a rectangle without area");
+                }
+                Some(Shape::Rect {
+                    min: [ax.min(bx), ay.min(by)],
+                    max: [ax.max(bx), ay.max(by)],
+                })
+            }
+            Function::Polygon => {
+                let mut points = self.points(reference, 3, usize::MAX)?;
+                if crosses_itself(&points) {
+                    return self.senseless(span, "a polygon that crosses itself");
+                }
+                let area = doubled_area(&points);
+                if area == 0.0 {
+                    return self.senseless(span, "a polygon without area");
+                }
+                if area < 0.0 {
+                    points.reverse();
+                }
+                Some(Shape::Polygon(points))
+            }
+            _ => {
+                let most = if function == Function::Line {
+                    2
+                } else {
+                    usize::MAX
+                };
+                let points = self.points(reference, 2, most)?;
+                if points.iter().zip(points.iter().skip(1)).any(|(a, b)| a == b) {
+                    return self.senseless(span, "a line without length");
+                }
+                Some(Shape::Polyline(points))
+            }
+        }
+    }
+
+    /// A length above zero.
+    pub(super) fn radius(&mut self, value: &'a ast::Expr) -> Option<f64> {
+        let length = Type::Quantity(Dim::LENGTH);
+        let radius = self.constant(value, &length, "a radius")?;
+        if radius > 0.0 {
+            Some(radius)
+        } else {
+            self.senseless(value.span, "a disc of no size")
+        }
+    }
+
+    /// A shape, as the value of a place, a wall or the arena.
+    pub(super) fn shape_of(&mut self, value: &'a ast::Expr, role: &str) -> Option<Shape> {
+        match self.expect(value, &Type::Shape, role).value {
+            Value::Shape(shape) => Some(shape),
+            _ => None,
+        }
+    }
+
+    fn points(&mut self, reference: &'a Ref, least: usize, most: usize) -> Option<Vec<Point>> {
+        let values = self.positional(reference, least, most)?;
+        let points: Vec<Option<Point>> = values
+            .into_iter()
+            .map(|value| self.constant_point(value))
+            .collect();
+        points.into_iter().collect()
+    }
+
+    fn constant_point(&mut self, value: &'a ast::Expr) -> Option<Point> {
+        let typed = self.expect(value, &Type::Point, "a corner or a centre");
+        let (x, y) = match typed.value {
+            Value::Point(x, y) => (x, y),
+            _ => return None,
+        };
+        let mut coordinate = |id| {
+            let part = super::types::Typed {
+                value: Value::Scalar(id),
+                ..typed.clone()
+            };
+            self.constant_of(&part, "a point of the world")
+        };
+        Some([coordinate(x)?, coordinate(y)?])
+    }
+
+    fn senseless<T>(&mut self, span: Span, what: &str) -> Option<T> {
+        self.report(
+            Diagnostic::new(Code::E0404, span, format!("this is {what}"))
+                .label("no robot could meet it"),
+        );
+        None
+    }
+}
+
+/// Twice the signed area; positive where the corners go round counter-clockwise.
+fn doubled_area(points: &[Point]) -> f64 {
+    let next = points.iter().cycle().skip(1);
+    points
+        .iter()
+        .zip(next)
+        .map(|(a, b)| a[0] * b[1] - b[0] * a[1])
+        .sum()
+}
+
+/// Whether two edges that are not neighbours meet.
+fn crosses_itself(points: &[Point]) -> bool {
+    let next = points.iter().cycle().skip(1);
+    let edges: Vec<(Point, Point)> = points.iter().copied().zip(next.copied()).collect();
+    let n = edges.len();
+    edges.iter().enumerate().any(|(i, first)| {
+        edges
+            .iter()
+            .enumerate()
+            .skip(i + 2)
+            .any(|(j, second)| (j + 1) % n != i && meet(*first, *second))
+    })
+}
+
+/// Whether two segments have a point in common.
+fn meet((a, b): (Point, Point), (c, d): (Point, Point)) -> bool {
+    let side = |p: Point, q: Point, r: Point| {
+        (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
+    };
+    let between = |p: Point, q: Point, r: Point| {
+        (0..2).all(|k| {
+            let at = |point: Point| point.get(k).copied().unwrap_or_default();
+            at(p).min(at(q)) <= at(r) && at(r) <= at(p).max(at(q))
+        })
+    };
+    let (c1, d1) = (side(a, b, c), side(a, b, d));
+    let (a1, b1) = (side(c, d, a), side(c, d, b));
+    ((c1 > 0.0) != (d1 > 0.0) && (a1 > 0.0) != (b1 > 0.0) && c1 != 0.0 && d1 != 0.0)
+        || (c1 == 0.0 && between(a, b, c))
+        || (d1 == 0.0 && between(a, b, d))
+        || (a1 == 0.0 && between(c, d, a))
+        || (b1 == 0.0 && between(c, d, b))
+}

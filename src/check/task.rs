@@ -1,0 +1,369 @@
+//! Tasks: what is observed, chosen, remembered and rewarded; how episodes start and end.
+
+use super::Checker;
+use super::context::{Context, Region};
+use super::names::{Decl, unknown};
+use super::types::{Type, Typed, Value};
+use super::units::Dim;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::ir::Id;
+use crate::ir::law::Behavior;
+use crate::ir::program::Predicate;
+use crate::ir::task::{History, RewardLine, StartLine, Task};
+use crate::source::Span;
+use crate::syntax::ast::{self, AspectKind, Expr, ExprKind, Outcome, Ref, Spanned};
+use crate::syntax::print;
+use std::collections::BTreeMap;
+
+impl<'a> Checker<'a> {
+    /// `task name { … }`
+    pub(super) fn task(&mut self, task: &'a ast::Task) {
+        let errors = self.error_count();
+        let zero = self.program.pool.num(0.0);
+        let mut built = Task {
+            name: super::world::spelled(&task.name.name),
+            observe: Vec::new(),
+            choose: Vec::new(),
+            history: History::default(),
+            patience: None,
+            start: Vec::new(),
+            end_on: Vec::new(),
+            end_after: 0,
+            reward: Vec::new(),
+            otherwise: zero,
+        };
+        let mut seen: BTreeMap<&str, Span> = BTreeMap::new();
+        for aspect in &task.aspects {
+            self.context = Context::new(Region::Tree);
+            let word = aspect_word(&aspect.kind);
+            let repeats = matches!(aspect.kind, AspectKind::EndOn(_) | AspectKind::Error);
+            if let Some(first) = seen.get(word)
+                && !repeats
+            {
+                let first = *first;
+                self.report(
+                    Diagnostic::new(Code::E0503, aspect.span, format!("`{word}` is there twice"))
+                        .label("said again here")
+                        .also(first, "first said here"),
+                );
+                continue;
+            }
+            seen.insert(word, aspect.span);
+            match &aspect.kind {
+                AspectKind::Observe(list) => built.observe = self.observed(list),
+                AspectKind::Choose(list) => built.choose = self.chosen(list),
+                AspectKind::History { window, outcomes } => {
+                    built.history = self.history(window, outcomes);
+                }
+                AspectKind::Patience(ticks) => built.patience = self.ticks(ticks, "`patience`"),
+                AspectKind::Start(start) => built.start = self.start(start),
+                AspectKind::EndOn(event) => {
+                    self.context = Context::new(Region::Reward);
+                    let event = self.expect(event, &Type::Bool, "what an episode ends on");
+                    built.end_on.extend(event.scalar());
+                }
+                AspectKind::EndAfter(ticks) => {
+                    built.end_after = self.ticks(ticks, "`end after`").unwrap_or(0);
+                }
+                AspectKind::Reward { lines, otherwise } => {
+                    (built.reward, built.otherwise) = self.reward(lines, otherwise.as_ref());
+                }
+                AspectKind::Error => {}
+            }
+        }
+        for (word, example) in [
+            ("choose", "choose goto(A), goto(B)"),
+            ("end after", "end after 5_000 ticks"),
+            ("reward", "reward { on EVENT: +1 otherwise: -0.1 }"),
+        ] {
+            if !seen.contains_key(word) {
+                self.report(
+                    Diagnostic::new(
+                        Code::E0502,
+                        task.name.span,
+                        format!("the task `{}` does not say its `{word}`", task.name.name),
+                    )
+                    .label(format!("`{word}` is missing"))
+                    .help(format!("for example: `{example}`")),
+                );
+            }
+        }
+        if !self.has_world {
+            self.report(
+                Diagnostic::new(Code::E0407, task.name.span, "a task needs a world, and there is none")
+                    .label("where is this to be done?"),
+            );
+        }
+        // A task with a mistake in it is known by name, so that what refers to it is not reported as well.
+        if self.error_count() == errors || !self.names.tasks.is_empty() {
+            self.program.tasks.push(built);
+        }
+    }
+
+    /// How many errors have been reported so far.
+    fn error_count(&self) -> usize {
+        self.diagnostics.iter().filter(|d| d.is_error()).count()
+    }
+
+    fn observed(&mut self, list: &'a [Expr]) -> Vec<Id<Predicate>> {
+        let mut observed: Vec<Id<Predicate>> = Vec::new();
+        for expr in list {
+            let Some(reference) = plain_ref(expr) else {
+                self.not_named(expr, "a predicate", "predicate NAME = …");
+                continue;
+            };
+            let name = reference.name.name.as_str();
+            match self.names.value(name, false) {
+                Some((Decl::Predicate(predicate), library)) => {
+                    if let Some(id) = self.predicate_instance(predicate, library, reference) {
+                        self.once(&mut observed, id, reference.span);
+                    }
+                }
+                Some((decl, _)) => self.wrong_kind(reference, "a predicate", decl.what()),
+                None => {
+                    let predicates = self.names.values(|decl| matches!(decl, Decl::Predicate(_)));
+                    let diagnostic = unknown(&reference.name, "predicate", predicates);
+                    self.report(diagnostic);
+                }
+            }
+        }
+        observed
+    }
+
+    fn chosen(&mut self, list: &'a [Expr]) -> Vec<Id<Behavior>> {
+        let mut chosen: Vec<Id<Behavior>> = Vec::new();
+        for expr in list {
+            let Some(reference) = plain_ref(expr) else {
+                self.not_named(expr, "a behaviour", "behavior NAME { … }");
+                continue;
+            };
+            if let Some(id) = self.behavior_ref(reference) {
+                self.once(&mut chosen, id, reference.span);
+            }
+        }
+        chosen
+    }
+
+    /// The behaviour that a reference names; anything else is reported.
+    pub(super) fn behavior_ref(&mut self, reference: &'a Ref) -> Option<Id<Behavior>> {
+        match self.names.value(&reference.name.name, false) {
+            Some((Decl::Behavior(behavior), library)) => {
+                match self.behavior_instance(behavior, library, reference)? {
+                    Value::Behavior(id) => Some(id),
+                    _ => None,
+                }
+            }
+            Some((decl, _)) => {
+                self.wrong_kind(reference, "a behaviour", decl.what());
+                None
+            }
+            None => {
+                let behaviors = self.names.values(|decl| matches!(decl, Decl::Behavior(_)));
+                let mut diagnostic = unknown(&reference.name, "behaviour", behaviors);
+                if diagnostic.fixes.is_empty() && !self.uses_library() {
+                    diagnostic = diagnostic
+                        .help("`use std` brings goto, dock, follow_wall, wander and idle");
+                }
+                self.report(diagnostic);
+                None
+            }
+        }
+    }
+
+    fn uses_library(&self) -> bool {
+        self.names.value("idle", true).is_some_and(|(_, library)| library)
+    }
+
+    fn once<T: PartialEq>(&mut self, list: &mut Vec<T>, item: T, span: Span) {
+        if list.contains(&item) {
+            self.report(
+                Diagnostic::new(Code::E0503, span, "this is in the list already")
+                    .label("listed twice"),
+            );
+        } else {
+            list.push(item);
+        }
+    }
+
+    /// Reports a name of the wrong kind.
+    pub(super) fn wrong_kind(&mut self, reference: &Ref, wanted: &str, found: &str) {
+        self.report(
+            Diagnostic::new(
+                Code::E0203,
+                reference.span,
+                format!("{wanted} is needed here, and `{}` is {found}", reference.name.name),
+            )
+            .label(format!("this is {found}")),
+        );
+    }
+
+    fn not_named(&mut self, expr: &Expr, wanted: &str, declaration: &str) {
+        if !matches!(expr.kind, ExprKind::Error) {
+            self.report(
+                Diagnostic::new(Code::E0203, expr.span, format!("{wanted} is named here"))
+                    .label("this is an expression")
+                    .help(format!("give it a name, `{declaration}`, and list that")),
+            );
+        }
+    }
+
+    fn history(&mut self, window: &'a Expr, outcomes: &[Spanned<Outcome>]) -> History {
+        let length = self.constant(window, &Type::NUMBER, "the length of the history");
+        let window_length = match length {
+            Some(n) if n.fract() == 0.0 && (1.0..=64.0).contains(&n) => n as usize,
+            Some(_) => {
+                self.out_of_range(window.span, "a history holds 1 to 64 terminations");
+                0
+            }
+            None => 0,
+        };
+        let keeps = |outcome| outcomes.iter().any(|kept| kept.node == outcome);
+        History {
+            window: window_length,
+            success: keeps(Outcome::Success),
+            failure: keeps(Outcome::Failure),
+        }
+    }
+
+    /// A time as a whole number of ticks, at least one.
+    pub(super) fn ticks(&mut self, expr: &'a Expr, role: &str) -> Option<u64> {
+        let time = Type::Quantity(Dim::TIME);
+        let seconds = self.constant(expr, &time, role)?;
+        let ticks = (seconds / self.tick?).round();
+        if (1.0..=1e15).contains(&ticks) {
+            return Some(ticks as u64);
+        }
+        self.out_of_range(expr.span, "this is at least one tick");
+        None
+    }
+
+    /// `start { … }`
+    pub(super) fn start(&mut self, start: &'a ast::Start) -> Vec<StartLine> {
+        self.context = Context::new(Region::Start);
+        let mut lines: Vec<StartLine> = Vec::new();
+        for line in &start.lines {
+            let built = self.start_line(line);
+            for new in built.into_iter().flatten() {
+                if lines.iter().any(|old| old.replaced_by(&new)) {
+                    self.report(
+                        Diagnostic::new(
+                            Code::E0503,
+                            line.span,
+                            format!("`{}` is set twice", line.target.name.name),
+                        )
+                        .label("the second line would undo the first"),
+                    );
+                }
+                lines.push(new);
+            }
+        }
+        lines
+    }
+
+    fn start_line(&mut self, line: &'a ast::StartLine) -> Option<Vec<StartLine>> {
+        self.context.region = Region::Start;
+        let name = line.target.name.name.as_str();
+        match name {
+            "pose" => {
+                self.expect(&line.value, &Type::Anywhere, "`pose`");
+                return Some(vec![StartLine::Anywhere]);
+            }
+            "position" => {
+                let value = self.expect(&line.value, &Type::Point, "`position`");
+                return match value.value {
+                    Value::Point(x, y) => Some(vec![StartLine::Position(x, y)]),
+                    _ => None,
+                };
+            }
+            "heading" => {
+                let angle = Type::Quantity(Dim::ANGLE);
+                let value = self.expect(&line.value, &angle, "`heading`");
+                return value.scalar().map(|id| vec![StartLine::Heading(id)]);
+            }
+            "history" => {
+                self.context.region = Region::StartHistory;
+                let value = self.expect(&line.value, &Type::Termination, "`history`");
+                return value.scalar().map(|id| vec![StartLine::History(id)]);
+            }
+            _ => {}
+        }
+        let Some((Decl::State(state), _)) = self.names.value(name, false) else {
+            let diagnostic = match self.names.value(name, false) {
+                Some((decl, _)) => Diagnostic::new(
+                    Code::E0203,
+                    line.target.span,
+                    format!("a start cannot set `{name}`"),
+                )
+                .label(format!("this is {}", decl.what())),
+                None => {
+                    let states = self.names.values(|decl| matches!(decl, Decl::State(_)));
+                    let poses = ["pose", "position", "heading", "history"];
+                    unknown(&line.target.name, "state", states.chain(poses))
+                }
+            };
+            self.report(diagnostic);
+            return None;
+        };
+        let slot: Typed = self.state_value(state, &line.target);
+        if slot.ty == Type::Error {
+            return None;
+        }
+        let value = self.expect(&line.value, &slot.ty, &format!("`{name}`"));
+        let ids = self.states.get(name).map(|slot| slot.ids.clone());
+        let parts = match value.value {
+            Value::Scalar(id) => vec![id],
+            Value::Point(x, y) => vec![x, y],
+            _ => return None,
+        };
+        let ids = ids.unwrap_or_default().into_iter();
+        Some(ids.zip(parts).map(|(id, part)| StartLine::State(id, part)).collect())
+    }
+
+    fn reward(
+        &mut self,
+        lines: &'a [ast::RewardLine],
+        otherwise: Option<&'a Expr>,
+    ) -> (Vec<RewardLine>, crate::ir::ExprId) {
+        let mut built = Vec::new();
+        for line in lines {
+            self.context = Context::new(Region::Reward);
+            let event = self.expect(&line.event, &Type::Bool, "what is rewarded");
+            let value = self.expect(&line.value, &Type::NUMBER, "a reward");
+            if let (Some(event), Some(value)) = (event.scalar(), value.scalar()) {
+                built.push(RewardLine {
+                    name: print::expr(&line.event),
+                    event,
+                    value,
+                });
+            }
+        }
+        self.context = Context::new(Region::Reward);
+        let otherwise = otherwise
+            .and_then(|value| self.expect(value, &Type::NUMBER, "a reward").scalar());
+        let otherwise = otherwise.unwrap_or_else(|| self.program.pool.num(0.0));
+        (built, otherwise)
+    }
+}
+
+fn aspect_word(kind: &AspectKind) -> &'static str {
+    match kind {
+        AspectKind::Observe(_) => "observe",
+        AspectKind::Choose(_) => "choose",
+        AspectKind::History { .. } => "history",
+        AspectKind::Patience(_) => "patience",
+        AspectKind::Start(_) => "start",
+        AspectKind::EndOn(_) => "end on",
+        AspectKind::EndAfter(_) => "end after",
+        AspectKind::Reward { .. } => "reward",
+        AspectKind::Error => "",
+    }
+}
+
+/// The reference that an expression is.
+fn plain_ref(expr: &Expr) -> Option<&Ref> {
+    match &expr.kind {
+        ExprKind::Ref(reference) => Some(reference),
+        ExprKind::Paren(inner) => plain_ref(inner),
+        _ => None,
+    }
+}

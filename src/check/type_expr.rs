@@ -1,0 +1,76 @@
+//! Types as they are written.
+
+use super::Checker;
+use super::names::{TypeDecl, unknown};
+use super::types::Type;
+use super::units::Dim;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::syntax::ast::{Ident, TypeExpr};
+
+/// The names of built-in types.
+const BUILT_IN: &[(&str, Type)] = &[
+    ("bool", Type::Bool),
+    ("number", Type::NUMBER),
+    ("ratio", Type::Ratio),
+    ("length", Type::Quantity(Dim::LENGTH)),
+    ("time", Type::Quantity(Dim::TIME)),
+    ("angle", Type::Quantity(Dim::ANGLE)),
+    ("speed", Type::Quantity(Dim::SPEED)),
+    ("turn_rate", Type::Quantity(Dim::TURN_RATE)),
+    ("frequency", Type::Quantity(Dim::FREQUENCY)),
+    ("point", Type::Point),
+    ("place", Type::Place(None)),
+    ("wall", Type::Wall(None)),
+    ("robot", Type::Robot),
+    ("sensor", Type::Sensor),
+];
+
+impl<'a> Checker<'a> {
+    /// The type that is written.
+    pub(super) fn type_expr(&mut self, written: &TypeExpr) -> Type {
+        if let [(name, false)] = written.factors.as_slice() {
+            return self.named_type(name);
+        }
+        let mut dim = Dim::NONE;
+        for (name, divides) in &written.factors {
+            let ty = self.named_type(name);
+            match ty.dim() {
+                Some(factor) => dim = dim.times(factor, if *divides { -1 } else { 1 }),
+                None if ty == Type::Error => return Type::Error,
+                None => {
+                    self.report(
+                        Diagnostic::new(
+                            Code::E0304,
+                            name.span,
+                            format!("`{}` has no unit, so it makes no product or quotient", name.name),
+                        )
+                        .label(format!("this is {ty}")),
+                    );
+                    return Type::Error;
+                }
+            }
+        }
+        Type::Quantity(dim)
+    }
+
+    /// The type of that name: built in, an enum or a kind.
+    pub(super) fn named_type(&mut self, name: &Ident) -> Type {
+        if let Some((_, ty)) = BUILT_IN.iter().find(|(known, _)| *known == name.name) {
+            return ty.clone();
+        }
+        match self.names.types.get(name.name.as_str()) {
+            Some(TypeDecl::Enum(_)) => Type::Enum(name.name.clone()),
+            Some(TypeDecl::PlaceKind(_)) => Type::Place(Some(name.name.clone())),
+            Some(TypeDecl::WallKind(_)) => Type::Wall(Some(name.name.clone())),
+            None => {
+                let known = BUILT_IN
+                    .iter()
+                    .map(|(name, _)| *name)
+                    .chain(self.names.types.keys().copied());
+                let diagnostic = unknown(name, "type", known);
+                self.report(diagnostic);
+                Type::Error
+            }
+        }
+    }
+}

@@ -1,0 +1,157 @@
+//! Types, and the values that expressions have while they are checked.
+
+use super::units::Dim;
+use crate::ir::Id;
+use crate::ir::expr::ExprId;
+use crate::ir::law::Behavior;
+use crate::ir::world::{self, Place, Sensor, Wall};
+use crate::source::Span;
+use std::fmt;
+
+/// A type.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Type {
+    /// Of what has been reported already; agrees with everything.
+    Error,
+    /// `bool`
+    Bool,
+    /// A quantity.
+    Quantity(Dim),
+    /// A plain number that is thought of in `%`.
+    Ratio,
+    /// `point`
+    Point,
+    /// An enum, by name.
+    Enum(String),
+    /// A place, perhaps of a kind.
+    Place(Option<String>),
+    /// A wall, perhaps of a kind.
+    Wall(Option<String>),
+    /// `robot`
+    Robot,
+    /// `sensor`
+    Sensor,
+    /// A behaviour.
+    Behavior,
+    /// A shape.
+    Shape,
+    /// How a behaviour ended: what a `history` line takes.
+    Termination,
+    /// `anywhere`
+    Anywhere,
+}
+
+impl Type {
+    /// A plain number.
+    pub const NUMBER: Type = Type::Quantity(Dim::NONE);
+
+    /// The dimension of a number of any kind.
+    pub fn dim(&self) -> Option<Dim> {
+        match self {
+            Type::Quantity(dim) => Some(*dim),
+            Type::Ratio => Some(Dim::NONE),
+            _ => None,
+        }
+    }
+
+    /// Whether something can be measured to it.
+    pub fn is_target(&self) -> bool {
+        matches!(
+            self,
+            Type::Point | Type::Place(_) | Type::Wall(_) | Type::Robot | Type::Sensor
+        )
+    }
+
+    /// Whether a value of this type may stand where `wanted` is asked for.
+    pub fn fits(&self, wanted: &Type) -> bool {
+        match (self, wanted) {
+            (Type::Error, _) | (_, Type::Error) => true,
+            (Type::Place(_), Type::Place(None)) | (Type::Wall(_), Type::Wall(None)) => true,
+            _ => match (self.dim(), wanted.dim()) {
+                (Some(a), Some(b)) => a == b,
+                _ => self == wanted,
+            },
+        }
+    }
+}
+
+impl fmt::Display for Type {
+    /// The type as a person names it, with its article.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Type::Error => f.write_str("something unknown"),
+            Type::Bool => f.write_str("a truth value (bool)"),
+            Type::Quantity(dim) => dim.fmt(f),
+            Type::Ratio => f.write_str("a ratio (%)"),
+            Type::Point => f.write_str("a point"),
+            Type::Enum(name) => write!(f, "a value of the enum `{name}`"),
+            Type::Place(None) => f.write_str("a place"),
+            Type::Place(Some(kind)) => write!(f, "a place of kind `{kind}`"),
+            Type::Wall(None) => f.write_str("a wall"),
+            Type::Wall(Some(kind)) => write!(f, "a wall of kind `{kind}`"),
+            Type::Robot => f.write_str("a robot"),
+            Type::Sensor => f.write_str("a sensor"),
+            Type::Behavior => f.write_str("a behaviour"),
+            Type::Shape => f.write_str("a shape"),
+            Type::Termination => f.write_str("the end of a behaviour"),
+            Type::Anywhere => f.write_str("the word `anywhere`"),
+        }
+    }
+}
+
+/// What an expression has become.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// Known by its type only: a parameter of a body that is checked for itself, or something that was reported.
+    Unknown,
+    /// A number, a truth value, an enum's variant or a termination's code.
+    Scalar(ExprId),
+    /// A point.
+    Point(ExprId, ExprId),
+    /// A place.
+    Place(Id<Place>),
+    /// A wall.
+    Wall(Id<Wall>),
+    /// The nearest wall.
+    NearestWall,
+    /// The acting robot.
+    Robot,
+    /// A sensor.
+    Sensor(Id<Sensor>),
+    /// A behaviour.
+    Behavior(Id<Behavior>),
+    /// A shape.
+    Shape(world::Shape),
+    /// `anywhere`
+    Anywhere,
+}
+
+/// A checked expression.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Typed {
+    /// Its type.
+    pub ty: Type,
+    /// Its value.
+    pub value: Value,
+    /// Where it stands.
+    pub span: Span,
+}
+
+impl Typed {
+    /// An expression that has been reported.
+    pub fn error(span: Span) -> Self {
+        Self {
+            ty: Type::Error,
+            value: Value::Unknown,
+            span,
+        }
+    }
+
+    /// The scalar that it is, if it is one and known.
+    pub fn scalar(&self) -> Option<ExprId> {
+        match self.value {
+            Value::Scalar(id) => Some(id),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! The table of action values; only visited minterms take memory.
+
+use super::process::Key;
+use rustc_hash::FxHashMap;
+
+/// The evidence for one behaviour in one minterm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cell {
+    /// Decisions completed.
+    pub visits: u64,
+    /// The action value.
+    pub q: f64,
+    /// The sum of the squares of the targets.
+    pub squares: f64,
+}
+
+/// Q(minterm, choice).
+#[derive(Clone, Debug)]
+pub struct Table {
+    choices: usize,
+    initial: f64,
+    rows: FxHashMap<Key, usize>,
+    keys: Vec<Key>,
+    cells: Vec<Cell>,
+}
+
+impl Table {
+    /// An empty table over so many choices, whose cells start at `initial`.
+    pub fn new(choices: usize, initial: f64) -> Self {
+        Self {
+            choices,
+            initial,
+            rows: FxHashMap::default(),
+            keys: Vec::new(),
+            cells: Vec::new(),
+        }
+    }
+
+    /// The row of a minterm, made if there is none.
+    pub fn row(&mut self, key: Key) -> usize {
+        let next = self.keys.len();
+        let row = *self.rows.entry(key).or_insert(next);
+        if row == next {
+            self.keys.push(key);
+            self.cells.extend(std::iter::repeat_n(
+                Cell {
+                    visits: 0,
+                    q: self.initial,
+                    squares: 0.0,
+                },
+                self.choices,
+            ));
+        }
+        row
+    }
+
+    /// The row of a minterm, if there is one.
+    pub fn find(&self, key: Key) -> Option<usize> {
+        self.rows.get(&key).copied()
+    }
+
+    /// The cells of a row, a choice each.
+    pub fn cells(&self, row: usize) -> &[Cell] {
+        let start = row * self.choices;
+        self.cells.get(start..start + self.choices).unwrap_or(&[])
+    }
+
+    /// A cell to be changed.
+    pub fn cell_mut(&mut self, row: usize, choice: usize) -> Option<&mut Cell> {
+        if choice < self.choices {
+            self.cells.get_mut(row * self.choices + choice)
+        } else {
+            None
+        }
+    }
+
+    /// The greatest value of a row over all choices, tried or not: what a choice that leads here is worth.
+    pub fn best_value(&self, row: usize) -> f64 {
+        self.cells(row)
+            .iter()
+            .map(|cell| cell.q)
+            .reduce(f64::max)
+            .unwrap_or(0.0)
+    }
+
+    /// The best of the choices that were tried in a row, the first of equals; `None` if none was.
+    pub fn greedy(&self, row: usize) -> Option<usize> {
+        let mut best: Option<(usize, f64)> = None;
+        for (choice, cell) in self.cells(row).iter().enumerate() {
+            if cell.visits > 0 && best.is_none_or(|(_, q)| cell.q > q) {
+                best = Some((choice, cell.q));
+            }
+        }
+        best.map(|(choice, _)| choice)
+    }
+
+    /// The minterms with their rows, sorted by their bits.
+    pub fn sorted(&self) -> Vec<(Key, usize)> {
+        let mut rows: Vec<(Key, usize)> = self
+            .keys
+            .iter()
+            .enumerate()
+            .map(|(row, key)| (*key, row))
+            .collect();
+        rows.sort_unstable();
+        rows
+    }
+}
