@@ -41,6 +41,33 @@ macro_rules! codes {
 
 codes! {
     E0101 "unexpected text",
+    E0102 "a bracket that is never closed",
+    E0103 "a bracket that closes nothing",
+    E0104 "the nesting is too deep",
+    E0105 "no such kind of item",
+    E0106 "a quote that is not closed",
+    E0107 "a text where none can stand",
+    E0108 "`==` where `=` gives a value",
+    E0109 "`=` where `==` compares",
+    E0110 "an operator of another language",
+    E0111 "comparisons do not chain",
+    E0112 "a comma is missing",
+    E0113 "a blank between a name and its `(`",
+    E0114 "no such unit",
+    E0115 "a blank inside a unit",
+    E0116 "`->` where `=>` guards",
+    E0117 "`elif` is `else if`",
+    E0118 "a mark that nothing needs",
+    E0119 "`true` and `false` are small",
+    E0120 "no such kind of node",
+    E0121 "a character that looks like another",
+    E0122 "a word of the language as a name",
+    E0123 "no such clause or aspect",
+    E0124 "no number",
+    E0125 "`%` is never a remainder",
+    E0126 "a value by `if` needs an `else`",
+    E0127 "the wrong mark before a value",
+    E0128 "a parameter without a type",
 
     E0201 "declared twice",
     E0202 "not declared",
@@ -62,7 +89,6 @@ codes! {
     E0310 "cannot be set",
     E0311 "driven twice",
     E0312 "an enum without variants",
-    W0301 "a plain number for a ratio",
 
     E0401 "more than one world",
     E0402 "something of the world is missing",
@@ -87,6 +113,8 @@ codes! {
     E0608 "a proof with terms",
 
     E0701 "not built yet",
+
+    W0301 "a plain number for a ratio",
 }
 
 impl Code {

@@ -1,3 +1,14 @@
 //! Text to syntax tree and back.
 
 pub mod ast;
+mod build;
+mod comments;
+mod diagnose;
+mod expected;
+mod grammar;
+mod nesting;
+mod parse;
+mod tokens;
+mod words;
+
+pub use parse::parse;

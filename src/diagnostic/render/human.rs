@@ -1,0 +1,138 @@
+//! Diagnostics for a person at a terminal.
+
+use crate::diagnostic::{Diagnostic, Fix, Severity};
+use crate::source::Sources;
+use codespan_reporting::diagnostic as report;
+use codespan_reporting::files::{Error, Files};
+use codespan_reporting::term::{self, Config, termcolor};
+use std::ops::Range;
+
+/// The text that shows `diagnostics`, one after another, each with the lines that it is about; with colours as ANSI
+/// escapes if `color`.
+pub fn human(sources: &Sources, diagnostics: &[Diagnostic], color: bool) -> String {
+    let mut buffer = if color {
+        termcolor::Buffer::ansi()
+    } else {
+        termcolor::Buffer::no_color()
+    };
+    let config = Config {
+        tab_width: 4,
+        ..Config::default()
+    };
+    let files = Table(sources);
+    for diagnostic in diagnostics {
+        // Writing into memory does not fail, and a place outside its file shows no line.
+        let _ =
+            term::emit_to_write_style(&mut buffer, &config, &files, &reported(sources, diagnostic));
+    }
+    String::from_utf8_lossy(buffer.as_slice()).into_owned()
+}
+
+fn reported(sources: &Sources, diagnostic: &Diagnostic) -> report::Diagnostic<usize> {
+    let severity = match diagnostic.severity {
+        Severity::Error => report::Severity::Error,
+        Severity::Warning => report::Severity::Warning,
+    };
+    let labels = diagnostic
+        .labels
+        .iter()
+        .enumerate()
+        .filter(|(_, label)| sources.get(label.span.file).is_some())
+        .map(|(index, label)| {
+            let style = if index == 0 {
+                report::LabelStyle::Primary
+            } else {
+                report::LabelStyle::Secondary
+            };
+            report::Label::new(style, label.span.file.0 as usize, label.span.range())
+                .with_message(&label.message)
+        })
+        .collect();
+    let notes = diagnostic.notes.iter().map(|note| format!("note: {note}"));
+    let help = diagnostic.help.iter().map(|help| format!("help: {help}"));
+    let fixes = diagnostic.fixes.iter().map(|fix| offered(sources, fix));
+    report::Diagnostic::new(severity)
+        .with_code(diagnostic.code)
+        .with_message(&diagnostic.message)
+        .with_labels(labels)
+        .with_notes(notes.chain(help).chain(fixes).collect())
+}
+
+/// A fix in words: "help: write `==`: replace `=` with `==`".
+fn offered(sources: &Sources, fix: &Fix) -> String {
+    let edits: Vec<String> = fix
+        .edits
+        .iter()
+        .map(|(span, new)| {
+            let old = sources.text(*span);
+            let next = sources
+                .get(span.file)
+                .and_then(|source| source.text.get(span.range().end..))
+                .and_then(|rest| rest.lines().next())
+                .unwrap_or_default()
+                .trim();
+            match (old, new.as_str()) {
+                ("", new) if next.is_empty() => format!("insert `{new}` at the end of the line"),
+                ("", new) => format!("insert `{new}` before `{}`", shortened(next)),
+                (old, "") if old.trim().is_empty() => "delete the blank".to_owned(),
+                (old, "") => format!("delete `{old}`"),
+                (old, new) => format!("replace `{old}` with `{new}`"),
+            }
+        })
+        .collect();
+    format!("help: {}: {}", fix.title, edits.join(", "))
+}
+
+/// The beginning of a line, for a hint.
+fn shortened(line: &str) -> String {
+    const SHOWN: usize = 24;
+    if line.chars().count() <= SHOWN {
+        return line.to_owned();
+    }
+    let start: String = line.chars().take(SHOWN).collect();
+    format!("{start}…")
+}
+
+/// The sources as codespan reads them.
+struct Table<'a>(&'a Sources);
+
+impl Table<'_> {
+    fn source(&self, id: usize) -> Result<&crate::source::Source, Error> {
+        let mut files = self.0.iter();
+        files
+            .nth(id)
+            .map(|(_, source)| source)
+            .ok_or(Error::FileMissing)
+    }
+}
+
+impl<'a> Files<'a> for Table<'a> {
+    type FileId = usize;
+    type Name = &'a str;
+    type Source = &'a str;
+
+    fn name(&'a self, id: usize) -> Result<&'a str, Error> {
+        Ok(&self.source(id)?.name)
+    }
+
+    fn source(&'a self, id: usize) -> Result<&'a str, Error> {
+        Ok(&Table::source(self, id)?.text)
+    }
+
+    fn line_index(&'a self, id: usize, offset: usize) -> Result<usize, Error> {
+        let offset = u32::try_from(offset).unwrap_or(u32::MAX);
+        Ok(Table::source(self, id)?.line(offset).0)
+    }
+
+    fn line_range(&'a self, id: usize, line: usize) -> Result<Range<usize>, Error> {
+        let source = Table::source(self, id)?;
+        let start = source.line_start(line).ok_or(Error::LineTooLarge {
+            given: line,
+            max: source.line_count().saturating_sub(1),
+        })?;
+        let end = source
+            .line_start(line + 1)
+            .map_or(source.text.len(), |end| end as usize);
+        Ok(start as usize..end)
+    }
+}

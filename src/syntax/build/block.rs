@@ -1,0 +1,204 @@
+//! Statements.
+
+use super::Builder;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
+use crate::syntax::ast::{AssignOp, Binding, Block, Branch, Else, Stmt, StmtKind};
+use crate::syntax::grammar::{Node, Parts, Rule};
+
+impl<'i> Builder<'i> {
+    pub(super) fn take_block(&mut self, parts: &mut Parts<'i>) -> Block {
+        match parts.maybe(Rule::block) {
+            Some(node) => self.block(node),
+            None => Block {
+                stmts: Vec::new(),
+                span: Span::new(self.file, 0, 0),
+            },
+        }
+    }
+
+    /// The block that a production ends with.
+    pub(super) fn last_block(&mut self, node: Node<'i>) -> Block {
+        let mut parts = Parts::of(node);
+        while parts.ahead().is_some_and(|rule| rule != Rule::block) {
+            parts.next();
+        }
+        self.take_block(&mut parts)
+    }
+
+    pub(super) fn block(&mut self, node: Node<'i>) -> Block {
+        let span = self.span(&node);
+        let mut parts = Parts::of(node);
+        let open = parts.maybe(Rule::open_brace).map(|node| self.span(&node));
+        let mut stmts = Vec::new();
+        let mut previous = None;
+        for part in parts {
+            let start = part.as_span().start();
+            let span = self.span(&part);
+            let kind = match part.as_rule() {
+                Rule::stray_mark => {
+                    self.stray_mark(&part);
+                    continue;
+                }
+                Rule::close_brace | Rule::missing_close => {
+                    self.close(Some(part), open);
+                    continue;
+                }
+                Rule::bad_entry => {
+                    self.bad(&part, Rule::strict_stmt, previous);
+                    StmtKind::Error
+                }
+                _ => self.stmt(part),
+            };
+            previous = Some(start);
+            stmts.push(Stmt { kind, span });
+        }
+        Block { stmts, span }
+    }
+
+    fn stmt(&mut self, node: Node<'i>) -> StmtKind {
+        match node.as_rule() {
+            Rule::binding => StmtKind::Let(self.binding(node)),
+            Rule::for_stmt => {
+                let mut parts = Parts::of(node);
+                parts.has(Rule::kw_for);
+                let name = self.take_name(&mut parts);
+                parts.has(Rule::kw_in);
+                let domain = self.take_name(&mut parts);
+                let block = self.take_block(&mut parts);
+                StmtKind::For {
+                    name,
+                    domain,
+                    block,
+                }
+            }
+            Rule::branch => StmtKind::Branch(self.branch(node)),
+            Rule::simple_stmt => self.simple_stmt(node),
+            _ => StmtKind::Error,
+        }
+    }
+
+    pub(super) fn binding(&mut self, node: Node<'i>) -> Binding {
+        let span = self.span(&node);
+        let mut parts = Parts::of(node);
+        parts.has(Rule::kw_let);
+        let name = self.take_name(&mut parts);
+        let ty = self.maybe_type(&mut parts);
+        self.take_is(&mut parts);
+        let value = self.take_expr(&mut parts);
+        Binding {
+            name,
+            ty,
+            value,
+            span,
+        }
+    }
+
+    fn branch(&mut self, node: Node<'i>) -> Branch {
+        self.branch_parts(Parts::of(node))
+    }
+
+    fn branch_parts(&mut self, mut parts: Parts<'i>) -> Branch {
+        parts.has(Rule::kw_if);
+        let cond = self.take_expr(&mut parts);
+        let then = self.take_block(&mut parts);
+        let otherwise = parts
+            .maybe(Rule::branch_else)
+            .map(|node| Box::new(self.branch_else(node)));
+        Branch {
+            cond,
+            then,
+            otherwise,
+        }
+    }
+
+    fn branch_else(&mut self, node: Node<'i>) -> Else {
+        let mut parts = Parts::of(node);
+        parts.has(Rule::kw_else);
+        if let Some(word) = parts.maybe(Rule::wrong_else_if) {
+            self.else_if(&word);
+            return Else::If(self.branch_parts(parts));
+        }
+        match parts.maybe(Rule::branch) {
+            Some(branch) => Else::If(self.branch(branch)),
+            None => Else::Block(self.take_block(&mut parts)),
+        }
+    }
+
+    pub(super) fn else_if(&mut self, word: &Node<'i>) {
+        let span = self.span(word);
+        let written = word.as_str();
+        self.respell(
+            Code::E0117,
+            span,
+            format!("`{written}` is written `else if`"),
+            "else if",
+        );
+    }
+
+    fn simple_stmt(&mut self, node: Node<'i>) -> StmtKind {
+        let mut parts = Parts::of(node);
+        let Some(target) = parts.maybe(Rule::r#ref) else {
+            return StmtKind::Error;
+        };
+        let target = self.reference(target);
+        let Some(sign) = parts.maybe(Rule::assign) else {
+            if target.args.is_some() {
+                return StmtKind::Call(target);
+            }
+            self.lone_name(target.span);
+            return StmtKind::Error;
+        };
+        self.single_equals(&sign);
+        let op = match sign.as_str() {
+            "+=" => AssignOp::Add,
+            "-=" => AssignOp::Sub,
+            "*=" => AssignOp::Mul,
+            "/=" => AssignOp::Div,
+            _ => AssignOp::Set,
+        };
+        StmtKind::Assign {
+            target,
+            op: self.spanned(&sign, op),
+            value: self.take_expr(&mut parts),
+        }
+    }
+
+    /// Reports a name that stands where a statement should.
+    fn lone_name(&mut self, span: Span) {
+        if self.failed_at.is_some_and(|at| span.range().start <= at) {
+            return;
+        }
+        self.failed_at = Some(span.range().end);
+        let name = self.slice(span);
+        let next = self.token_at(span.range().end);
+        let (at, found) = next.map_or((span, ""), |token| {
+            (
+                Span::new(self.file, token.start, token.end),
+                token.of(self.text),
+            )
+        });
+        let same_line = self
+            .text
+            .get(span.range().end..at.range().start)
+            .is_some_and(|gap| !gap.contains('\n'));
+        let diagnostic = if same_line && !matches!(found, "}" | "") {
+            Diagnostic::new(
+                Code::E0101,
+                at,
+                format!("expected `=` after `{name}`, found `{found}`"),
+            )
+            .label("expected `=`")
+        } else {
+            Diagnostic::new(
+                Code::E0101,
+                span,
+                format!("the name `{name}` alone is no statement"),
+            )
+            .label("a statement sets something or calls something")
+        };
+        self.report(diagnostic.help(format!(
+            "a call is written `{name}(…)`, an assignment `{name} = …`"
+        )));
+    }
+}

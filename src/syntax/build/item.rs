@@ -1,0 +1,252 @@
+//! Items.
+
+use super::Builder;
+use crate::diagnostic::{Applicability, Code, Diagnostic};
+use crate::source::Span;
+use crate::syntax::ast::{
+    Enum, Event, Ident, Item, ItemKind, Let, LetBody, On, Param, Params, Predicate, State, Trigger,
+    TypeExpr, Use, UseWhat,
+};
+use crate::syntax::grammar::{Node, Parts, Rule};
+
+impl<'i> Builder<'i> {
+    pub(super) fn item(&mut self, node: Node<'i>) -> Item {
+        let span = self.span(&node);
+        let docs = self.docs(node.as_span().start());
+        let kind = match node.as_rule() {
+            Rule::use_item => self.use_item(node),
+            Rule::world => ItemKind::World(self.world(node)),
+            Rule::enum_item => ItemKind::Enum(self.enum_item(node)),
+            Rule::state => ItemKind::State(self.state(node)),
+            Rule::event => ItemKind::Event(self.event(node)),
+            Rule::each_tick => ItemKind::EachTick(self.last_block(node)),
+            Rule::on_item => ItemKind::On(self.on_item(node)),
+            Rule::let_item => ItemKind::Let(self.let_item(node)),
+            Rule::predicate => ItemKind::Predicate(self.predicate(node)),
+            Rule::behavior => ItemKind::Behavior(self.behavior(node)),
+            Rule::task => ItemKind::Task(self.task(node)),
+            Rule::learn => ItemKind::Learn(self.learn(node)),
+            Rule::tree => ItemKind::Tree(self.tree(node)),
+            Rule::claim => ItemKind::Claim(self.claim(node)),
+            _ => ItemKind::Error,
+        };
+        Item { docs, kind, span }
+    }
+
+    fn use_item(&mut self, node: Node<'i>) -> ItemKind {
+        let mut parts = Parts::of(node);
+        parts.has(Rule::kw_use);
+        let Some(what) = parts.next() else {
+            return ItemKind::Error;
+        };
+        let path = match what.as_rule() {
+            Rule::std => UseWhat::Std,
+            Rule::string => {
+                self.straight_quotes(&what);
+                UseWhat::Path(what.as_str().trim_matches(['"', '“', '”']).to_owned())
+            }
+            _ => {
+                self.unclosed_text(&what);
+                return ItemKind::Error;
+            }
+        };
+        ItemKind::Use(Use {
+            what: self.spanned(&what, path),
+        })
+    }
+
+    fn straight_quotes(&mut self, node: &Node<'i>) {
+        if node.as_str().starts_with('“') {
+            let right = format!("\"{}\"", node.as_str().trim_matches(['“', '”']));
+            let span = self.span(node);
+            self.respell(
+                Code::E0121,
+                span,
+                "a path stands in straight quotes".into(),
+                &right,
+            );
+        }
+    }
+
+    fn enum_item(&mut self, node: Node<'i>) -> Enum {
+        let mut parts = Parts::of(node);
+        parts.has(Rule::kw_enum);
+        let name = self.take_name(&mut parts);
+        let mut variants: Vec<Ident> = Vec::new();
+        for part in parts {
+            match part.as_rule() {
+                Rule::name => variants.push(self.name(&part)),
+                Rule::missing_comma => {
+                    let before = variants.last().map(|variant| variant.span);
+                    self.missing_comma(&part, before, "variants");
+                }
+                _ => {}
+            }
+        }
+        Enum { name, variants }
+    }
+
+    fn state(&mut self, node: Node<'i>) -> State {
+        let mut parts = Parts::of(node);
+        parts.has(Rule::kw_state);
+        let name = self.take_name(&mut parts);
+        let params = self.maybe_params(&mut parts);
+        let ty = self.maybe_type(&mut parts);
+        self.take_is(&mut parts);
+        let value = self.take_expr(&mut parts);
+        State {
+            name,
+            params,
+            ty,
+            value,
+        }
+    }
+
+    fn event(&mut self, node: Node<'i>) -> Event {
+        let mut parts = Parts::of(node);
+        parts.has(Rule::kw_event);
+        let name = self.take_name(&mut parts);
+        let params = self.maybe_params(&mut parts);
+        self.take_is(&mut parts);
+        let value = self.take_expr(&mut parts);
+        Event {
+            name,
+            params,
+            value,
+        }
+    }
+
+    fn on_item(&mut self, node: Node<'i>) -> On {
+        let mut parts = Parts::of(node);
+        parts.has(Rule::kw_on);
+        let trigger = if let Some(family) = parts.maybe(Rule::family) {
+            let fallback = self.span(&family);
+            let mut parts = Parts::of(family);
+            let name = self.take_name(&mut parts);
+            let params = self.maybe_params(&mut parts).unwrap_or(Params {
+                params: Vec::new(),
+                span: fallback,
+            });
+            Trigger::Family { name, params }
+        } else {
+            Trigger::Expr(self.take_expr(&mut parts))
+        };
+        let block = self.take_block(&mut parts);
+        On { trigger, block }
+    }
+
+    fn let_item(&mut self, node: Node<'i>) -> Let {
+        let mut parts = Parts::of(node);
+        parts.has(Rule::kw_let);
+        let name = self.take_name(&mut parts);
+        let params = self.maybe_params(&mut parts);
+        let ty = self.maybe_type(&mut parts);
+        self.take_is(&mut parts);
+        let body = if let Some(node) = parts.maybe(Rule::r#yield) {
+            LetBody::Yield(self.yields(node))
+        } else {
+            LetBody::Expr(self.take_expr(&mut parts))
+        };
+        Let {
+            name,
+            params,
+            ty,
+            body,
+        }
+    }
+
+    fn predicate(&mut self, node: Node<'i>) -> Predicate {
+        let mut parts = Parts::of(node);
+        parts.has(Rule::kw_predicate);
+        let name = self.take_name(&mut parts);
+        let params = self.maybe_params(&mut parts);
+        let value = self.take_is(&mut parts).then(|| self.take_expr(&mut parts));
+        Predicate {
+            name,
+            params,
+            value,
+        }
+    }
+
+    // ---- parameters and types
+
+    pub(super) fn maybe_params(&mut self, parts: &mut Parts<'i>) -> Option<Params> {
+        let node = parts
+            .maybe(Rule::params)
+            .or_else(|| parts.maybe(Rule::typed_params))?;
+        let span = self.span(&node);
+        let params = Parts::of(node)
+            .into_iter()
+            .filter(|part| matches!(part.as_rule(), Rule::param | Rule::typed_param))
+            .map(|part| self.param(part))
+            .collect();
+        Some(Params { params, span })
+    }
+
+    fn param(&mut self, node: Node<'i>) -> Param {
+        let span = self.span(&node);
+        let mut parts = Parts::of(node);
+        let name = self.take_name(&mut parts);
+        let ty = self.maybe_type(&mut parts).unwrap_or(TypeExpr {
+            factors: Vec::new(),
+            span: name.span.after(),
+        });
+        if parts.has(Rule::missing_type) {
+            let diagnostic = Diagnostic::new(
+                Code::E0128,
+                name.span,
+                format!("the parameter `{}` has no type", name.name),
+            )
+            .label("a type goes after it")
+            .help(format!(
+                "write `{}: length`, or whichever type it has",
+                name.name
+            ));
+            self.report(diagnostic);
+        }
+        let default = self.take_is(&mut parts).then(|| self.take_expr(&mut parts));
+        Param {
+            name,
+            ty,
+            default,
+            span,
+        }
+    }
+
+    pub(super) fn maybe_type(&mut self, parts: &mut Parts<'i>) -> Option<TypeExpr> {
+        let node = parts.maybe(Rule::ascription)?;
+        let node = Parts::of(node)
+            .into_iter()
+            .find(|part| part.as_rule() == Rule::type_expr)?;
+        let span = self.span(&node);
+        let mut divides = false;
+        let mut factors = Vec::new();
+        for part in Parts::of(node) {
+            match part.as_rule() {
+                Rule::type_op => divides = part.as_str() == "/",
+                _ => factors.push((self.name(&part), divides)),
+            }
+        }
+        Some(TypeExpr { factors, span })
+    }
+
+    /// Reports a comma that is missing just before `node`.
+    pub(super) fn missing_comma(&mut self, node: &Node<'i>, before: Option<Span>, what: &str) {
+        let at = node.as_span().start();
+        let next = self.token_at(at);
+        let place = next.map_or(Span::new(self.file, at, at), |token| {
+            Span::new(self.file, token.start, token.end)
+        });
+        let comma = before.map_or(place.before(), Span::after);
+        let shown = self.slice(place);
+        let diagnostic = Diagnostic::new(
+            Code::E0112,
+            place,
+            format!("a comma is missing before `{shown}`"),
+        )
+        .label("this begins another one")
+        .note(format!("commas part {what}"))
+        .fix("put a comma", comma, ",", Applicability::Safe);
+        self.report(diagnostic);
+    }
+}

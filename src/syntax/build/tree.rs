@@ -1,0 +1,236 @@
+//! Trees and the claims about them.
+
+use super::Builder;
+use crate::diagnostic::{Applicability, Code, Diagnostic, suggest};
+use crate::source::Span;
+use crate::syntax::ast::{self, Arg, Claim, ClaimWhat, NodeKind, Spanned, Tree, Word};
+use crate::syntax::grammar::{Node, Parts, Rule};
+use crate::syntax::words::{FOREIGN_NODES, NODES};
+
+impl<'i> Builder<'i> {
+    pub(super) fn tree(&mut self, node: Node<'i>) -> Tree {
+        let mut parts = Parts::of(node);
+        parts.has(Rule::kw_tree);
+        let name = self.take_name(&mut parts);
+        let params = self.maybe_params(&mut parts);
+        let task = parts.has(Rule::kw_for).then(|| self.take_name(&mut parts));
+        self.take_is(&mut parts);
+        let root = self.take_node(&mut parts);
+        Tree {
+            name,
+            params,
+            task,
+            root,
+        }
+    }
+
+    fn take_node(&mut self, parts: &mut Parts<'i>) -> ast::Node {
+        match parts.maybe(Rule::node) {
+            Some(node) => self.node(node),
+            None => ast::Node {
+                kind: NodeKind::Error,
+                span: Span::new(self.file, 0, 0),
+            },
+        }
+    }
+
+    fn node(&mut self, node: Node<'i>) -> ast::Node {
+        let span = self.span(&node);
+        let mut parts = Parts::of(node);
+        let kind = if let Some(composite) = parts.maybe(Rule::composite) {
+            self.composite(composite)
+        } else {
+            let expr = self.take_expr(&mut parts);
+            match parts.maybe(Rule::guards) {
+                Some(arrow) => {
+                    self.guards(&arrow);
+                    NodeKind::Guarded {
+                        guard: expr,
+                        node: Box::new(self.take_node(&mut parts)),
+                    }
+                }
+                None => NodeKind::Leaf(expr),
+            }
+        };
+        ast::Node { kind, span }
+    }
+
+    fn guards(&mut self, arrow: &Node<'i>) {
+        let written = arrow.as_str();
+        let span = self.span(arrow);
+        match written {
+            "=>" => {}
+            "->" => self.respell(
+                Code::E0116,
+                span,
+                "a guard is followed by `=>`, not by `->`".into(),
+                "=>",
+            ),
+            _ => self.respell(
+                Code::E0121,
+                span,
+                format!("`{written}` is written `=>`"),
+                "=>",
+            ),
+        }
+    }
+
+    fn composite(&mut self, node: Node<'i>) -> NodeKind {
+        let mut parts = Parts::of(node);
+        let memory = parts.maybe(Rule::kw_memory).map(|node| self.span(&node));
+        let Some(written) = parts.maybe(Rule::node_word) else {
+            return NodeKind::Error;
+        };
+        let word = self.node_word(&written, memory.is_some());
+        let args = parts.maybe(Rule::args).map(|args| {
+            self.touching(&written, &args);
+            self.args(args)
+        });
+        let children = parts
+            .maybe(Rule::children)
+            .map(|node| self.children(node))
+            .unwrap_or_default();
+        match word {
+            Some(word) => self.shaped(memory, word, args, children),
+            None => NodeKind::Error,
+        }
+    }
+
+    fn shaped(
+        &mut self,
+        memory: Option<Span>,
+        word: Spanned<Word>,
+        args: Option<Vec<Arg>>,
+        children: Vec<ast::Node>,
+    ) -> NodeKind {
+        NodeKind::Composite {
+            memory,
+            word,
+            args,
+            children,
+        }
+    }
+
+    /// The composite that `written` names; if none, what was likely meant.
+    fn node_word(&mut self, written: &Node<'i>, memory: bool) -> Option<Spanned<Word>> {
+        let name = written.as_str();
+        let span = self.span(written);
+        let find = |table: &[(&str, Word)], name: &str| {
+            let entry = table.iter().find(|(spelling, _)| *spelling == name);
+            entry.map(|&(_, word)| word)
+        };
+        if let Some(word) = find(&NODES, name) {
+            return Some(Spanned { node: word, span });
+        }
+        let lower = name.to_ascii_lowercase();
+        let meant = find(&NODES, &lower)
+            .or_else(|| find(&FOREIGN_NODES, &lower))
+            .or_else(|| {
+                suggest::nearest(&lower, NODES.map(|(spelling, _)| spelling))
+                    .and_then(|near| find(&NODES, near))
+            });
+        let mut diagnostic =
+            Diagnostic::new(Code::E0120, span, format!("`{name}` is no kind of node"));
+        diagnostic = match meant {
+            Some(word) => diagnostic
+                .label(format!("did you mean `{}`?", word.spelling()))
+                .fix(
+                    format!("write `{}`", word.spelling()),
+                    span,
+                    word.spelling(),
+                    Applicability::Unsafe,
+                ),
+            None => diagnostic.label("braces follow the words of composites and decorators only"),
+        };
+        let kinds = if memory {
+            "`memory` goes before `selector` and `sequence`"
+        } else {
+            "the nodes with braces are `selector`, `sequence`, `parallel`, `invert`, `succeed`, `fail`, `retry`, \
+             `repeat` and `timeout`"
+        };
+        self.report(diagnostic.note(kinds));
+        meant.map(|word| Spanned { node: word, span })
+    }
+
+    fn children(&mut self, node: Node<'i>) -> Vec<ast::Node> {
+        let mut parts = Parts::of(node);
+        let open = parts.maybe(Rule::open_brace).map(|node| self.span(&node));
+        let mut children: Vec<ast::Node> = Vec::new();
+        let mut previous = None;
+        for part in parts {
+            let start = part.as_span().start();
+            match part.as_rule() {
+                Rule::close_brace | Rule::missing_close => self.close(Some(part), open),
+                Rule::missing_child_comma => {
+                    let before = children.last().map(|child| child.span);
+                    self.missing_comma(&part, before, "the children of a node");
+                }
+                Rule::bad_child => {
+                    let span = self.bad(&part, Rule::strict_child, previous);
+                    children.push(ast::Node {
+                        kind: NodeKind::Error,
+                        span,
+                    });
+                    previous = Some(start);
+                }
+                Rule::node => {
+                    children.push(self.node(part));
+                    previous = Some(start);
+                }
+                _ => {}
+            }
+        }
+        children
+    }
+
+    pub(super) fn claim(&mut self, node: Node<'i>) -> Claim {
+        let mut parts = Parts::of(node);
+        parts.has(Rule::kw_claim);
+        let tree = self.take_name(&mut parts);
+        let what = self.claimed(&mut parts, &tree);
+        let within = parts.maybe(Rule::within).map(|node| {
+            let mut parts = Parts::of(node);
+            parts.has(Rule::kw_within);
+            self.take_expr(&mut parts)
+        });
+        let probability = parts
+            .maybe(Rule::probability)
+            .map(|node| self.probability(node));
+        Claim {
+            tree,
+            what,
+            within,
+            probability,
+        }
+    }
+
+    fn claimed(&mut self, parts: &mut Parts<'i>, tree: &ast::Ident) -> ClaimWhat {
+        let Some(node) = parts.next() else {
+            return ClaimWhat::Equals(tree.clone());
+        };
+        let rule = node.as_rule();
+        let mut parts = Parts::of(node);
+        parts.next();
+        match rule {
+            Rule::claim_never => ClaimWhat::Never(self.take_expr(&mut parts)),
+            Rule::claim_reaches => ClaimWhat::Reaches(self.take_expr(&mut parts)),
+            _ => ClaimWhat::Equals(self.take_name(&mut parts)),
+        }
+    }
+
+    fn probability(&mut self, node: Node<'i>) -> (bool, ast::Expr) {
+        let mut parts = Parts::of(node);
+        parts.has(Rule::kw_with);
+        parts.has(Rule::kw_probability);
+        let strict = match parts.maybe(Rule::at_least) {
+            Some(sign) if sign.as_str() == "≥" => {
+                let span = self.span(&sign);
+                self.respell(Code::E0121, span, "`≥` is written `>=`".into(), ">=");
+                false
+            }
+            Some(sign) => sign.as_str() == ">",
+            None => false,
+        };
+        (strict, self.take_expr(&mut parts))
+    }
+}

@@ -1,0 +1,221 @@
+//! What could have stood at a place, in the words of a person.
+
+use super::grammar::Rule;
+
+/// Where an expectation comes in a list; the lower, the more useful.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Rank {
+    /// A bracket, a comma, a colon: most likely forgotten.
+    Mark,
+    /// A word that must come.
+    Word,
+    /// A name, a value, a block.
+    Part,
+    /// What could go on, but need not.
+    More,
+}
+
+/// How many expectations a message lists at most.
+const LISTED: usize = 4;
+
+/// The expectations as a list: "`,`, `)` or an operator"; nothing if there are none to name.
+pub(super) fn listed(rules: &[Rule]) -> Option<String> {
+    let mut named: Vec<(Rank, &str)> = rules.iter().filter_map(|&rule| name(rule)).collect();
+    named.sort();
+    named.dedup();
+    if named.len() > 1 && named.iter().any(|&(rank, _)| rank < Rank::More) {
+        let must: Vec<_> = named
+            .iter()
+            .copied()
+            .filter(|&(rank, _)| rank < Rank::More)
+            .collect();
+        if must.len() >= LISTED {
+            named = must;
+        }
+    }
+    let words: Vec<&str> = named.into_iter().map(|(_, word)| word).collect();
+    let (last, first) = words.split_last()?;
+    if first.is_empty() {
+        return Some((*last).to_owned());
+    }
+    if words.len() > LISTED + 1 {
+        let first = words.get(..LISTED).unwrap_or_default().join(", ");
+        return Some(format!("{first} or something like it"));
+    }
+    Some(format!("{} or {last}", first.join(", ")))
+}
+
+/// The words that could have stood there.
+pub(super) fn words(rules: &[Rule]) -> Vec<&'static str> {
+    rules
+        .iter()
+        .filter_map(|&rule| name(rule))
+        .filter(|(rank, _)| *rank == Rank::Word)
+        .map(|(_, word)| word.trim_matches('`'))
+        .collect()
+}
+
+/// What a person would call a production; nothing for those that nobody would write on purpose.
+fn name(rule: Rule) -> Option<(Rank, &'static str)> {
+    use Rank::{Mark, More, Part, Word};
+    Some(match rule {
+        Rule::use_item | Rule::kw_use => (Word, "`use`"),
+        Rule::world | Rule::kw_world => (Word, "`world`"),
+        Rule::enum_item | Rule::kw_enum => (Word, "`enum`"),
+        Rule::state | Rule::kw_state => (Word, "`state`"),
+        Rule::event | Rule::kw_event => (Word, "`event`"),
+        Rule::each_tick | Rule::kw_each => (Word, "`each`"),
+        Rule::on_item | Rule::reward_line | Rule::kw_on => (Word, "`on`"),
+        Rule::let_item | Rule::binding | Rule::kw_let => (Word, "`let`"),
+        Rule::predicate | Rule::kw_predicate => (Word, "`predicate`"),
+        Rule::behavior | Rule::kw_behavior => (Word, "`behavior`"),
+        Rule::task | Rule::kw_task => (Word, "`task`"),
+        Rule::learn | Rule::kw_learn => (Word, "`learn`"),
+        Rule::tree | Rule::kw_tree => (Word, "`tree`"),
+        Rule::claim | Rule::kw_claim => (Word, "`claim`"),
+        Rule::kw_if => (Word, "`if`"),
+        Rule::kw_else | Rule::branch_else | Rule::choice_else => (Word, "`else`"),
+        Rule::kw_for => (Word, "`for`"),
+        Rule::kw_in => (Word, "`in`"),
+        Rule::kw_tick => (Word, "`tick`"),
+        Rule::place | Rule::kw_place => (Word, "`place`"),
+        Rule::wall | Rule::kw_wall => (Word, "`wall`"),
+        Rule::robot | Rule::kw_robot => (Word, "`robot`"),
+        Rule::sensor | Rule::kw_sensor => (Word, "`sensor`"),
+        Rule::kw_facing => (More, "`facing`"),
+        Rule::kw_wall_when => (More, "`when`"),
+        Rule::kw_when => (Word, "`when`"),
+        Rule::local | Rule::kw_local => (Word, "`local`"),
+        Rule::requires | Rule::kw_requires => (Word, "`requires`"),
+        Rule::succeed_when | Rule::kw_succeed => (Word, "`succeed`"),
+        Rule::fail_when | Rule::kw_fail => (Word, "`fail`"),
+        Rule::control | Rule::kw_control => (Word, "`control`"),
+        Rule::observe | Rule::kw_observe => (Word, "`observe`"),
+        Rule::choose | Rule::kw_choose => (Word, "`choose`"),
+        Rule::history | Rule::kw_history => (Word, "`history`"),
+        Rule::kw_last => (Word, "`last`"),
+        Rule::patience | Rule::kw_patience => (Word, "`patience`"),
+        Rule::start | Rule::kw_start => (Word, "`start`"),
+        Rule::end_on | Rule::end_after | Rule::kw_end => (Word, "`end`"),
+        Rule::kw_after => (Word, "`after`"),
+        Rule::reward | Rule::kw_reward => (Word, "`reward`"),
+        Rule::otherwise | Rule::kw_otherwise => (Word, "`otherwise`"),
+        Rule::kw_memory => (More, "`memory`"),
+        Rule::claim_equals | Rule::kw_equals => (Word, "`equals`"),
+        Rule::claim_never | Rule::kw_never => (Word, "`never`"),
+        Rule::claim_reaches | Rule::kw_reaches => (Word, "`reaches`"),
+        Rule::within | Rule::kw_within => (More, "`within`"),
+        Rule::probability | Rule::kw_with => (More, "`with`"),
+        Rule::kw_probability => (Word, "`probability`"),
+        Rule::std => (Word, "`std`"),
+        Rule::outcome => (Word, "`success` or `failure`"),
+        Rule::open_brace => (Mark, "`{`"),
+        Rule::close_brace => (Mark, "`}`"),
+        Rule::open_paren => (Mark, "`(`"),
+        Rule::close_paren => (Mark, "`)`"),
+        Rule::comma => (Mark, "`,`"),
+        Rule::colon | Rule::reward_colon | Rule::of_kind | Rule::ascription => (Mark, "`:`"),
+        Rule::is | Rule::named_is | Rule::assign => (Mark, "`=`"),
+        Rule::guards => (Mark, "`=>`"),
+        Rule::at_least => (Mark, "`>=`"),
+        Rule::link => (More, "`of`, `per` or `->`"),
+        Rule::string => (Part, "a path in quotes"),
+        Rule::name | Rule::learner_name | Rule::family => (Part, "a name"),
+        Rule::field | Rule::setting | Rule::named => (Part, "a name"),
+        Rule::params | Rule::typed_params => (More, "parameters"),
+        Rule::param | Rule::typed_param => (Part, "a parameter"),
+        Rule::type_expr => (Part, "a type"),
+        Rule::type_op => (More, "`*` or `/`"),
+        Rule::clauses => (Mark, "`{`"),
+        Rule::block => (Mark, "`{`"),
+        Rule::children | Rule::r#yield => (Mark, "`{`"),
+        Rule::args => (More, "arguments in parentheses"),
+        Rule::arg | Rule::binder => (Part, "an argument"),
+        Rule::list | Rule::list_item => (Part, "a list of values"),
+        Rule::node | Rule::composite | Rule::node_word => (Part, "a node"),
+        Rule::for_stmt | Rule::branch | Rule::simple_stmt => (Part, "a statement"),
+        Rule::start_line => (Part, "a name"),
+        Rule::number => (Part, "a number"),
+        Rule::unit => (More, "a unit"),
+        Rule::quantity => (Part, "a number"),
+        Rule::condition
+        | Rule::expr
+        | Rule::conjunct
+        | Rule::negation
+        | Rule::comparison
+        | Rule::sum
+        | Rule::term
+        | Rule::unary
+        | Rule::power
+        | Rule::paren
+        | Rule::choice
+        | Rule::boolean
+        | Rule::not_op
+        | Rule::sign => (Part, "a value"),
+        Rule::r#ref => (Part, "a name"),
+        Rule::or_op
+        | Rule::and_op
+        | Rule::compare_op
+        | Rule::sum_op
+        | Rule::term_op
+        | Rule::power_op => (More, "an operator"),
+        Rule::file
+        | Rule::EOI
+        | Rule::WHITESPACE
+        | Rule::COMMENT
+        | Rule::item
+        | Rule::world_entry
+        | Rule::robot_entry
+        | Rule::clause
+        | Rule::aspect
+        | Rule::learn_entry
+        | Rule::child
+        | Rule::stmt
+        | Rule::primary
+        | Rule::bare_aspect
+        | Rule::aspect_word
+        | Rule::name_char
+        | Rule::reserved
+        | Rule::factor
+        | Rule::factor_name
+        | Rule::wrong_unit
+        | Rule::wrong_factor
+        | Rule::assign_ahead
+        | Rule::wrong_equals
+        | Rule::wrong_else_if
+        | Rule::unclosed_string
+        | Rule::unclosed_name
+        | Rule::stray_mark
+        | Rule::stray_close
+        | Rule::missing_else
+        | Rule::missing_type
+        | Rule::missing_comma
+        | Rule::missing_child_comma
+        | Rule::missing_arg_comma
+        | Rule::close
+        | Rule::missing_close
+        | Rule::bad_item
+        | Rule::bad_entry
+        | Rule::bad_reward
+        | Rule::bad_child
+        | Rule::bad_line
+        | Rule::next_line
+        | Rule::item_line
+        | Rule::margin_item
+        | Rule::item_ahead
+        | Rule::junk_group
+        | Rule::junk_part
+        | Rule::blank
+        | Rule::gap
+        | Rule::strict_item
+        | Rule::strict_world_entry
+        | Rule::strict_robot_entry
+        | Rule::strict_clause
+        | Rule::strict_aspect
+        | Rule::strict_start_line
+        | Rule::strict_reward
+        | Rule::strict_learn_entry
+        | Rule::strict_child
+        | Rule::strict_stmt => return None,
+    })
+}

@@ -1,0 +1,109 @@
+//! The words of the language.
+
+use super::ast::Word;
+
+/// The words that are no names.
+pub(super) const RESERVED: [&str; 23] = [
+    "and",
+    "or",
+    "not",
+    "if",
+    "else",
+    "for",
+    "in",
+    "true",
+    "false",
+    "let",
+    "use",
+    "world",
+    "enum",
+    "state",
+    "event",
+    "each",
+    "on",
+    "predicate",
+    "behavior",
+    "task",
+    "learn",
+    "tree",
+    "claim",
+];
+
+/// The words that begin an item.
+pub(super) const ITEMS: [&str; 14] = [
+    "use",
+    "world",
+    "enum",
+    "state",
+    "event",
+    "each",
+    "on",
+    "let",
+    "predicate",
+    "behavior",
+    "task",
+    "learn",
+    "tree",
+    "claim",
+];
+
+/// The words that begin an aspect of a task; bare, they are no items of a list.
+pub(super) const ASPECTS: [&str; 7] = [
+    "observe", "choose", "history", "patience", "start", "end", "reward",
+];
+
+/// The units, as a person would list them.
+pub(super) const UNITS: [&str; 14] = [
+    "m", "cm", "mm", "km", "s", "ms", "min", "h", "tick", "ticks", "deg", "rad", "Hz", "%",
+];
+
+/// The words of composites and decorators.
+pub(super) const NODES: [(&str, Word); 9] = [
+    ("selector", Word::Selector),
+    ("sequence", Word::Sequence),
+    ("parallel", Word::Parallel),
+    ("invert", Word::Invert),
+    ("succeed", Word::Succeed),
+    ("fail", Word::Fail),
+    ("retry", Word::Retry),
+    ("repeat", Word::Repeat),
+    ("timeout", Word::Timeout),
+];
+
+/// What other languages call the composites and decorators.
+pub(super) const FOREIGN_NODES: [(&str, Word); 14] = [
+    ("fallback", Word::Selector),
+    ("priority", Word::Selector),
+    ("select", Word::Selector),
+    ("choice", Word::Selector),
+    ("seq", Word::Sequence),
+    ("concurrent", Word::Parallel),
+    ("all", Word::Parallel),
+    ("inverter", Word::Invert),
+    ("negate", Word::Invert),
+    ("force_success", Word::Succeed),
+    ("succeeder", Word::Succeed),
+    ("force_failure", Word::Fail),
+    ("loop", Word::Repeat),
+    ("deadline", Word::Timeout),
+];
+
+impl Word {
+    /// The word as it is written.
+    pub fn spelling(self) -> &'static str {
+        NODES
+            .iter()
+            .find(|(_, word)| *word == self)
+            .map_or("selector", |(spelling, _)| spelling)
+    }
+}
+
+/// Whether `name` needs no backquotes.
+pub(super) fn is_plain_name(name: &str) -> bool {
+    let mut letters = name.chars();
+    letters
+        .next()
+        .is_some_and(|first| first.is_ascii_alphabetic() || first == '_')
+        && letters.all(|letter| letter.is_ascii_alphanumeric() || letter == '_')
+        && !RESERVED.contains(&name)
+}
