@@ -4,8 +4,10 @@
 //! The modules stand in the order in which a program goes through them; see `ARCHITECTURE.md`.
 
 pub mod diagnostic;
+pub mod eval;
 pub mod ir;
 pub mod math;
 pub mod policy;
 pub mod source;
 pub mod syntax;
+pub mod world;

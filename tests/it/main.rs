@@ -1,0 +1,2 @@
+mod world_delivery;
+mod world_ticks;
