@@ -5,8 +5,11 @@
 
 pub mod check;
 pub mod diagnostic;
+pub mod eval;
 pub mod ir;
+pub mod learn;
 pub mod math;
 pub mod policy;
 pub mod source;
 pub mod syntax;
+pub mod world;

@@ -3,9 +3,8 @@
 use super::process::{End, Process};
 use super::schedule::Schedule;
 use super::table::Table;
+use crate::eval::Random;
 use crate::ir::task::Discount;
-use rand_core::{RngCore, SeedableRng};
-use rand_xoshiro::Xoshiro256PlusPlus;
 
 /// How it learns.
 #[derive(Clone, Copy, Debug)]
@@ -50,7 +49,7 @@ pub fn learn(
 ) -> (Table, Counts) {
     let mut table = Table::new(settings.choices, settings.initial);
     let mut counts = Counts::default();
-    let mut random = Xoshiro256PlusPlus::seed_from_u64(settings.seed ^ EXPLORATION);
+    let mut random = Random::new(settings.seed, EXPLORATION, 0);
     for episode in 0..settings.episodes {
         let progress = episode as f64 / settings.episodes as f64;
         counts.episodes += 1;
@@ -60,8 +59,8 @@ pub fn learn(
             let visits: u64 = table.cells(row).iter().map(|cell| cell.visits).sum();
             let epsilon = settings.explore.at(visits as f64, progress);
             let choice = match table.greedy(row) {
-                Some(best) if unit(&mut random) >= epsilon => best,
-                _ => below(&mut random, settings.choices),
+                Some(best) if random.unit() >= epsilon => best,
+                _ => random.below(settings.choices as u64) as usize,
             };
             let step = process.decide(choice, settings.dwell);
             counts.decisions += 1;
@@ -91,8 +90,8 @@ pub fn learn(
     (table, counts)
 }
 
-/// Keeps the exploration's random numbers apart from the world's.
-const EXPLORATION: u64 = 0x51ed_2701_9b6d_4c1f;
+/// The stream of the exploration's random numbers, apart from those of the world.
+const EXPLORATION: u64 = u64::MAX;
 
 fn discount(settings: &Settings, ticks: u64) -> f64 {
     match settings.discount {
@@ -101,14 +100,4 @@ fn discount(settings: &Settings, ticks: u64) -> f64 {
             crate::math::pow(factor, ticks as f64 * settings.tick / span)
         }
     }
-}
-
-/// Uniform in [0, 1).
-fn unit(random: &mut Xoshiro256PlusPlus) -> f64 {
-    (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
-}
-
-/// Uniform in 0 … n − 1, up to a bias of n / 2⁶⁴.
-fn below(random: &mut Xoshiro256PlusPlus, n: usize) -> usize {
-    ((u128::from(random.next_u64()) * n as u128) >> 64) as usize
 }

@@ -1,0 +1,211 @@
+//! The compiler: one piece of code at a time, over one layout.
+
+use super::code::{Code, Instruction, Op, Register};
+use super::layout::Layout;
+use super::memo::Memo;
+use crate::ir::expr::Temp;
+use crate::ir::law::{Behavior, Stmt};
+use crate::ir::program::Event;
+use crate::ir::{Expr, ExprId, Id, Pool};
+use rustc_hash::FxHashMap;
+use std::fmt;
+
+/// The program does not fit the machine: too many registers or instructions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TooLarge;
+
+impl fmt::Display for TooLarge {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(
+            "the program has more variables, constants and values than the machine has registers",
+        )
+    }
+}
+
+impl std::error::Error for TooLarge {}
+
+/// Compiles one piece of code; [`Compiler::finish`] gives it.
+pub struct Compiler<'a> {
+    pub(super) pool: &'a Pool,
+    pub(super) layout: &'a mut Layout,
+    /// Whose variables `Expr::Local` means.
+    behavior: Option<Id<Behavior>>,
+    pub(super) code: Vec<Instruction>,
+    pub(super) memo: Memo,
+    /// The next free scratch register.
+    pub(super) scratch: usize,
+    /// Where the last label stands: the instruction before it is not the only way to the one after it.
+    label: usize,
+    pub(super) temps: FxHashMap<Id<Temp>, Binding>,
+    /// Whether the code reads how long the behaviour has run.
+    pub(super) timed: bool,
+    /// The statements that follow the current one, innermost block last.
+    pub(super) rest: Vec<&'a [Stmt]>,
+}
+
+/// What a name stands for.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Binding {
+    /// A value that was computed.
+    Known(Register),
+    /// A value that is computed where it is needed: nothing that it reads has changed since.
+    Deferred(ExprId),
+}
+
+/// Jumps that wait for the place that they go to.
+#[derive(Debug, Default)]
+pub struct Label(Vec<usize>);
+
+impl<'a> Compiler<'a> {
+    /// A compiler for a piece of code of no behaviour, or of one.
+    pub fn new(pool: &'a Pool, layout: &'a mut Layout, behavior: Option<Id<Behavior>>) -> Self {
+        let scratch = layout.scratch();
+        Self {
+            pool,
+            layout,
+            behavior,
+            code: Vec::new(),
+            memo: Memo::default(),
+            scratch,
+            label: 0,
+            temps: FxHashMap::default(),
+            timed: false,
+            rest: Vec::new(),
+        }
+    }
+
+    /// The code.
+    ///
+    /// # Errors
+    /// If jumps cannot reach across it.
+    pub fn finish(self) -> Result<Code, TooLarge> {
+        if self.code.len() > usize::from(Register::MAX) {
+            return Err(TooLarge);
+        }
+        Ok(Code(self.code.into()))
+    }
+
+    /// Sets a register to the value of an expression.
+    ///
+    /// # Errors
+    /// If registers run out.
+    pub fn assign(&mut self, register: Register, id: ExprId) -> Result<(), TooLarge> {
+        let before = self.code.len();
+        let fresh = self.scratch;
+        let value = self.value(id)?;
+        // The instruction that made the value may as well put it where it is wanted.
+        if self.code.len() > before
+            && self.label != self.code.len()
+            && usize::from(value) >= fresh
+            && !matches!(self.pool.get(id), Expr::Temp(_))
+            && let Some(last) = self.code.last_mut()
+            && last.dst == value
+            && last.op.makes_a_value()
+        {
+            last.dst = register;
+            self.memo.invalidate(|known| known == id);
+        } else if value != register {
+            self.emit(Op::Move, register, value, 0);
+        }
+        Ok(())
+    }
+
+    /// Sets a register to a number.
+    ///
+    /// # Errors
+    /// If registers run out.
+    pub fn set(&mut self, register: Register, value: f64) -> Result<(), TooLarge> {
+        let constant = self.layout.constant(value)?;
+        self.emit(Op::Move, register, constant, 0);
+        Ok(())
+    }
+
+    /// Computes whether an event happens, and reports it if it does.
+    ///
+    /// # Errors
+    /// If registers run out.
+    pub fn event(&mut self, event: Id<Event>, when: ExprId) -> Result<(), TooLarge> {
+        let register = self.layout.event(event);
+        self.assign(register, when)?;
+        let mut no = Label::default();
+        self.jump(Op::JumpUnless, &mut no, register, 0);
+        self.emit(Op::Fire, 0, event.index() as Register, 0);
+        self.bind(no);
+        Ok(())
+    }
+
+    /// Whether the code so far reads how long the behaviour has run.
+    pub fn is_timed(&self) -> bool {
+        self.timed
+    }
+
+    /// Reports the value of an atom.
+    ///
+    /// # Errors
+    /// If registers run out.
+    pub fn atom(&mut self, bit: u16, id: ExprId) -> Result<(), TooLarge> {
+        if self.pool.constant(id) == Some(0.0) {
+            return Ok(());
+        }
+        let value = self.value(id)?;
+        self.emit(Op::Atom, bit, value, 0);
+        Ok(())
+    }
+
+    /// Ends the run with an answer.
+    pub fn exit(&mut self, answer: u16) {
+        self.emit(Op::Exit, 0, answer, 0);
+    }
+
+    pub(super) fn emit(&mut self, op: Op, dst: Register, a: Register, b: Register) {
+        self.code.push(Instruction { op, dst, a, b });
+    }
+
+    pub(super) fn jump(&mut self, op: Op, to: &mut Label, a: Register, b: Register) {
+        to.0.push(self.code.len());
+        self.emit(op, 0, a, b);
+    }
+
+    /// The label is here.
+    pub fn bind(&mut self, label: Label) {
+        let here = self.code.len();
+        if !label.0.is_empty() {
+            self.label = here;
+        }
+        for at in label.0 {
+            if let Some(jump) = self.code.get_mut(at) {
+                jump.dst = here as Register;
+            }
+        }
+    }
+
+    pub(super) fn fresh(&mut self) -> Result<Register, TooLarge> {
+        let register = self.scratch;
+        self.scratch += 1;
+        self.layout.reserve(self.scratch)?;
+        Ok(register as Register)
+    }
+
+    pub(super) fn local(&self, index: usize) -> Register {
+        let first = self.behavior.map_or(0, |id| self.layout.locals(id));
+        first + index as Register
+    }
+}
+
+impl Label {
+    /// Whether anything jumps there.
+    pub fn is_used(&self) -> bool {
+        !self.0.is_empty()
+    }
+}
+
+impl Op {
+    /// Whether all it does is to set `dst`.
+    fn makes_a_value(self) -> bool {
+        (self as u8) < Op::Jump as u8
+            || matches!(
+                self,
+                Op::Visible | Op::Inside | Op::Uniform | Op::Normal | Op::Chance | Op::Pick
+            )
+    }
+}

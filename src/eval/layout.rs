@@ -1,0 +1,201 @@
+//! Which register holds what.
+
+use super::code::Register;
+use super::compiler::TooLarge;
+use super::machine::{REGISTERS, Registers};
+use crate::ir::law::Behavior;
+use crate::ir::program::{Event, State};
+use crate::ir::tree::Status;
+use crate::ir::world::{Sensor, Wall};
+use crate::ir::{Id, Program};
+use rustc_hash::FxHashMap;
+
+/// The registers that every program has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u16)]
+pub enum Fixed {
+    /// The robot's x coordinate.
+    X,
+    /// The robot's y coordinate.
+    Y,
+    /// The robot's heading.
+    Heading,
+    /// Whether the last commanded motion was blocked.
+    Touching,
+    /// Seconds since the behaviour started.
+    Elapsed,
+    /// How often a behaviour was tried in a minterm.
+    Visits,
+    /// How much of the learning is done.
+    Progress,
+    /// The commanded speed forwards.
+    Speed,
+    /// The commanded speed to the left.
+    Strafe,
+    /// The commanded rate of turn.
+    Turn,
+    /// The reward of the tick.
+    Reward,
+    /// Whether a rewarded event fired.
+    Closed,
+    /// Which line of `end on` fired, counted from one; zero for none.
+    End,
+    /// What a start line says of the history.
+    History,
+}
+
+impl Fixed {
+    const COUNT: usize = 14;
+
+    /// Its register.
+    pub fn register(self) -> Register {
+        self as Register
+    }
+}
+
+/// Where an echo comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// The nearest wall or arena boundary.
+    NearestWall,
+    /// A sensor.
+    Sensor(Id<Sensor>),
+    /// One wall.
+    Wall(Id<Wall>),
+}
+
+/// The registers of a program: what is fixed from below, scratch above it, constants from the top downwards.
+#[derive(Clone, Debug)]
+pub struct Layout {
+    states: usize,
+    locals: Vec<usize>,
+    events: usize,
+    ended: usize,
+    echoes: usize,
+    sensors: usize,
+    scratch: usize,
+    /// The first register that no code has used as scratch.
+    used: usize,
+    constants: Vec<f64>,
+    known: FxHashMap<u64, Register>,
+}
+
+impl Layout {
+    /// The layout of a program.
+    ///
+    /// # Errors
+    /// If its variables and readings do not leave room for anything else.
+    pub fn new(program: &Program) -> Result<Self, TooLarge> {
+        let mut next = Fixed::COUNT;
+        let mut take = |count: usize| {
+            let first = next;
+            next += count;
+            first
+        };
+        let states = take(program.states.len());
+        let locals = program
+            .behaviors
+            .values()
+            .map(|behavior| take(behavior.law.as_ref().map_or(0, |law| law.locals.len())))
+            .collect();
+        let events = take(program.events.len());
+        let ended = take(2 * program.behaviors.len());
+        let (sensors, walls) = program.world.as_ref().map_or((0, 0), |world| {
+            (world.robot.sensors.len(), world.walls.len())
+        });
+        let echoes = take(4 * (1 + sensors + walls));
+        if next >= REGISTERS {
+            return Err(TooLarge);
+        }
+        Ok(Self {
+            states,
+            locals,
+            events,
+            ended,
+            echoes,
+            sensors,
+            scratch: next,
+            used: next,
+            constants: Vec::new(),
+            known: FxHashMap::default(),
+        })
+    }
+
+    /// The register of a state variable.
+    pub fn state(&self, id: Id<State>) -> Register {
+        (self.states + id.index()) as Register
+    }
+
+    /// The first register of a behaviour's variables.
+    pub fn locals(&self, id: Id<Behavior>) -> Register {
+        self.locals.get(id.index()).copied().unwrap_or_default() as Register
+    }
+
+    /// The register that says whether an event happens.
+    pub fn event(&self, id: Id<Event>) -> Register {
+        (self.events + id.index()) as Register
+    }
+
+    /// The register that says whether a behaviour ended so; running has none.
+    pub fn ended(&self, id: Id<Behavior>, status: Status) -> Option<Register> {
+        let offset = match status {
+            Status::Success => 0,
+            Status::Failure => 1,
+            Status::Running => return None,
+        };
+        Some((self.ended + 2 * id.index() + offset) as Register)
+    }
+
+    /// The number of an echo source: the nearest wall, then the sensors, then the walls.
+    pub fn source(&self, source: Source) -> u16 {
+        (match source {
+            Source::NearestWall => 0,
+            Source::Sensor(id) => 1 + id.index(),
+            Source::Wall(id) => 1 + self.sensors + id.index(),
+        }) as u16
+    }
+
+    /// The first of the four registers of an echo source.
+    pub(super) fn echo(&self, source: u16) -> Register {
+        (self.echoes + 4 * usize::from(source)) as Register
+    }
+
+    /// Where scratch registers begin.
+    pub(super) fn scratch(&self) -> usize {
+        self.scratch
+    }
+
+    /// Notes that scratch registers below `end` are in use.
+    pub(super) fn reserve(&mut self, end: usize) -> Result<(), TooLarge> {
+        self.used = self.used.max(end);
+        self.check()
+    }
+
+    /// The register of a constant.
+    pub(super) fn constant(&mut self, value: f64) -> Result<Register, TooLarge> {
+        if let Some(&register) = self.known.get(&value.to_bits()) {
+            return Ok(register);
+        }
+        self.constants.push(value);
+        self.check()?;
+        let register = (REGISTERS - self.constants.len()) as Register;
+        self.known.insert(value.to_bits(), register);
+        Ok(register)
+    }
+
+    fn check(&self) -> Result<(), TooLarge> {
+        if self.used + self.constants.len() > REGISTERS {
+            return Err(TooLarge);
+        }
+        Ok(())
+    }
+
+    /// Registers with the constants in place; everything else is zero.
+    pub fn registers(&self) -> Registers {
+        let mut registers = Registers::default();
+        for (i, &value) in self.constants.iter().enumerate() {
+            registers.set((REGISTERS - 1 - i) as Register, value);
+        }
+        registers
+    }
+}

@@ -1,0 +1,28 @@
+//! Expressions and control laws, compiled once to a register code that one loop runs.
+//!
+//! A [`Layout`] gives every state, local, reading and constant of a program a register of its own; a [`Compiler`] turns
+//! expressions and statements into [`Code`]; [`run`] runs it against a [`Host`], the world. Nothing is looked up by
+//! name and nothing is allocated while code runs.
+//!
+//! A value is computed where it is first needed, once on each path: the pool's shared nodes are shared registers, and
+//! what only one branch reads is computed in that branch.
+
+mod code;
+mod compiler;
+mod condition;
+mod fold;
+mod formula;
+mod layout;
+mod machine;
+mod memo;
+mod random;
+mod statement;
+mod value;
+
+pub use code::{Code, Instruction, Op, Register};
+pub use compiler::{Compiler, Label, TooLarge};
+pub use fold::Folding;
+pub use formula::Formula;
+pub use layout::{Fixed, Layout, Source};
+pub use machine::{Host, Nowhere, REGISTERS, Reading, Registers, run};
+pub use random::Random;

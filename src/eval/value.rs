@@ -1,0 +1,298 @@
+//! Expressions as values in registers.
+
+use super::code::{Op, Register};
+use super::compiler::{Binding, Compiler, Label, TooLarge};
+use super::layout::{Fixed, Source};
+use crate::ir::expr::{Binary, Draw, Echo, Pose, Unary};
+use crate::ir::{Expr, ExprId};
+
+/// A cost from which a value is worth a jump around it, in plain operations.
+const WORTH_A_JUMP: u32 = 3;
+
+impl Compiler<'_> {
+    /// The register that holds the value of an expression, computed here unless it is known.
+    ///
+    /// # Errors
+    /// If registers run out.
+    pub(super) fn value(&mut self, id: ExprId) -> Result<Register, TooLarge> {
+        if let Some(register) = self.memo.get(id) {
+            return Ok(register);
+        }
+        Ok(match self.pool.get(id) {
+            Expr::Num(value) => self.layout.constant(value)?,
+            Expr::Bool(value) => self.layout.constant(f64::from(value))?,
+            Expr::State(state) => self.layout.state(state),
+            Expr::Local(local) => self.local(local.index()),
+            Expr::Temp(temp) => match self.temps.get(&temp) {
+                Some(&Binding::Known(register)) => register,
+                Some(&Binding::Deferred(value)) => self.value(value)?,
+                None => self.layout.constant(0.0)?,
+            },
+            Expr::Pose(Pose::X) => Fixed::X.register(),
+            Expr::Pose(Pose::Y) => Fixed::Y.register(),
+            Expr::Pose(Pose::Heading) => Fixed::Heading.register(),
+            Expr::Touching => Fixed::Touching.register(),
+            Expr::Elapsed => {
+                self.timed = true;
+                Fixed::Elapsed.register()
+            }
+            Expr::Visits => Fixed::Visits.register(),
+            Expr::Progress => Fixed::Progress.register(),
+            Expr::Event(event) => self.layout.event(event),
+            Expr::Ended(behavior, status) => match self.layout.ended(behavior, status) {
+                Some(register) => register,
+                None => self.layout.constant(0.0)?,
+            },
+            Expr::NearestWall(echo) => self.echo(id, Source::NearestWall, echo)?,
+            Expr::Sensor(sensor, echo) => self.echo(id, Source::Sensor(sensor), echo)?,
+            Expr::Wall(wall, echo) => self.echo(id, Source::Wall(wall), echo)?,
+            Expr::Inside(place) => self.result(id, Op::Inside, place.index() as Register, 0)?,
+            Expr::Visible(x, y) => self.binary(id, Op::Visible, x, y)?,
+            Expr::Unary(op, a) => match (op, self.pool.get(a)) {
+                (Unary::Wrap, Expr::Binary(Binary::Sub, a, b)) => {
+                    self.binary(id, Op::WrapSub, a, b)?
+                }
+                _ => {
+                    let a = self.value(a)?;
+                    self.result(id, unary(op), a, 0)?
+                }
+            },
+            Expr::Binary(op @ (Binary::And | Binary::Or), a, b) => self.junction(id, op, a, b)?,
+            Expr::Binary(op, a, b) => match self.clamp(op, a, b) {
+                Some((a, limit)) => self.binary(id, Op::Clamp, a, limit)?,
+                None => match self.within(op, a, b) {
+                    Some((x, y, radius)) => {
+                        let square = self.square_sum(x, y)?;
+                        let limit = self.layout.constant(radius * radius)?;
+                        self.result(id, binary(op), square, limit)?
+                    }
+                    None => self.binary(id, binary(op), a, b)?,
+                },
+            },
+            Expr::Select(condition, then, otherwise) => {
+                let dst = self.select(condition, then, otherwise)?;
+                self.memo.insert(id, dst);
+                dst
+            }
+            Expr::Draw(_, draw) => {
+                let register = self.draw(draw)?;
+                self.memo.insert(id, register);
+                register
+            }
+        })
+    }
+
+    fn binary(&mut self, id: ExprId, op: Op, a: ExprId, b: ExprId) -> Result<Register, TooLarge> {
+        let a = self.value(a)?;
+        let b = self.value(b)?;
+        self.result(id, op, a, b)
+    }
+
+    fn result(
+        &mut self,
+        id: ExprId,
+        op: Op,
+        a: Register,
+        b: Register,
+    ) -> Result<Register, TooLarge> {
+        let dst = self.fresh()?;
+        self.emit(op, dst, a, b);
+        self.memo.insert(id, dst);
+        Ok(dst)
+    }
+
+    fn echo(&mut self, id: ExprId, source: Source, echo: Echo) -> Result<Register, TooLarge> {
+        let source = self.layout.source(source);
+        let first = self.layout.echo(source);
+        if self.memo.look(source) {
+            self.emit(Op::Look, first, source, 0);
+        }
+        match echo {
+            Echo::Distance => Ok(first),
+            Echo::Seen => Ok(first + 3),
+            Echo::Direction => self.result(id, Op::Atan2, first + 2, first + 1),
+        }
+    }
+
+    /// `a and b`, `a or b`: the second is skipped where the first decides and the second costs something.
+    fn junction(
+        &mut self,
+        id: ExprId,
+        op: Binary,
+        a: ExprId,
+        b: ExprId,
+    ) -> Result<Register, TooLarge> {
+        if self.cost(b) < WORTH_A_JUMP {
+            return self.binary(id, binary(op), a, b);
+        }
+        let dst = self.fresh()?;
+        let truth = self.layout.constant(1.0)?;
+        let falsehood = self.layout.constant(0.0)?;
+        self.emit(Op::Move, dst, falsehood, 0);
+        let mut end = Label::default();
+        let known = self.condition(id, false, &mut end)?;
+        self.emit(Op::Move, dst, truth, 0);
+        self.bind(end);
+        self.memo.forget(known);
+        self.memo.insert(id, dst);
+        Ok(dst)
+    }
+
+    /// A choice: the side that is not taken is skipped.
+    fn select(
+        &mut self,
+        condition: ExprId,
+        then: ExprId,
+        otherwise: ExprId,
+    ) -> Result<Register, TooLarge> {
+        let dst = self.fresh()?;
+        let cheap = self.cost(otherwise) < WORTH_A_JUMP;
+        if cheap {
+            let value = self.value(otherwise)?;
+            self.emit(Op::Move, dst, value, 0);
+        }
+        let mut no = Label::default();
+        let known = self.condition(condition, false, &mut no)?;
+        let value = self.value(then)?;
+        self.emit(Op::Move, dst, value, 0);
+        if cheap {
+            self.bind(no);
+        } else {
+            let mut end = Label::default();
+            self.jump(Op::Jump, &mut end, 0, 0);
+            self.bind(no);
+            self.memo.forget(known);
+            let value = self.value(otherwise)?;
+            self.emit(Op::Move, dst, value, 0);
+            self.bind(end);
+        }
+        self.memo.forget(known);
+        Ok(dst)
+    }
+
+    /// Makes a draw.
+    pub(super) fn draw(&mut self, draw: Draw) -> Result<Register, TooLarge> {
+        let (op, a, b) = match draw {
+            Draw::Uniform(a, b) => (Op::Uniform, self.value(a)?, self.value(b)?),
+            Draw::Normal(a, b) => (Op::Normal, self.value(a)?, self.value(b)?),
+            Draw::Chance(a) => (Op::Chance, self.value(a)?, 0),
+            Draw::Pick(n) => (Op::Pick, self.layout.constant(f64::from(n))?, 0),
+        };
+        let dst = self.fresh()?;
+        self.emit(op, dst, a, b);
+        Ok(dst)
+    }
+
+    /// `x² + y²`
+    pub(super) fn square_sum(&mut self, x: ExprId, y: ExprId) -> Result<Register, TooLarge> {
+        let x = self.value(x)?;
+        let y = self.value(y)?;
+        let dst = self.fresh()?;
+        self.emit(Op::SquareSum, dst, x, y);
+        Ok(dst)
+    }
+
+    /// The parts of `hypot(x, y) <= radius` or `<`, which need no root.
+    pub(super) fn within(&self, op: Binary, a: ExprId, b: ExprId) -> Option<(ExprId, ExprId, f64)> {
+        let radius = self.pool.constant(b).filter(|&radius| radius >= 0.0)?;
+        match (op, self.pool.get(a)) {
+            (Binary::Le | Binary::Lt, Expr::Binary(Binary::Hypot, x, y)) => Some((x, y, radius)),
+            _ => None,
+        }
+    }
+
+    /// The parts of `min(max(x, −limit), limit)`.
+    fn clamp(&self, op: Binary, a: ExprId, b: ExprId) -> Option<(ExprId, ExprId)> {
+        let (Binary::Min, Expr::Binary(Binary::Max, x, low)) = (op, self.pool.get(a)) else {
+            return None;
+        };
+        let mirrored = match (self.pool.constant(low), self.pool.constant(b)) {
+            (Some(low), Some(high)) => low == -high,
+            _ => self.pool.get(low) == Expr::Unary(Unary::Neg, b),
+        };
+        mirrored.then_some((x, b))
+    }
+
+    /// What computing an expression here would cost, up to where it no longer matters.
+    fn cost(&self, id: ExprId) -> u32 {
+        let (mut sum, mut open) = (0, vec![id]);
+        while let Some(id) = open.pop() {
+            if sum >= WORTH_A_JUMP {
+                break;
+            }
+            if self.memo.get(id).is_some() {
+                continue;
+            }
+            sum += match self.pool.get(id) {
+                Expr::Temp(temp) => {
+                    if let Some(&Binding::Deferred(value)) = self.temps.get(&temp) {
+                        open.push(value);
+                    }
+                    0
+                }
+                Expr::NearestWall(echo) => self.look_cost(Source::NearestWall, echo),
+                Expr::Sensor(sensor, echo) => self.look_cost(Source::Sensor(sensor), echo),
+                Expr::Wall(wall, echo) => self.look_cost(Source::Wall(wall), echo),
+                Expr::Visible(..) => 10,
+                Expr::Unary(op, _) if (unary(op) as u8) >= Op::Exp as u8 => 5,
+                Expr::Binary(Binary::Atan2 | Binary::Pow | Binary::Div | Binary::Hypot, ..) => 5,
+                Expr::Unary(..) | Expr::Binary(..) | Expr::Inside(_) | Expr::Draw(..) => 1,
+                Expr::Select(..) => 2,
+                _ => 0,
+            };
+            open.extend(self.pool.operands(id));
+        }
+        sum
+    }
+
+    fn look_cost(&self, source: Source, echo: Echo) -> u32 {
+        let looked = self.memo.has_looked(self.layout.source(source));
+        if looked && echo != Echo::Direction {
+            0
+        } else {
+            10
+        }
+    }
+}
+
+fn unary(op: Unary) -> Op {
+    match op {
+        Unary::Neg => Op::Neg,
+        Unary::Not => Op::Not,
+        Unary::Abs => Op::Abs,
+        Unary::Sign => Op::Sign,
+        Unary::Sqrt => Op::Sqrt,
+        Unary::Exp => Op::Exp,
+        Unary::Ln => Op::Ln,
+        Unary::Floor => Op::Floor,
+        Unary::Ceil => Op::Ceil,
+        Unary::Round => Op::Round,
+        Unary::Sin => Op::Sin,
+        Unary::Cos => Op::Cos,
+        Unary::Tan => Op::Tan,
+        Unary::Asin => Op::Asin,
+        Unary::Acos => Op::Acos,
+        Unary::Atan => Op::Atan,
+        Unary::Wrap => Op::Wrap,
+    }
+}
+
+fn binary(op: Binary) -> Op {
+    match op {
+        Binary::Add => Op::Add,
+        Binary::Sub => Op::Sub,
+        Binary::Mul => Op::Mul,
+        Binary::Div => Op::Div,
+        Binary::Min => Op::Min,
+        Binary::Max => Op::Max,
+        Binary::Pow => Op::Pow,
+        Binary::Atan2 => Op::Atan2,
+        Binary::Hypot => Op::Hypot,
+        Binary::Eq => Op::Eq,
+        Binary::Ne => Op::Ne,
+        Binary::Lt => Op::Lt,
+        Binary::Le => Op::Le,
+        Binary::And => Op::And,
+        Binary::Or => Op::Or,
+    }
+}

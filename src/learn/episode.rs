@@ -1,0 +1,124 @@
+//! Whole episodes under a controller: a policy, a tree, or anything else that acts once a tick.
+
+use super::process::Key;
+use crate::ir::Id;
+use crate::ir::law::Behavior;
+use crate::world::{End, Simulation, Start};
+use rayon::prelude::*;
+use rustc_hash::FxHashMap;
+
+/// Decides what a robot does in a tick.
+pub trait Controller {
+    /// Forgets everything: an episode starts.
+    fn reset(&mut self);
+
+    /// Ticks behaviours of the simulation, between its `begin_tick` and its `end_tick`.
+    fn tick(&mut self, simulation: &mut Simulation);
+}
+
+/// What an episode came to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Episode {
+    /// Its length.
+    pub ticks: u64,
+    /// The sum of the rewards of its transitions.
+    pub total: f64,
+    /// How often each event fired.
+    pub events: Vec<u64>,
+    /// Why it ended.
+    pub end: End,
+    /// Ticks that began in a minterm outside the care set.
+    pub outside: u64,
+}
+
+/// Plays one episode. A transition, which is rewarded once, ends as a decision comes due: when a behaviour terminates,
+/// the minterm changes, a rewarded event fires, or `patience` ticks have passed.
+pub fn play(
+    simulation: &mut Simulation,
+    controller: &mut impl Controller,
+    start: Start,
+    patience: Option<u64>,
+    cared: &impl Fn(Key) -> bool,
+) -> Episode {
+    simulation.start(start);
+    controller.reset();
+    let patience = patience.unwrap_or(u64::MAX);
+    let (mut total, mut since, mut outside) = (0.0, 0, 0);
+    let mut inside = cared(simulation.key());
+    loop {
+        outside += u64::from(!inside);
+        simulation.begin_tick();
+        controller.tick(simulation);
+        let outcome = simulation.end_tick();
+        since += 1;
+        let due = outcome.terminated || outcome.changed || outcome.closed || since >= patience;
+        if outcome.changed {
+            inside = cared(simulation.key());
+        }
+        if due || outcome.end.is_some() {
+            total += outcome.reward;
+            since = 0;
+        }
+        if let Some(end) = outcome.end {
+            return Episode {
+                ticks: simulation.ticks(),
+                total,
+                events: simulation.counts().to_vec(),
+                end,
+                outside,
+            };
+        }
+    }
+}
+
+/// Plays episodes 0 … n − 1 on all threads; the result is in their order.
+pub fn play_all<'s, C: Controller>(
+    episodes: u64,
+    start: Start,
+    patience: Option<u64>,
+    cared: &(impl Fn(Key) -> bool + Sync),
+    make: impl Fn() -> (Simulation<'s>, C) + Sync + Send,
+) -> Vec<Episode> {
+    (0..episodes)
+        .into_par_iter()
+        .map_init(&make, |(simulation, controller), episode| {
+            let start = Start { episode, ..start };
+            play(simulation, controller, start, patience, cared)
+        })
+        .collect()
+}
+
+/// A policy as a controller: what it does in each minterm, and elsewhere.
+#[derive(Clone, Debug)]
+pub struct Greedy<'p> {
+    choices: &'p FxHashMap<Key, Id<Behavior>>,
+    unseen: Id<Behavior>,
+    last: Option<(Key, Id<Behavior>)>,
+}
+
+impl<'p> Greedy<'p> {
+    /// The policy of these choices.
+    pub fn new(choices: &'p FxHashMap<Key, Id<Behavior>>, unseen: Id<Behavior>) -> Self {
+        Self {
+            choices,
+            unseen,
+            last: None,
+        }
+    }
+}
+
+impl Controller for Greedy<'_> {
+    fn reset(&mut self) {
+        self.last = None;
+    }
+
+    fn tick(&mut self, simulation: &mut Simulation) {
+        let key = simulation.key();
+        let behavior = match self.last {
+            Some((last, behavior)) if last == key => behavior,
+            _ => self.choices.get(&key).copied().unwrap_or(self.unseen),
+        };
+        self.last = Some((key, behavior));
+        simulation.act(behavior);
+    }
+}

@@ -1,0 +1,125 @@
+//! What a sample says of what it was drawn from.
+
+use super::episode::Episode;
+use crate::world::End;
+
+/// The 97.5 % point of the standard normal distribution.
+const Z: f64 = 1.959_963_984_540_054;
+
+/// A mean with its 95 % interval (normal approximation: mean ± 1.96 s/√n).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Mean {
+    /// The mean.
+    pub mean: f64,
+    /// The interval.
+    pub ci95: [f64; 2],
+}
+
+impl Mean {
+    /// Of a sample; without one, zero.
+    pub fn of(sample: &[f64]) -> Self {
+        let n = sample.len() as f64;
+        if sample.is_empty() {
+            return Self::default();
+        }
+        let mean = sample.iter().sum::<f64>() / n;
+        let squares: f64 = sample.iter().map(|x| (x - mean) * (x - mean)).sum();
+        let half = if sample.len() > 1 {
+            Z * (squares / (n - 1.0) / n).sqrt()
+        } else {
+            0.0
+        };
+        Self {
+            mean,
+            ci95: [mean - half, mean + half],
+        }
+    }
+}
+
+/// The upper end of the 95 % Clopper–Pearson interval (one-sided, 1934) of a probability, after `count` hits in `n`
+/// trials: the p at which so few hits have a probability of 5 %.
+pub fn upper95(count: u64, n: u64) -> f64 {
+    if count >= n {
+        return 1.0;
+    }
+    let (mut low, mut high) = (count as f64 / n as f64, 1.0);
+    for _ in 0..60 {
+        let p = (low + high) / 2.0;
+        if at_most(count, n, p) > 0.05 {
+            low = p;
+        } else {
+            high = p;
+        }
+    }
+    high
+}
+
+/// P(X ≤ count) of a binomial X of n trials with probability p.
+fn at_most(count: u64, n: u64, p: f64) -> f64 {
+    if p >= 1.0 {
+        return 0.0;
+    }
+    let (ln_p, ln_q) = (crate::math::ln(p), crate::math::ln(1.0 - p));
+    // ln of C(n, k) grows by ln((n − k) / (k + 1)) from one k to the next.
+    let mut ln_choose = 0.0;
+    let mut sum = 0.0;
+    for k in 0..=count {
+        let (k, n) = (k as f64, n as f64);
+        sum += crate::math::exp(ln_choose + k * ln_p + (n - k) * ln_q);
+        ln_choose += crate::math::ln((n - k) / (k + 1.0));
+    }
+    sum
+}
+
+/// What a number of episodes came to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Summary {
+    /// How many episodes.
+    pub episodes: u64,
+    /// Their ticks in all.
+    pub ticks: u64,
+    /// The return of an episode.
+    pub total: Mean,
+    /// For each event, how often it fired in all, and how often in 1000 ticks of an episode.
+    pub events: Vec<(u64, Mean)>,
+    /// How many episodes each line of `end on` ended.
+    pub ended: Vec<u64>,
+    /// How many the tick limit cut.
+    pub cut: u64,
+    /// Ticks outside the care set, in all.
+    pub outside: u64,
+}
+
+impl Summary {
+    /// Of episodes of a task with so many lines of `end on`.
+    pub fn of(episodes: &[Episode], ends: usize) -> Self {
+        let totals: Vec<f64> = episodes.iter().map(|episode| episode.total).collect();
+        let events = episodes.first().map_or(0, |episode| episode.events.len());
+        let count = |event: usize, episode: &Episode| {
+            episode.events.get(event).copied().unwrap_or(0)
+        };
+        Self {
+            episodes: episodes.len() as u64,
+            ticks: episodes.iter().map(|episode| episode.ticks).sum(),
+            total: Mean::of(&totals),
+            events: (0..events)
+                .map(|event| {
+                    let rates: Vec<f64> = episodes
+                        .iter()
+                        .map(|e| 1000.0 * count(event, e) as f64 / e.ticks.max(1) as f64)
+                        .collect();
+                    let all = episodes.iter().map(|e| count(event, e)).sum();
+                    (all, Mean::of(&rates))
+                })
+                .collect(),
+            ended: (0..ends)
+                .map(|line| {
+                    let hit = |e: &&Episode| e.end == End::On(line);
+                    episodes.iter().filter(hit).count() as u64
+                })
+                .collect(),
+            cut: episodes.iter().filter(|e| e.end == End::Cut).count() as u64,
+            outside: episodes.iter().map(|episode| episode.outside).sum(),
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! From a checked program to a world that runs.
+
+use super::atoms::Atoms;
+use super::body::Surroundings;
+use super::error::BuildError;
+use super::motion::Motion;
+use super::programs::Programs;
+use super::scene::Scene;
+use super::sensing::Probe;
+use super::simulation::{Simulation, Start};
+use crate::eval::{Layout, Random, Registers};
+use crate::ir::task::{self, StartLine, Task};
+use crate::ir::tree::Atom;
+use crate::ir::world::{Point, Shape};
+use crate::ir::{Id, Program};
+use std::f64::consts::PI;
+
+/// A program's world, compiled for one task.
+#[derive(Clone, Debug)]
+pub struct Simulator {
+    pub(super) around: Surroundings,
+    pub(super) motion: Motion,
+    pub(super) programs: Programs,
+    pub(super) atoms: Atoms,
+    pub(super) history: task::History,
+    pub(super) radius: f64,
+    pub(super) tick: f64,
+    /// A free position, for when no other is found.
+    pub(super) free: Point,
+    pub(super) layout: Layout,
+    /// The registers as an episode finds them, up to the first that no episode changes.
+    pub(super) registers: Registers,
+    pub(super) states: Vec<(u16, f64)>,
+    pub(super) events: usize,
+}
+
+/// How many random positions are tried before the arena counts as full.
+const TRIES: u32 = 20_000;
+
+impl Simulator {
+    /// Compiles the world of a program for a task.
+    ///
+    /// `starts` are the lists of start lines that episodes will use; [`Start::lines`] says which. The atoms that a
+    /// simulation keeps are those of [`Program::atoms`], from bit 0, then those of `extra` that are not among them.
+    ///
+    /// # Errors
+    /// If there is no world, something that is used is declared only, the robot does not fit, or the program is too
+    /// large.
+    pub fn build(
+        program: &Program,
+        task: Id<Task>,
+        starts: &[&[StartLine]],
+        extra: &[Atom],
+    ) -> Result<Self, BuildError> {
+        let world = program.world.as_ref().ok_or(BuildError::NoWorld)?;
+        if matches!(world.arena, Shape::Polyline(_)) {
+            return Err(BuildError::OpenArena);
+        }
+        if world.robot.sensors.len() > 64 {
+            return Err(BuildError::TooManySensors(world.robot.sensors.len()));
+        }
+        let atoms = Atoms::new(program, task, extra)?;
+        let task = &program.tasks[task];
+        for &id in &task.choose {
+            let behavior = &program.behaviors[id];
+            if behavior.law.is_none() {
+                return Err(BuildError::Declared(behavior.name.clone()));
+            }
+        }
+        let scene = Scene::new(world);
+        let radius = world.robot.radius;
+        let mut random = Random::new(0, 0, 0);
+        let free = find_free(&scene, radius, &mut random, TRIES).ok_or(BuildError::NoFreeArea)?;
+        let mut layout = Layout::new(program)?;
+        let programs =
+            Programs::compile(program, task, starts, &atoms, scene.is_open(), &mut layout)?;
+        let states = program
+            .states
+            .iter()
+            .map(|(id, state)| {
+                let initial = program.pool.constant(state.initial).unwrap_or_default();
+                (layout.state(id), initial)
+            })
+            .collect();
+        let simulator = Self {
+            around: Surroundings {
+                probes: world.robot.sensors.values().map(Probe::new).collect(),
+                places: world.places.values().map(|p| p.shape.clone()).collect(),
+                scene,
+            },
+            motion: Motion::new(&world.robot, world.tick),
+            programs,
+            atoms,
+            history: task.history,
+            radius,
+            tick: world.tick,
+            free,
+            registers: layout.registers(),
+            layout,
+            states,
+            events: program.events.len(),
+        };
+        // Lines that never give a free pose are found here, not in the middle of learning.
+        let mut trial = simulator.simulation();
+        for lines in 0..starts.len() {
+            let start = Start {
+                lines,
+                ..Start::default()
+            };
+            if !trial.start(start) {
+                return Err(BuildError::StartBlocked(lines));
+            }
+        }
+        Ok(simulator)
+    }
+
+    /// A simulation; it can run any number of episodes, one after the other.
+    pub fn simulation(&self) -> Simulation<'_> {
+        Simulation::new(self)
+    }
+
+    /// What each bit of [`Simulation::atoms`] means.
+    pub fn atoms(&self) -> &[Atom] {
+        &self.atoms.list
+    }
+
+    /// The bits of [`Simulation::key`].
+    pub fn observed(&self) -> u128 {
+        self.atoms.observed
+    }
+
+    /// A free position, uniformly drawn.
+    pub(super) fn anywhere(&self, random: &mut Random) -> Point {
+        find_free(&self.around.scene, self.radius, random, 100 * TRIES).unwrap_or(self.free)
+    }
+}
+
+/// A free position, uniform over the free part of the arena, by rejection.
+fn find_free(scene: &Scene, radius: f64, random: &mut Random, tries: u32) -> Option<Point> {
+    let (min, max) = scene.bounds();
+    (0..tries)
+        .map(|_| {
+            [
+                random.uniform(min[0], max[0]),
+                random.uniform(min[1], max[1]),
+            ]
+        })
+        .find(|&p| scene.is_free(p, radius))
+}
+
+/// Any heading.
+pub(super) fn any_heading(random: &mut Random) -> f64 {
+    random.uniform(-PI, PI)
+}

@@ -1,0 +1,50 @@
+//! Why a world cannot be simulated.
+
+use crate::eval::TooLarge;
+use std::fmt;
+
+/// Why a world cannot be simulated.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum BuildError {
+    /// The program has no world.
+    NoWorld,
+    /// This predicate or behaviour is declared only.
+    Declared(String),
+    /// The program does not fit the machine.
+    TooLarge,
+    /// The task has this many atoms; a minterm holds 128.
+    TooManyAtoms(usize),
+    /// The robot has this many sensors; 64 are possible.
+    TooManySensors(usize),
+    /// The arena is a chain of lines, which encloses nothing.
+    OpenArena,
+    /// The robot fits nowhere, or nearly nowhere.
+    NoFreeArea,
+    /// The robot does not fit where this list of start lines, counted from zero, puts it.
+    StartBlocked(usize),
+}
+
+impl fmt::Display for BuildError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoWorld => f.write_str("there is no world to run in"),
+            Self::Declared(name) => write!(f, "`{name}` is declared only, so it cannot be run"),
+            Self::TooLarge => TooLarge.fmt(f),
+            Self::TooManyAtoms(n) => write!(f, "a minterm holds 128 atoms, the task has {n}"),
+            Self::TooManySensors(n) => {
+                write!(f, "a robot has at most 64 sensors, this one has {n}")
+            }
+            Self::OpenArena => f.write_str("the arena is not an area"),
+            Self::NoFreeArea => f.write_str("the robot fits nowhere in the arena"),
+            Self::StartBlocked(_) => f.write_str("the robot does not fit where it is to start"),
+        }
+    }
+}
+
+impl std::error::Error for BuildError {}
+
+impl From<TooLarge> for BuildError {
+    fn from(TooLarge: TooLarge) -> Self {
+        Self::TooLarge
+    }
+}

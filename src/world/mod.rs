@@ -1,0 +1,34 @@
+//! The world: geometry, kinematics, sensors, and what one tick does.
+//!
+//! A [`Simulator`] is a program's world compiled for one task; it is shared between threads. A [`Simulation`] is one
+//! run of it: [`Simulation::start`] begins an episode, and each tick is [`Simulation::begin_tick`],
+//! [`Simulation::act`], [`Simulation::end_tick`], so that a tree or a learner can sit on top without the world knowing
+//! either. [`Simulation::run_option`] ticks one behaviour until a decision is due.
+//!
+//! Lengths are in metres, angles in radians counter-clockwise from the x axis, times in seconds.
+
+mod atoms;
+mod body;
+mod build;
+mod circle;
+mod error;
+mod history;
+mod motion;
+mod option;
+mod pose;
+mod programs;
+mod scene;
+mod segment;
+mod sensing;
+mod shape;
+mod simulation;
+
+pub use build::Simulator;
+pub use circle::Circle;
+pub use error::BuildError;
+pub use motion::{Command, Motion};
+pub use option::Transition;
+pub use pose::Pose;
+pub use scene::Scene;
+pub use segment::Segment;
+pub use simulation::{End, Outcome, Simulation, Start};

@@ -1,0 +1,291 @@
+//! Everything that stands in the way: the walls and the arena's boundary, as segments and circles.
+
+use super::circle::Circle;
+use super::segment::{Segment, along, dot, limit, minus};
+use super::shape;
+use crate::ir::world::{Point, Shape, World};
+
+/// A world's obstacles, for a robot that is inside the arena and outside the walls.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    arena: Arena,
+    /// The arena's shape, for what is asked rarely.
+    shape: Shape,
+    /// The arena's boundary, where it is straight.
+    boundary: Vec<Segment>,
+    /// The walls' outlines.
+    segments: Vec<Segment>,
+    /// The round walls.
+    circles: Vec<Circle>,
+    /// The walls that have an inside.
+    solids: Vec<Shape>,
+    /// The parts of each wall.
+    walls: Vec<(Vec<Segment>, Option<Circle>)>,
+    /// Whether the arena's boundary can come between two points of the arena.
+    convex: bool,
+}
+
+/// The arena as the inner loop tests it.
+#[derive(Clone, Copy, Debug)]
+enum Arena {
+    Rect(Point, Point),
+    Disc(Circle),
+    /// Anything else: by its boundary.
+    Polygon,
+}
+
+/// `u` turned by the angle whose cosine and sine `v` is.
+#[inline(always)]
+pub(super) fn turned(u: Point, v: Point) -> Point {
+    [u[0] * v[0] - u[1] * v[1], u[0] * v[1] + u[1] * v[0]]
+}
+
+/// The sector of a scanner: one or two parts of at most half a turn, each from a direction on the right to one on the
+/// left, as unit vectors relative to the heading.
+pub(super) type Sector = Vec<(Point, Point)>;
+
+impl Scene {
+    /// The obstacles of a world.
+    pub fn new(world: &World) -> Self {
+        let walls: Vec<_> = world
+            .walls
+            .values()
+            .map(|wall| (shape::outline(&wall.shape), shape::rim(&wall.shape)))
+            .collect();
+        Self {
+            arena: match world.arena {
+                Shape::Rect { min, max } => Arena::Rect(min, max),
+                Shape::Disc { center, radius } => Arena::Disc(Circle { center, radius }),
+                _ => Arena::Polygon,
+            },
+            shape: world.arena.clone(),
+            boundary: shape::outline(&world.arena),
+            segments: walls.iter().flat_map(|(s, _)| s).copied().collect(),
+            circles: walls.iter().filter_map(|(_, c)| *c).collect(),
+            solids: world
+                .walls
+                .values()
+                .filter(|wall| !matches!(wall.shape, Shape::Polyline(_)))
+                .map(|wall| wall.shape.clone())
+                .collect(),
+            walls,
+            convex: shape::is_convex(&world.arena),
+        }
+    }
+
+    /// Whether every point of the arena sees every other: nothing can come between them.
+    pub fn is_open(&self) -> bool {
+        self.convex && self.segments.is_empty() && self.circles.is_empty()
+    }
+
+    /// Whether no wall meets the segment between two points of the arena.
+    #[inline]
+    pub fn sees(&self, p: Point, q: Point) -> bool {
+        !self.segments.iter().any(|segment| segment.meets(p, q))
+            && !self.circles.iter().any(|circle| circle.meets(p, q))
+            && (self.convex || !self.boundary.iter().any(|segment| segment.meets(p, q)))
+    }
+
+    /// The vector from `p` to the nearest point of a wall or of the arena's boundary.
+    #[inline]
+    pub fn nearest(&self, p: Point) -> Point {
+        let mut best = Best::default();
+        match self.arena {
+            Arena::Rect(min, max) => {
+                let x = nearer(min[0] - p[0], max[0] - p[0]);
+                let y = nearer(min[1] - p[1], max[1] - p[1]);
+                best.offer(if y.abs() < x.abs() {
+                    [0.0, y]
+                } else {
+                    [x, 0.0]
+                });
+            }
+            Arena::Disc(circle) => best.offer(circle.nearest(p)),
+            Arena::Polygon => {
+                for segment in &self.boundary {
+                    best.offer(segment.nearest(p));
+                }
+            }
+        }
+        for segment in &self.segments {
+            best.offer(segment.nearest(p));
+        }
+        for circle in &self.circles {
+            best.offer(circle.nearest(p));
+        }
+        best.vector
+    }
+
+    /// The vector from `p` to the nearest point of one wall, and whether no other wall comes between.
+    pub fn nearest_of(&self, wall: usize, p: Point) -> (Point, bool) {
+        let mut best = Best::default();
+        if let Some((segments, circle)) = self.walls.get(wall) {
+            for segment in segments {
+                best.offer(segment.nearest(p));
+            }
+            if let Some(circle) = circle {
+                best.offer(circle.nearest(p));
+            }
+        }
+        let q = along(p, 1.0, best.vector);
+        let others = self.walls.iter().enumerate().filter(|&(i, _)| i != wall);
+        let hidden = others.clone().any(|(_, (segments, circle))| {
+            segments.iter().any(|segment| segment.meets(p, q))
+                || circle.is_some_and(|circle| circle.meets(p, q))
+        });
+        let outside = !self.convex && self.boundary.iter().any(|segment| segment.meets(p, q));
+        (best.vector, !hidden && !outside)
+    }
+
+    /// The vector from `p` to the nearest point of a wall or of the arena's boundary within a sector relative to the
+    /// heading, whose cosine and sine are given, and nearer than `range`.
+    #[inline]
+    pub fn scan(
+        &self,
+        p: Point,
+        heading: Point,
+        sector: &[(Point, Point)],
+        range: f64,
+    ) -> Option<Point> {
+        let mut best = Best::within(range);
+        for &(right, left) in sector {
+            let right = turned(heading, right);
+            let left = turned(heading, left);
+            for segment in self.boundary.iter().chain(&self.segments) {
+                // A segment that is too far as a whole need not be clipped.
+                let whole = segment.nearest(p);
+                if dot(whole, whole) < best.square
+                    && let Some(vector) = segment.nearest_within(p, right, left)
+                {
+                    best.offer(vector);
+                }
+            }
+            let arena = match &self.arena {
+                Arena::Disc(circle) => Some(circle),
+                _ => None,
+            };
+            for circle in arena.into_iter().chain(&self.circles) {
+                if let Some(vector) = circle.nearest_within(p, right, left) {
+                    best.offer(vector);
+                }
+            }
+        }
+        (best.square < range * range).then_some(best.vector)
+    }
+
+    /// How far a ray from `p` in the direction of the unit vector `u` goes before it meets a wall or the arena's
+    /// boundary.
+    #[inline]
+    pub fn ray(&self, p: Point, u: Point) -> f64 {
+        let mut best = match self.arena {
+            Arena::Disc(circle) => circle.ray(p, u),
+            _ => f64::INFINITY,
+        };
+        for segment in self.boundary.iter().chain(&self.segments) {
+            let s = segment.ray(p, u);
+            best = if s < best { s } else { best };
+        }
+        for circle in &self.circles {
+            let s = circle.ray(p, u);
+            best = if s < best { s } else { best };
+        }
+        best
+    }
+
+    /// Whether a disc of this radius can go from `p` to `p + step` without touching anything, `p` being free.
+    pub fn is_free_along(&self, p: Point, step: Point, radius: f64) -> bool {
+        let q = along(p, 1.0, step);
+        let square = radius * radius;
+        let arena = match self.arena {
+            // A convex arena: it is enough that the end is free.
+            Arena::Rect(min, max) => (0..2).all(|i| match (q.get(i), min.get(i), max.get(i)) {
+                (Some(q), Some(min), Some(max)) => *q >= min + radius && *q <= max - radius,
+                _ => false,
+            }),
+            Arena::Disc(circle) => {
+                let from = minus(q, circle.center);
+                let reach = circle.radius - radius;
+                reach >= 0.0 && dot(from, from) <= reach * reach
+            }
+            Arena::Polygon => self
+                .boundary
+                .iter()
+                .all(|segment| segment.gap_square(p, step) >= square),
+        };
+        arena
+            && self
+                .segments
+                .iter()
+                .all(|segment| segment.gap_square(p, step) >= square)
+            && self.circles.iter().all(|circle| {
+                let reach = circle.radius + radius;
+                circle.center_gap_square(p, step) >= reach * reach
+            })
+    }
+
+    /// Whether a disc of this radius at `p` is inside the arena and touches nothing.
+    pub fn is_free(&self, p: Point, radius: f64) -> bool {
+        p.iter().all(|c| c.is_finite())
+            && shape::contains(&self.shape, p)
+            && !self.solids.iter().any(|solid| shape::contains(solid, p))
+            && self.is_free_along(p, [0.0; 2], radius)
+    }
+
+    /// The corners of a rectangle around the arena.
+    pub fn bounds(&self) -> (Point, Point) {
+        shape::bounds(&self.shape)
+    }
+
+    /// `p` pulled back into a round arena, so that a disc of this radius touches its boundary from inside; `p` where
+    /// the arena is not round.
+    pub(super) fn pulled_in(&self, p: Point, radius: f64) -> Point {
+        match self.arena {
+            Arena::Disc(circle) => {
+                let from = minus(p, circle.center);
+                let reach = (circle.radius - radius) * (1.0 - 1e-12);
+                let scale = limit(reach / dot(from, from).sqrt(), 0.0, 1.0);
+                along(circle.center, scale, from)
+            }
+            _ => p,
+        }
+    }
+}
+
+/// The one of less magnitude.
+#[inline(always)]
+fn nearer(a: f64, b: f64) -> f64 {
+    if b.abs() < a.abs() { b } else { a }
+}
+
+/// The shortest of several vectors.
+#[derive(Clone, Copy, Debug)]
+struct Best {
+    square: f64,
+    vector: Point,
+}
+
+impl Default for Best {
+    fn default() -> Self {
+        Self {
+            square: f64::INFINITY,
+            vector: [f64::INFINITY, 0.0],
+        }
+    }
+}
+
+impl Best {
+    fn within(range: f64) -> Self {
+        Self {
+            square: range * range,
+            ..Self::default()
+        }
+    }
+
+    #[inline(always)]
+    fn offer(&mut self, vector: Point) {
+        let square = dot(vector, vector);
+        if square < self.square {
+            *self = Self { square, vector };
+        }
+    }
+}

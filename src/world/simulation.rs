@@ -1,0 +1,425 @@
+//! One episode after the other, tick by tick.
+
+use super::body::Body;
+use super::build::{Simulator, any_heading};
+use super::history::History;
+use super::motion::Command;
+use super::pose::Pose;
+use super::programs::{NOT_QUIET, Step};
+use crate::eval::{Fixed, Random, Registers, run};
+use crate::ir::Id;
+use crate::ir::law::Behavior;
+use crate::ir::program::{Event, State};
+use crate::ir::tree::Status;
+
+/// How an episode starts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Start {
+    /// The seed; with the stream and the number of the episode it decides everything random.
+    pub seed: u64,
+    /// What the episodes are for, such as learning or evaluation, so that they differ.
+    pub stream: u64,
+    /// The number of the episode.
+    pub episode: u64,
+    /// Which of the lists of start lines.
+    pub lines: usize,
+    /// After how many ticks the episode is cut.
+    pub limit: u64,
+}
+
+impl Default for Start {
+    fn default() -> Self {
+        Self {
+            seed: 0,
+            stream: 0,
+            episode: 0,
+            lines: 0,
+            limit: u64::MAX,
+        }
+    }
+}
+
+/// Why an episode ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// This line of the task's `end on`, counted from zero.
+    On(usize),
+    /// The limit of ticks.
+    Cut,
+}
+
+/// What a tick led to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outcome {
+    /// Whether the minterm changed.
+    pub changed: bool,
+    /// Whether a behaviour terminated; see [`Simulation::terminations`].
+    pub terminated: bool,
+    /// Whether a rewarded event fired.
+    pub closed: bool,
+    /// The value of the first line of `reward` whose event fired, of `otherwise` if none did.
+    pub reward: f64,
+    /// Whether the episode ended.
+    pub end: Option<End>,
+}
+
+/// A running instance of a behaviour.
+#[derive(Clone, Copy, Debug, Default)]
+struct Instance {
+    /// The last tick in which ticking it would resume it; later, it starts.
+    until: u64,
+    /// The tick in which it started.
+    since: u64,
+}
+
+/// A run of a world. Nothing is allocated between episodes or ticks.
+#[derive(Clone, Debug)]
+pub struct Simulation<'a> {
+    simulator: &'a Simulator,
+    registers: Registers,
+    body: Body<'a>,
+    history: History,
+    instances: Vec<Instance>,
+    terminations: Vec<(Id<Behavior>, Status)>,
+    counts: Vec<u64>,
+    atoms: u128,
+    slack: f64,
+    /// The number of the tick, from 1; 0 before the first.
+    now: u64,
+    limit: u64,
+}
+
+/// How often the start lines are run until the robot is free where they put it.
+const TRIES: u32 = 10_000;
+
+impl<'a> Simulation<'a> {
+    pub(super) fn new(simulator: &'a Simulator) -> Self {
+        let behaviors = simulator.programs.routines.len();
+        Self {
+            simulator,
+            registers: simulator.registers.clone(),
+            body: Body::new(&simulator.around, simulator.events),
+            history: History::new(simulator.history),
+            instances: vec![Instance::default(); behaviors],
+            terminations: Vec::with_capacity(2 * behaviors),
+            counts: vec![0; simulator.events],
+            atoms: 0,
+            slack: 0.0,
+            now: 0,
+            limit: u64::MAX,
+        }
+    }
+
+    /// Starts an episode. What it does depends on `start` and on nothing that happened before.
+    ///
+    /// The lines are run again until the robot is free where they put it; false if that never happens, and it is put
+    /// anywhere instead.
+    pub fn start(&mut self, start: Start) -> bool {
+        self.body.random = Random::new(start.seed, start.stream, start.episode);
+        self.clear_tick();
+        self.counts.fill(0);
+        self.instances.fill(Instance::default());
+        self.now = 0;
+        self.limit = start.limit;
+        self.slack = 0.0;
+        let mut free = false;
+        for _ in 0..TRIES {
+            self.run_start(start.lines);
+            if self
+                .simulator
+                .around
+                .scene
+                .is_free(self.body.pose.position, self.simulator.radius)
+            {
+                free = true;
+                break;
+            }
+        }
+        if !free {
+            self.place_anywhere();
+        }
+        self.body.atoms = self.history.bits;
+        run(
+            &self.simulator.programs.predicates,
+            &mut self.registers,
+            &mut self.body,
+        );
+        self.atoms = self.body.atoms;
+        free
+    }
+
+    fn run_start(&mut self, lines: usize) {
+        for &(register, value) in &self.simulator.states {
+            self.registers.set(register, value);
+        }
+        self.registers.set(Fixed::Touching.register(), 0.0);
+        self.history.clear();
+        self.body.tick();
+        let Some(steps) = self.simulator.programs.starts.get(lines) else {
+            self.place_anywhere();
+            return;
+        };
+        for step in steps {
+            match step {
+                Step::Anywhere => self.place_anywhere(),
+                Step::Set(code) => {
+                    run(code, &mut self.registers, &mut self.body);
+                }
+                Step::Place(code) => {
+                    run(code, &mut self.registers, &mut self.body);
+                    let read = |fixed: Fixed| self.registers.get(fixed.register());
+                    let heading = Some(read(Fixed::Heading)).filter(|h| h.is_finite());
+                    let pose = Pose::new(
+                        [read(Fixed::X), read(Fixed::Y)],
+                        heading.unwrap_or_default(),
+                    );
+                    self.place(pose);
+                }
+                Step::Remember(code) => {
+                    run(code, &mut self.registers, &mut self.body);
+                    let code = self.registers.get(Fixed::History.register());
+                    self.history.clear();
+                    if code >= 0.0 {
+                        let code = code as usize;
+                        let status = if code % 2 == 0 {
+                            Status::Success
+                        } else {
+                            Status::Failure
+                        };
+                        self.history
+                            .record(Id::new(code / 2), status, &self.simulator.atoms);
+                    }
+                }
+            }
+        }
+    }
+
+    fn place_anywhere(&mut self) {
+        let position = self.simulator.anywhere(&mut self.body.random);
+        let heading = any_heading(&mut self.body.random);
+        self.place(Pose::new(position, heading));
+    }
+
+    /// Puts the robot somewhere.
+    fn place(&mut self, pose: Pose) {
+        self.body.pose = pose;
+        self.slack = 0.0;
+        self.tell_pose();
+    }
+
+    #[inline]
+    fn tell_pose(&mut self) {
+        let pose = &self.body.pose;
+        self.registers.set(Fixed::X.register(), pose.position[0]);
+        self.registers.set(Fixed::Y.register(), pose.position[1]);
+        self.registers.set(Fixed::Heading.register(), pose.heading);
+        self.body.moved();
+    }
+
+    /// Forgets what the last tick's behaviours and events said.
+    fn clear_tick(&mut self) {
+        let layout = &self.simulator.layout;
+        for &(behavior, status) in &self.terminations {
+            if let Some(register) = layout.ended(behavior, status) {
+                self.registers.set(register, 0.0);
+            }
+        }
+        self.terminations.clear();
+        for &event in &self.body.fired {
+            self.registers.set(layout.event(Id::new(event.into())), 0.0);
+        }
+        self.body.fired.clear();
+    }
+
+    /// Begins a tick: its `each tick` effects (step 2). The atoms stay those of the tick before.
+    #[inline]
+    pub fn begin_tick(&mut self) {
+        if !self.terminations.is_empty() || !self.body.fired.is_empty() {
+            self.clear_tick();
+        }
+        self.now += 1;
+        for fixed in [Fixed::Speed, Fixed::Strafe, Fixed::Turn] {
+            self.registers.set(fixed.register(), 0.0);
+        }
+        self.body.tick();
+        run(
+            &self.simulator.programs.each_tick,
+            &mut self.registers,
+            &mut self.body,
+        );
+    }
+
+    /// Ticks a behaviour (step 3). The robot moves at the end of the tick, so all that is ticked in one tick sees the
+    /// same world; at most one may drive.
+    ///
+    /// A behaviour that was running in this tick or the tick before resumes; any other starts, with its variables
+    /// set anew. A termination ends the instance. A behaviour without a law fails.
+    #[inline]
+    pub fn act(&mut self, behavior: Id<Behavior>) -> Status {
+        let (Some(routine), Some(instance)) = (
+            self.simulator.programs.routines.get(behavior.index()),
+            self.instances.get_mut(behavior.index()),
+        ) else {
+            return Status::Failure;
+        };
+        let starts = self.now > instance.until;
+        if starts {
+            instance.since = self.now;
+        }
+        instance.until = self.now + 1;
+        if routine.timed {
+            let elapsed = (self.now - instance.since) as f64 * self.simulator.tick;
+            self.registers.set(Fixed::Elapsed.register(), elapsed);
+        }
+        if starts {
+            run(&routine.begin, &mut self.registers, &mut self.body);
+        }
+        let status = match run(&routine.tick, &mut self.registers, &mut self.body) {
+            0 => Status::Success,
+            1 => Status::Failure,
+            _ => return Status::Running,
+        };
+        self.terminate(behavior, status);
+        status
+    }
+
+    #[cold]
+    fn terminate(&mut self, behavior: Id<Behavior>, status: Status) {
+        if let Some(instance) = self.instances.get_mut(behavior.index()) {
+            instance.until = 0;
+        }
+        if let Some(register) = self.simulator.layout.ended(behavior, status) {
+            self.registers.set(register, 1.0);
+        }
+        self.terminations.push((behavior, status));
+    }
+
+    /// Ends a tick: the robot moves, then history, events, effects, predicates, end and reward (steps 4 to 8).
+    ///
+    /// Events, rewards and `end on` read the state before effects.
+    #[inline]
+    pub fn end_tick(&mut self) -> Outcome {
+        self.go();
+        let quiet = self.terminations.is_empty();
+        for &(behavior, status) in &self.terminations {
+            self.history.record(behavior, status, &self.simulator.atoms);
+        }
+        let programs = &self.simulator.programs;
+        self.body.atoms = self.history.bits;
+        let mut outcome = Outcome {
+            changed: false,
+            terminated: !quiet,
+            closed: false,
+            reward: 0.0,
+            end: None,
+        };
+        if quiet && run(&programs.quiet, &mut self.registers, &mut self.body) != NOT_QUIET {
+            outcome.reward = match programs.otherwise {
+                Some(value) => value,
+                None => self.registers.get(Fixed::Reward.register()),
+            };
+        } else {
+            self.end_in_full(&mut outcome);
+        }
+        outcome.changed = (self.atoms ^ self.body.atoms) & self.simulator.atoms.observed != 0;
+        self.atoms = self.body.atoms;
+        if outcome.end.is_none() && self.now >= self.limit {
+            outcome.end = Some(End::Cut);
+        }
+        outcome
+    }
+
+    #[cold]
+    fn end_in_full(&mut self, outcome: &mut Outcome) {
+        self.body.atoms = self.history.bits;
+        run(
+            &self.simulator.programs.full,
+            &mut self.registers,
+            &mut self.body,
+        );
+        outcome.closed = self.registers.get(Fixed::Closed.register()) != 0.0;
+        outcome.reward = self.registers.get(Fixed::Reward.register());
+        let line = self.registers.get(Fixed::End.register()) as usize;
+        outcome.end = line.checked_sub(1).map(End::On);
+        for &event in &self.body.fired {
+            if let Some(count) = self.counts.get_mut(usize::from(event)) {
+                *count += 1;
+            }
+        }
+    }
+
+    /// Moves the robot as it was told.
+    #[inline]
+    fn go(&mut self) {
+        let read = |fixed: Fixed| self.registers.get(fixed.register());
+        let command = Command {
+            speed: read(Fixed::Speed),
+            strafe: read(Fixed::Strafe),
+            turn: read(Fixed::Turn),
+        };
+        let touching = self.simulator.motion.step(
+            &self.simulator.around.scene,
+            command,
+            &mut self.body.random,
+            &mut self.body.pose,
+            &mut self.slack,
+        );
+        self.registers
+            .set(Fixed::Touching.register(), f64::from(u8::from(touching)));
+        if command != Command::default() {
+            self.tell_pose();
+        }
+    }
+
+    /// The minterm: a bit for each atom of the task, see [`Simulator::atoms`].
+    #[inline]
+    pub fn key(&self) -> u128 {
+        self.atoms & self.simulator.atoms.observed
+    }
+
+    /// Every atom, those asked for in addition included, as the last tick left them.
+    #[inline]
+    pub fn atoms(&self) -> u128 {
+        self.atoms
+    }
+
+    /// The history window, the newest termination first.
+    pub fn window(&self) -> &[(Id<Behavior>, Status)] {
+        self.history.entries()
+    }
+
+    /// The terminations of this tick, in order.
+    pub fn terminations(&self) -> &[(Id<Behavior>, Status)] {
+        &self.terminations
+    }
+
+    /// The events of the last tick, in order of declaration.
+    pub fn fired(&self) -> impl Iterator<Item = Id<Event>> + '_ {
+        self.body.fired.iter().map(|&event| Id::new(event.into()))
+    }
+
+    /// How often each event has happened in this episode.
+    pub fn counts(&self) -> &[u64] {
+        &self.counts
+    }
+
+    /// How many ticks of the episode have begun.
+    pub fn ticks(&self) -> u64 {
+        self.now
+    }
+
+    /// Where the robot is.
+    pub fn pose(&self) -> Pose {
+        self.body.pose
+    }
+
+    /// The value of a state variable.
+    pub fn state(&self, id: Id<State>) -> f64 {
+        self.registers.get(self.simulator.layout.state(id))
+    }
+
+    /// Whether the last commanded motion was blocked.
+    pub fn is_touching(&self) -> bool {
+        self.registers.get(Fixed::Touching.register()) != 0.0
+    }
+}
