@@ -5,7 +5,9 @@
 
 pub mod diagnostic;
 pub mod ir;
+pub mod logic;
 pub mod math;
 pub mod policy;
 pub mod source;
 pub mod syntax;
+pub mod tree;
