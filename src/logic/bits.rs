@@ -92,7 +92,9 @@ impl Bits {
 
     /// How many numbers the two have in common.
     pub fn count_both(&self, other: &Self) -> usize {
-        self.zip(other).map(|(a, b)| (a & b).count_ones() as usize).sum()
+        self.zip(other)
+            .map(|(a, b)| (a & b).count_ones() as usize)
+            .sum()
     }
 
     /// The numbers of both.

@@ -17,7 +17,10 @@ impl Columns {
         let mut columns = vec![Bits::empty(count); atoms];
         for (r, row) in rows.enumerate() {
             for (a, column) in columns.iter_mut().enumerate() {
-                if row.get(a / 64).is_some_and(|word| word >> (a % 64) & 1 == 1) {
+                if row
+                    .get(a / 64)
+                    .is_some_and(|word| word >> (a % 64) & 1 == 1)
+                {
                     column.insert(r);
                 }
             }

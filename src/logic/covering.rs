@@ -24,7 +24,11 @@ pub fn greedy(rows: &Bits, choices: &[Choice]) -> Vec<usize> {
             .enumerate()
             .map(|(i, choice)| (choice.covers.count_both(&left), i, choice))
             .max_by_key(|(gain, i, choice)| {
-                (*gain, std::cmp::Reverse(choice.weight), std::cmp::Reverse(*i))
+                (
+                    *gain,
+                    std::cmp::Reverse(choice.weight),
+                    std::cmp::Reverse(*i),
+                )
             });
         match best {
             Some((gain, i, choice)) if gain > 0 => {

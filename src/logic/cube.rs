@@ -38,7 +38,12 @@ impl Cube {
     #[must_use]
     pub fn without(&self, literal: Literal) -> Self {
         Self {
-            literals: self.literals.iter().copied().filter(|l| *l != literal).collect(),
+            literals: self
+                .literals
+                .iter()
+                .copied()
+                .filter(|l| *l != literal)
+                .collect(),
         }
     }
 }

@@ -64,13 +64,17 @@ impl Irreducible {
                 "what follows is reached only when this behaviour succeeds, in the same tick"
             }
             Reason::Parallel => "`parallel` ticks several children at a time",
-            Reason::Counting(Decorator::Timeout(_)) => "`timeout` counts ticks, which no predicate tells",
+            Reason::Counting(Decorator::Timeout(_)) => {
+                "`timeout` counts ticks, which no predicate tells"
+            }
             Reason::Counting(_) => "the decorator counts, which no predicate tells",
             Reason::Passed(_) => "no predicate tells that a memory node has passed a condition",
             Reason::Twice(_) => {
                 "the behaviour ends two children of a memory node, and the history does not tell which"
             }
-            Reason::Failure => "the history does not tell that a selector of several behaviours has failed",
+            Reason::Failure => {
+                "the history does not tell that a selector of several behaviours has failed"
+            }
         }
     }
 }

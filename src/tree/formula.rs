@@ -57,12 +57,10 @@ pub fn literal(literal: Literal, atoms: &[Atom]) -> Guard {
 
 /// A cover over these atoms.
 pub fn cover(cover: &Cover, atoms: &[Atom]) -> Guard {
-    let cubes = cover.cubes().iter().map(|cube| {
-        and(cube
-            .literals()
-            .iter()
-            .map(|l| literal(*l, atoms)))
-    });
+    let cubes = cover
+        .cubes()
+        .iter()
+        .map(|cube| and(cube.literals().iter().map(|l| literal(*l, atoms))));
     let mut cubes: Vec<Guard> = cubes.collect();
     match cubes.len() {
         0 => Guard::Const(false),

@@ -2,6 +2,7 @@
 
 pub mod atoms;
 pub mod canonicalise;
+pub mod decanonicalise;
 
 pub mod equivalence;
 pub mod formula;
@@ -10,7 +11,7 @@ pub mod prove;
 pub mod size;
 pub mod tick;
 
-
+pub use decanonicalise::decanonicalise;
 pub use equivalence::compare;
 pub use size::Size;
 pub use tick::Runner;

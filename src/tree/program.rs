@@ -124,7 +124,10 @@ impl Program {
             Guard::Or(guards) => {
                 // a or b is not (not a and not b).
                 let (literals, rest) = split(guards);
-                let negated: Vec<_> = literals.iter().map(|(atom, value)| (*atom, !value)).collect();
+                let negated: Vec<_> = literals
+                    .iter()
+                    .map(|(atom, value)| (*atom, !value))
+                    .collect();
                 let mut next = no;
                 for guard in rest.into_iter().rev() {
                     next = self.guard(guard, atoms, yes, next)?;

@@ -73,10 +73,16 @@ impl Size {
             (Guard::Const(_), _) => return Self::leaf(0),
             (Guard::Atom(_), _) => return Self::leaf(1),
             (Guard::Not(guard), _) => return Self::guard(guard, !negated, under),
-            (Guard::And(guards), false) | (Guard::Or(guards), true) => (Composite::Sequence, guards),
-            (Guard::Or(guards), false) | (Guard::And(guards), true) => (Composite::Selector, guards),
+            (Guard::And(guards), false) | (Guard::Or(guards), true) => {
+                (Composite::Sequence, guards)
+            }
+            (Guard::Or(guards), false) | (Guard::And(guards), true) => {
+                (Composite::Selector, guards)
+            }
         };
-        let parts = guards.iter().map(|guard| Self::guard(guard, negated, Some(joins)));
+        let parts = guards
+            .iter()
+            .map(|guard| Self::guard(guard, negated, Some(joins)));
         if under == Some(joins) {
             Self::beside(parts)
         } else {

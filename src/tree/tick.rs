@@ -43,11 +43,7 @@ impl Runner {
     /// One tick in a valuation, atom 0 in the lowest bit of the first word; `leaf` ticks a behaviour.
     ///
     /// The behaviour that the tree selects is the first for which `leaf` is called.
-    pub fn tick(
-        &mut self,
-        valuation: &[u64],
-        leaf: impl FnMut(Id<Behavior>) -> Status,
-    ) -> Status {
+    pub fn tick(&mut self, valuation: &[u64], leaf: impl FnMut(Id<Behavior>) -> Status) -> Status {
         struct Known<'a, F>(&'a [u64], F);
         impl<F: FnMut(Id<Behavior>) -> Status> Surroundings for Known<'_, F> {
             fn matches(&mut self, word: usize, mask: u64, value: u64) -> bool {

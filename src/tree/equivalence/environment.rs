@@ -119,7 +119,11 @@ impl<'a> World<'a> {
     }
 
     /// The minterm in which a tick finds the environment, where it has minterms; and where it stands then.
-    pub(super) fn find(&self, place: &Place, oracle: &mut Oracle) -> Option<(Option<usize>, Place)> {
+    pub(super) fn find(
+        &self,
+        place: &Place,
+        oracle: &mut Oracle,
+    ) -> Option<(Option<usize>, Place)> {
         match (self.environment, place) {
             (_, Place::At(minterm)) => Some((Some(*minterm), place.clone())),
             (Environment::Greedy(_), _) => {
@@ -147,7 +151,9 @@ impl<'a> World<'a> {
 
     fn pick(&self, among: &[usize], oracle: &mut Oracle) -> Option<usize> {
         let length = among.len();
-        (length > 0).then(|| oracle.choose(length)).and_then(|i| among.get(i).copied())
+        (length > 0)
+            .then(|| oracle.choose(length))
+            .and_then(|i| among.get(i).copied())
     }
 
     /// What the selected behaviour may come to.
@@ -251,7 +257,11 @@ impl<'a> World<'a> {
         if kinds.len() > 1 {
             for _ in 0..self.history().window {
                 // The first answer leaves the rest of the window empty.
-                match oracle.choose(kinds.len() + 1).checked_sub(1).and_then(|k| kinds.get(k)) {
+                match oracle
+                    .choose(kinds.len() + 1)
+                    .checked_sub(1)
+                    .and_then(|k| kinds.get(k))
+                {
                     Some(kind) => window.push(*kind),
                     None => break,
                 }
@@ -263,9 +273,10 @@ impl<'a> World<'a> {
     /// Whether the history atoms of a minterm are those of a window.
     fn shows(&self, window: &[Option<(Id<Behavior>, Status)>], minterm: usize) -> bool {
         self.minterms.get(minterm).is_some_and(|minterm| {
-            self.atoms.iter().zip(minterm.values()).all(|(atom, value)| {
-                !self.remembers(*atom) || in_window(window, *atom) == value
-            })
+            self.atoms
+                .iter()
+                .zip(minterm.values())
+                .all(|(atom, value)| !self.remembers(*atom) || in_window(window, *atom) == value)
         })
     }
 }

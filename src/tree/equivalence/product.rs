@@ -29,7 +29,11 @@ struct Reached {
     from: Option<(usize, Step)>,
 }
 
-pub(super) fn explore(left: Side, right: Side, environment: Environment) -> Result<Verdict, Unknown> {
+pub(super) fn explore(
+    left: Side,
+    right: Side,
+    environment: Environment,
+) -> Result<Verdict, Unknown> {
     let mut asked = BTreeSet::new();
     for side in [left, right] {
         match side {
@@ -40,9 +44,8 @@ pub(super) fn explore(left: Side, right: Side, environment: Environment) -> Resu
     let asked: Vec<Atom> = asked.into_iter().collect();
     // A table decides on its own minterms only.
     let environment = match (environment, left, right) {
-        (Environment::Any(_), Side::Policy(policy), _) | (Environment::Any(_), _, Side::Policy(policy)) => {
-            Environment::Observed(policy)
-        }
+        (Environment::Any(_), Side::Policy(policy), _)
+        | (Environment::Any(_), _, Side::Policy(policy)) => Environment::Observed(policy),
         (environment, ..) => environment,
     };
     let world = World::new(environment, &asked);
@@ -51,7 +54,7 @@ pub(super) fn explore(left: Side, right: Side, environment: Environment) -> Resu
         Player::new(right, &world, &asked)?,
     ];
     let [left, right] = &mut sides;
-    Ok(Search::new(&world, left).run(left, right))
+    Ok(Search::new(&world).run(left, right))
 }
 
 /// A side that can be ticked.
@@ -97,7 +100,7 @@ struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    fn new(world: &'a World<'a>, _left: &Player) -> Self {
+    fn new(world: &'a World<'a>) -> Self {
         Self {
             world,
             reached: Vec::new(),
@@ -195,7 +198,11 @@ impl<'a> Search<'a> {
         }
         self.transitions.extend(outcome.transition);
         if outcome.status == Status::Failure && outcome.transition.is_some() {
-            let next = self.explored.after_failure.entry(valuation.clone()).or_default();
+            let next = self
+                .explored
+                .after_failure
+                .entry(valuation.clone())
+                .or_default();
             next.insert(then.first().copied());
         }
         if let Some(place) = outcome.next {
@@ -249,7 +256,8 @@ struct Scene<'a> {
     oracle: &'a mut Oracle,
     /// What the side that is being ticked has selected.
     first: Option<Id<Behavior>>,
-    outcome: Option<(Option<Id<Behavior>>, Status, Option<Place>, Option<usize>, bool)>,
+    /// What happens in this tick, with the behaviour that it happens to.
+    outcome: Option<(Option<Id<Behavior>>, Outcome)>,
     /// What it has ticked after that.
     then: Vec<Id<Behavior>>,
 }
@@ -274,19 +282,11 @@ impl Scene<'_> {
 
     /// The outcome of what was selected, chosen once a tick.
     fn outcome(&mut self, selected: Option<Option<Id<Behavior>>>) -> Outcome {
-        let behavior = selected.flatten();
-        let (_, status, next, transition, open) = match self.outcome.take() {
-            Some(outcome) => outcome,
-            None => {
-                let outcome = self.world.outcome(self.place, behavior, self.oracle);
-                (behavior, outcome.status, outcome.next, outcome.transition, outcome.open)
-            }
-        };
-        Outcome {
-            status,
-            next,
-            transition,
-            open,
+        match self.outcome.take() {
+            Some((_, outcome)) => outcome,
+            None => self
+                .world
+                .outcome(self.place, selected.flatten(), self.oracle),
         }
     }
 
@@ -307,7 +307,9 @@ impl Scene<'_> {
     /// The value of an atom if the window tells it.
     fn in_history(&self, atom: Atom) -> Option<bool> {
         match (atom, self.place) {
-            (Atom::Done(_) | Atom::Failed(_), Place::Window(window)) => Some(in_window(window, atom)),
+            (Atom::Done(_) | Atom::Failed(_), Place::Window(window)) => {
+                Some(in_window(window, atom))
+            }
             (Atom::Done(_) | Atom::Failed(_), _) => Some(false),
             (Atom::Predicate(_), _) => None,
         }
@@ -315,7 +317,12 @@ impl Scene<'_> {
 
     /// The value of an atom that has no minterm to tell it.
     fn ask(&mut self, bit: usize) -> bool {
-        if let Some(value) = self.world.atoms.get(bit).and_then(|atom| self.in_history(*atom)) {
+        if let Some(value) = self
+            .world
+            .atoms
+            .get(bit)
+            .and_then(|atom| self.in_history(*atom))
+        {
             return value;
         }
         let (word, mask) = (bit / 64, 1u64 << (bit % 64));
@@ -351,23 +358,15 @@ impl Surroundings for Scene<'_> {
             return any_status(self.oracle);
         }
         self.first = Some(behavior);
-        if let Some((selected, status, ..)) = &self.outcome
+        if let Some((selected, outcome)) = &self.outcome
             && *selected == Some(behavior)
         {
-            return *status;
+            return outcome.status;
         }
         // The first side decides what happens; another choice of the second parts them, whatever it comes to.
         let outcome = self.world.outcome(self.place, Some(behavior), self.oracle);
         let status = outcome.status;
-        if self.outcome.is_none() {
-            self.outcome = Some((
-                Some(behavior),
-                status,
-                outcome.next,
-                outcome.transition,
-                outcome.open,
-            ));
-        }
+        self.outcome.get_or_insert((Some(behavior), outcome));
         status
     }
 }
