@@ -149,7 +149,7 @@ impl Pair {
     }
 
     /// X where both have any guard in common: that of the union, which always exists.
-    pub(super) fn joined(&self, subunits: &[Subunit]) -> Option<Subunit> {
+    pub(super) fn joined(&self, _: &Problem, subunits: &[Subunit]) -> Option<Subunit> {
         let (first, second) = self.of(subunits)?;
         Some(self.memory(
             first,
