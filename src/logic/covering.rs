@@ -1,0 +1,151 @@
+//! Set covering: the cheapest choice of columns that covers every row.
+
+use super::bits::Bits;
+
+/// Something that can be chosen.
+#[derive(Clone, Debug)]
+pub struct Choice {
+    /// What it covers.
+    pub covers: Bits,
+    /// What it costs, after the number of choices.
+    pub weight: usize,
+}
+
+/// Number of choices, then their weights.
+type Cost = (usize, usize);
+
+/// A cover by greedy choice, made irredundant: most rows first, then least weight, then order.
+pub fn greedy(rows: &Bits, choices: &[Choice]) -> Vec<usize> {
+    let mut left = rows.clone();
+    let mut chosen = Vec::new();
+    while !left.is_empty() {
+        let best = choices
+            .iter()
+            .enumerate()
+            .map(|(i, choice)| (choice.covers.count_both(&left), i, choice))
+            .max_by_key(|(gain, i, choice)| {
+                (
+                    *gain,
+                    std::cmp::Reverse(choice.weight),
+                    std::cmp::Reverse(*i),
+                )
+            });
+        match best {
+            Some((gain, i, choice)) if gain > 0 => {
+                left = left.minus(&choice.covers);
+                chosen.push(i);
+            }
+            _ => break,
+        }
+    }
+    irredundant(rows, choices, chosen)
+}
+
+/// Drops choices that the others make superfluous, heavy ones first.
+fn irredundant(rows: &Bits, choices: &[Choice], mut chosen: Vec<usize>) -> Vec<usize> {
+    let weight = |i: &usize| choices.get(*i).map_or(0, |choice| choice.weight);
+    let mut by_weight = chosen.clone();
+    by_weight.sort_by_key(|i| std::cmp::Reverse((weight(i), *i)));
+    for i in by_weight {
+        let covered = chosen
+            .iter()
+            .filter(|other| **other != i)
+            .filter_map(|other| choices.get(*other))
+            .fold(Bits::empty(rows.bound()), |covered, choice| {
+                covered.or(&choice.covers)
+            });
+        if rows.is_subset(&covered) {
+            chosen.retain(|other| *other != i);
+        }
+    }
+    chosen
+}
+
+/// The cheapest cover, found by branch and bound from the greedy one; within `budget` steps it is exact.
+pub fn cheapest(rows: &Bits, choices: &[Choice], budget: usize) -> Vec<usize> {
+    let best = greedy(rows, choices);
+    let mut search = Search {
+        choices,
+        cost: cost(choices, &best),
+        best,
+        budget,
+    };
+    search.branch(rows, &mut Vec::new(), (0, 0));
+    search.best.sort_unstable();
+    search.best
+}
+
+fn cost(choices: &[Choice], chosen: &[usize]) -> Cost {
+    let weights = chosen.iter().filter_map(|i| choices.get(*i));
+    (chosen.len(), weights.map(|choice| choice.weight).sum())
+}
+
+struct Search<'a> {
+    choices: &'a [Choice],
+    best: Vec<usize>,
+    cost: Cost,
+    budget: usize,
+}
+
+impl Search<'_> {
+    fn branch(&mut self, left: &Bits, chosen: &mut Vec<usize>, spent: Cost) {
+        if left.is_empty() {
+            if spent < self.cost {
+                self.cost = spent;
+                self.best.clone_from(chosen);
+            }
+            return;
+        }
+        if self.budget == 0 {
+            return;
+        }
+        self.budget -= 1;
+        let (hardest, bound) = self.bound(left);
+        if (spent.0 + bound.0, spent.1 + bound.1) >= self.cost {
+            return;
+        }
+        let choices = self.choices;
+        let mut through: Vec<(usize, &Choice, usize)> = choices
+            .iter()
+            .enumerate()
+            .filter(|(_, choice)| choice.covers.contains(hardest))
+            .map(|(i, choice)| (i, choice, choice.covers.count_both(left)))
+            .collect();
+        through.sort_by_key(|(i, choice, gain)| (std::cmp::Reverse(*gain), choice.weight, *i));
+        for (i, choice, _) in through {
+            chosen.push(i);
+            self.branch(
+                &left.minus(&choice.covers),
+                chosen,
+                (spent.0 + 1, spent.1 + choice.weight),
+            );
+            chosen.pop();
+        }
+    }
+
+    /// The row with the fewest choices, and what rows without a choice in common cost at least.
+    fn bound(&self, left: &Bits) -> (usize, Cost) {
+        let mut rows: Vec<(usize, usize)> = left
+            .iter()
+            .map(|row| {
+                let through = self.choices.iter().filter(|c| c.covers.contains(row));
+                (through.count(), row)
+            })
+            .collect();
+        rows.sort_unstable();
+        let mut open = left.clone();
+        let mut bound = (0, 0);
+        for (_, row) in &rows {
+            if !open.contains(*row) {
+                continue;
+            }
+            let mut lightest = usize::MAX;
+            for choice in self.choices.iter().filter(|c| c.covers.contains(*row)) {
+                lightest = lightest.min(choice.weight);
+                open = open.minus(&choice.covers);
+            }
+            bound = (bound.0 + 1, bound.1 + lightest);
+        }
+        (rows.first().map_or(0, |(_, row)| *row), bound)
+    }
+}

@@ -1,0 +1,140 @@
+//! Policies to trees (paper, section VII).
+
+mod paper;
+mod problem;
+mod search;
+mod subunit;
+
+use super::Size;
+use super::prove::{Proof, Refuted, prove};
+use crate::ir::Id;
+use crate::ir::law::Behavior;
+use crate::ir::tree::{Node, Status};
+use crate::policy::{Minterm, Policy};
+use problem::Problem;
+use std::collections::BTreeSet;
+
+/// How the tree is found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Method {
+    /// Algorithm 1.
+    Paper,
+    /// From what Algorithm 1 finds, the smallest tree that a search of fixed effort comes to.
+    #[default]
+    Search,
+}
+
+/// In which minterms the tree has to take the policy's decision; the others are free.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Care {
+    /// In all that were seen (the paper).
+    #[default]
+    Seen,
+    /// In those that the greedy policy reached.
+    Reachable,
+}
+
+/// A tree that takes the decisions of a policy.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Decanonicalised {
+    /// The tree.
+    pub root: Node,
+    /// What was proved of it.
+    pub proof: Proof,
+    /// Its size.
+    pub size: Size,
+    /// The size of the tree that Algorithm 1 finds.
+    pub paper_size: Size,
+    /// Where a greedy transition shows the policy's decision failing, sorted by minterm.
+    pub failing: Vec<Failing>,
+}
+
+/// A decision that was seen to fail. There the tree may go on to another behaviour in the same tick.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Failing {
+    /// Where.
+    pub minterm: Minterm,
+    /// What fails.
+    pub behavior: Id<Behavior>,
+    /// How often it did.
+    pub count: u64,
+    /// In how many of these the minterm stayed as it was, so that the policy repeats the decision.
+    pub repeated: u64,
+    /// What the tree may tick next in the same tick; `None` is nothing.
+    pub then: Vec<Option<Id<Behavior>>>,
+}
+
+/// A tree that takes the decisions of the policy, proved.
+///
+/// # Errors
+/// The policy has no rows, or the tree that was found is refuted: with the counterexample.
+pub fn decanonicalise(
+    policy: &Policy,
+    method: Method,
+    care: Care,
+) -> Result<Decanonicalised, Refuted> {
+    let policy = &cared(policy, care);
+    let problem = Problem::new(policy);
+    let paper = paper::tree(&problem);
+    let root = match method {
+        Method::Paper => paper.clone(),
+        Method::Search => search::tree(&problem, &paper),
+    };
+    let proof = prove(&root, policy)?;
+    Ok(Decanonicalised {
+        size: Size::of(&root),
+        paper_size: Size::of(&paper),
+        failing: failing(policy, &proof),
+        root,
+        proof,
+    })
+}
+
+/// The policy on its care set.
+fn cared(policy: &Policy, care: Care) -> Policy {
+    let mut policy = policy.clone();
+    if care == Care::Reachable && !policy.transitions.is_empty() {
+        let starts = policy.starts.iter().map(|(minterm, _)| minterm);
+        let transitions = policy.transitions.iter();
+        let reached: BTreeSet<Minterm> = starts
+            .chain(transitions.flat_map(|t| std::iter::once(&t.from).chain(&t.to)))
+            .cloned()
+            .collect();
+        policy.rows.retain(|row| reached.contains(&row.minterm));
+    }
+    policy
+}
+
+fn failing(policy: &Policy, proof: &Proof) -> Vec<Failing> {
+    let mut found: Vec<Failing> = Vec::new();
+    for t in &policy.transitions {
+        if t.status != Status::Failure || policy.choice(&t.from) != Some(t.behavior) {
+            continue;
+        }
+        let repeated = if t.to.as_ref() == Some(&t.from) {
+            t.count
+        } else {
+            0
+        };
+        match found.iter_mut().find(|f| f.minterm == t.from) {
+            Some(same) => {
+                same.count += t.count;
+                same.repeated += repeated;
+            }
+            None => found.push(Failing {
+                minterm: t.from.clone(),
+                behavior: t.behavior,
+                count: t.count,
+                repeated,
+                then: proof
+                    .explored
+                    .after_failure
+                    .get(&t.from)
+                    .map(|next| next.iter().copied().collect())
+                    .unwrap_or_default(),
+            }),
+        }
+    }
+    found.sort_by(|a, b| a.minterm.cmp(&b.minterm));
+    found
+}

@@ -1,0 +1,89 @@
+//! When two sides take the same decisions: the product automaton of their memories and the environment.
+
+mod environment;
+mod oracle;
+mod product;
+
+pub use environment::Environment;
+
+use crate::ir::Id;
+use crate::ir::law::Behavior;
+use crate::ir::tree::{Atom, Node, Status};
+use crate::policy::{Minterm, Policy};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// What is compared.
+#[derive(Clone, Copy, Debug)]
+pub enum Side<'a> {
+    /// A tree, from fresh memory.
+    Tree(&'a Node),
+    /// A table. Where it has no row it may do anything.
+    Policy(&'a Policy),
+}
+
+/// What comes of a comparison.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// The two select the same in every tick.
+    Equal(Explored),
+    /// They part.
+    Differ(Trace),
+    /// There was too much to explore; nothing was found up to here.
+    Undecided(Explored),
+}
+
+/// What was explored.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Explored {
+    /// States of both memories and the environment.
+    pub states: usize,
+    /// Ticks that were tried.
+    pub ticks: usize,
+    /// Minterms that were reached; 0 where the environment has none of its own.
+    pub minterms: usize,
+    /// Recorded transitions that were taken.
+    pub transitions: usize,
+    /// Places where the paths go on but the environment says nothing: a selected behaviour without a record, or a
+    /// minterm without a row. With none, what was explored is closed.
+    pub open: usize,
+    /// What the left side ticks in the same tick after the behaviour that it selected has failed, by minterm.
+    pub after_failure: BTreeMap<Minterm, BTreeSet<Option<Id<Behavior>>>>,
+}
+
+/// A shortest way to a tick in which the sides select differently.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Trace {
+    /// What the bits of the valuations mean.
+    pub atoms: Vec<Atom>,
+    /// The ticks in which they still agree.
+    pub steps: Vec<Step>,
+    /// The valuation in which they part.
+    pub valuation: Minterm,
+    /// What the left side selects in it.
+    pub left: Option<Id<Behavior>>,
+    /// What the right side selects in it.
+    pub right: Option<Id<Behavior>>,
+}
+
+/// A tick of a trace.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Step {
+    /// What held.
+    pub valuation: Minterm,
+    /// What both sides selected.
+    pub behavior: Option<Id<Behavior>>,
+    /// What it answered; running where nothing was selected.
+    pub status: Status,
+}
+
+/// A guard asks what the environment does not tell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Unknown(pub Atom);
+
+/// Runs both sides in lockstep over every sequence of valuations and statuses that the environment allows.
+///
+/// # Errors
+/// An atom that a tree asks and the environment's table does not have.
+pub fn compare(left: Side, right: Side, environment: Environment) -> Result<Verdict, Unknown> {
+    product::explore(left, right, environment)
+}

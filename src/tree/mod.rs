@@ -1,0 +1,17 @@
+//! Behaviour trees: how they tick, how large they are, to canonical form and back, and when two of them are equal.
+
+pub mod atoms;
+pub mod canonicalise;
+pub mod decanonicalise;
+
+pub mod equivalence;
+pub mod formula;
+pub mod program;
+pub mod prove;
+pub mod size;
+pub mod tick;
+
+pub use decanonicalise::decanonicalise;
+pub use equivalence::compare;
+pub use size::Size;
+pub use tick::Runner;

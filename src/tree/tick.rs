@@ -1,0 +1,274 @@
+//! Ticks.
+//!
+//! Each tick starts at the root. Selectors and sequences try their children from the left; those with memory resume at
+//! the child that they had come to. What a tick does not reach starts over: the memory that a tick leaves is written
+//! only by the nodes that it reached.
+
+use super::program::{Jump, Op, Placed, Program};
+use crate::ir::Id;
+use crate::ir::law::Behavior;
+use crate::ir::tree::{Atom, Composite, Decorator, Node, Status};
+
+/// What a ticked tree asks and does.
+pub trait Surroundings {
+    /// Whether the bits of `mask` in this word of the valuation are those of `value`.
+    fn matches(&mut self, word: usize, mask: u64, value: u64) -> bool;
+    /// Ticks a behaviour.
+    fn behavior(&mut self, behavior: Id<Behavior>) -> Status;
+}
+
+/// A tree with its memory.
+#[derive(Clone, Debug)]
+pub struct Runner {
+    program: Program,
+    now: Vec<u64>,
+    next: Vec<u64>,
+}
+
+impl Runner {
+    /// A tree with fresh memory. Bit i of the valuations that it is ticked with is the value of `atoms[i]`.
+    ///
+    /// # Errors
+    /// An atom that a guard asks and that is not among `atoms`.
+    pub fn new(root: &Node, atoms: &[Atom]) -> Result<Self, Atom> {
+        let program = Program::new(root, atoms)?;
+        let memory = vec![0; program.slots];
+        Ok(Self {
+            program,
+            now: memory.clone(),
+            next: memory,
+        })
+    }
+
+    /// One tick in a valuation, atom 0 in the lowest bit of the first word; `leaf` ticks a behaviour.
+    ///
+    /// The behaviour that the tree selects is the first for which `leaf` is called.
+    pub fn tick(&mut self, valuation: &[u64], leaf: impl FnMut(Id<Behavior>) -> Status) -> Status {
+        struct Known<'a, F>(&'a [u64], F);
+        impl<F: FnMut(Id<Behavior>) -> Status> Surroundings for Known<'_, F> {
+            fn matches(&mut self, word: usize, mask: u64, value: u64) -> bool {
+                self.0.get(word).copied().unwrap_or(0) & mask == value
+            }
+            fn behavior(&mut self, behavior: Id<Behavior>) -> Status {
+                (self.1)(behavior)
+            }
+        }
+        self.tick_in(&mut Known(valuation, leaf))
+    }
+
+    /// One tick.
+    pub fn tick_in(&mut self, surroundings: &mut impl Surroundings) -> Status {
+        self.next.fill(0);
+        let mut tick = Tick {
+            program: &self.program,
+            now: &self.now,
+            next: &mut self.next,
+            ticked: 0,
+            surroundings,
+        };
+        let status = tick.node(0);
+        std::mem::swap(&mut self.now, &mut self.next);
+        status
+    }
+
+    /// The memory of all nodes; zeros when fresh.
+    pub fn memory(&self) -> &[u64] {
+        &self.now
+    }
+
+    /// Sets the memory to one that [`Runner::memory`] gave.
+    pub fn resume(&mut self, memory: &[u64]) {
+        self.now.clear();
+        self.now.extend_from_slice(memory);
+    }
+
+    /// Halts everything.
+    pub fn reset(&mut self) {
+        self.now.fill(0);
+    }
+}
+
+struct Tick<'a, S> {
+    program: &'a Program,
+    now: &'a [u64],
+    next: &'a mut [u64],
+    /// How many behaviours this tick has ticked.
+    ticked: u32,
+    surroundings: &'a mut S,
+}
+
+impl<S: Surroundings> Tick<'_, S> {
+    fn node(&mut self, at: usize) -> Status {
+        let Some(&placed) = self.program.nodes.get(at) else {
+            return Status::Failure;
+        };
+        match placed.op {
+            Op::Condition(test) => answer(self.condition(test)),
+            Op::Behavior(behavior) => {
+                self.ticked += 1;
+                self.surroundings.behavior(behavior)
+            }
+            Op::Composite {
+                kind,
+                memory: false,
+            } => self.reactive(at, placed, kind),
+            Op::Composite { kind, memory: true } => self.resuming(at, placed, kind),
+            Op::Parallel {
+                successes,
+                children,
+            } => self.parallel(at, placed, successes, children),
+            Op::Decorator(kind) => self.decorator(at, placed, kind),
+        }
+    }
+
+    fn condition(&mut self, mut at: Jump) -> bool {
+        loop {
+            match at {
+                Jump::Answer(value) => return value,
+                Jump::Test(index) => {
+                    let Some(test) = self.program.tests.get(index) else {
+                        return false;
+                    };
+                    let holds = self.surroundings.matches(test.word, test.mask, test.value);
+                    at = if holds { test.yes } else { test.no };
+                }
+            }
+        }
+    }
+
+    fn reactive(&mut self, at: usize, placed: Placed, kind: Composite) -> Status {
+        let goes_on = goes_on(kind);
+        let mut child = at + 1;
+        while child < placed.end {
+            let status = self.node(child);
+            if status != goes_on {
+                return status;
+            }
+            child = self.after(child);
+        }
+        goes_on
+    }
+
+    /// The memory is the offset of the child to resume at, behind the node.
+    fn resuming(&mut self, at: usize, placed: Placed, kind: Composite) -> Status {
+        let goes_on = goes_on(kind);
+        let mut child = at + 1 + self.recall(placed) as usize;
+        while child < placed.end {
+            let before = self.ticked;
+            let status = self.node(child);
+            if status == Status::Running {
+                self.remember(placed, (child - at - 1) as u64);
+                return Status::Running;
+            }
+            if status != goes_on {
+                return status;
+            }
+            child = self.after(child);
+            // What is left of this node sees the termination before the next child is ticked. A child that ticked no
+            // behaviour has only answered, as a condition does.
+            if self.ticked != before && child < placed.end {
+                self.remember(placed, (child - at - 1) as u64);
+                return Status::Running;
+            }
+        }
+        goes_on
+    }
+
+    fn parallel(&mut self, at: usize, placed: Placed, successes: u32, children: u32) -> Status {
+        let (mut succeeded, mut failed) = (0, 0);
+        let mut child = at + 1;
+        while child < placed.end {
+            match self.node(child) {
+                Status::Success => succeeded += 1,
+                Status::Failure => failed += 1,
+                Status::Running => {}
+            }
+            child = self.after(child);
+        }
+        let status = if succeeded >= successes {
+            Status::Success
+        } else if children.saturating_sub(failed) < successes {
+            Status::Failure
+        } else {
+            return Status::Running;
+        };
+        // Children that were still running are halted.
+        self.forget(placed);
+        status
+    }
+
+    fn decorator(&mut self, at: usize, placed: Placed, kind: Decorator) -> Status {
+        let count = self.recall(placed);
+        if let Decorator::Timeout(ticks) = kind {
+            if count >= ticks {
+                return Status::Failure;
+            }
+            let status = self.node(at + 1);
+            if status == Status::Running {
+                self.remember(placed, count + 1);
+            }
+            return status;
+        }
+        let status = self.node(at + 1);
+        match (kind, status) {
+            (Decorator::Invert, Status::Success) | (Decorator::Fail, Status::Success) => {
+                Status::Failure
+            }
+            (Decorator::Invert, Status::Failure) | (Decorator::Succeed, Status::Failure) => {
+                Status::Success
+            }
+            (Decorator::Retry(times), Status::Failure) if count < u64::from(times) => {
+                self.remember(placed, count + 1);
+                Status::Running
+            }
+            (Decorator::Repeat(times), Status::Success) if count + 1 < u64::from(times) => {
+                self.remember(placed, count + 1);
+                Status::Running
+            }
+            (Decorator::Retry(_) | Decorator::Repeat(_), Status::Running) => {
+                self.remember(placed, count);
+                Status::Running
+            }
+            _ => status,
+        }
+    }
+
+    fn after(&self, child: usize) -> usize {
+        self.program
+            .nodes
+            .get(child)
+            .map_or(usize::MAX, |placed| placed.end)
+    }
+
+    fn recall(&self, placed: Placed) -> u64 {
+        self.now.get(placed.slots.0).copied().unwrap_or(0)
+    }
+
+    fn remember(&mut self, placed: Placed, value: u64) {
+        if let Some(slot) = self.next.get_mut(placed.slots.0) {
+            *slot = value;
+        }
+    }
+
+    fn forget(&mut self, placed: Placed) {
+        if let Some(slots) = self.next.get_mut(placed.slots.0..placed.slots.1) {
+            slots.fill(0);
+        }
+    }
+}
+
+fn answer(holds: bool) -> Status {
+    if holds {
+        Status::Success
+    } else {
+        Status::Failure
+    }
+}
+
+/// The status of a child that makes a composite go on to the next one.
+fn goes_on(kind: Composite) -> Status {
+    match kind {
+        Composite::Selector => Status::Failure,
+        Composite::Sequence => Status::Success,
+    }
+}

@@ -1,0 +1,189 @@
+//! Random policies with random transitions that are consistent with a history window.
+
+use btc::ir::Id;
+use btc::ir::law::Behavior;
+use btc::ir::task::History;
+use btc::ir::tree::{Atom, Status};
+use btc::policy::{Minterm, Policy, Row, Transition};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Marsaglia's xorshift, 64 bits.
+pub(crate) struct Random(u64);
+
+impl Random {
+    pub(crate) fn new(seed: u64) -> Self {
+        let mut random = Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1);
+        for _ in 0..8 {
+            random.next();
+        }
+        random
+    }
+
+    pub(crate) fn next(&mut self) -> u64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        self.0
+    }
+
+    pub(crate) fn below(&mut self, n: usize) -> usize {
+        (self.next() >> 11) as usize % n
+    }
+
+    pub(crate) fn chance(&mut self, percent: usize) -> bool {
+        self.below(100) < percent
+    }
+}
+
+type Window = Vec<(usize, Status)>;
+
+/// A rule of the planted policy: where these atoms have these values, this behaviour.
+type Rule = (Vec<(usize, bool)>, usize);
+
+/// A policy of up to 12 predicates: what a planted list of rules does in a world whose predicates change at random.
+pub(crate) fn policy(seed: u64) -> Policy {
+    let random = &mut Random::new(seed);
+    let predicates = random.below(if seed.is_multiple_of(7) { 13 } else { 6 });
+    let behaviors = 1 + random.below(6);
+    let history = History {
+        window: [0, 1, 1, 1, 1, 2][random.below(6)],
+        success: !random.chance(10),
+        failure: random.chance(35),
+    };
+    let mut atoms: Vec<Atom> = (0..predicates).map(|p| Atom::Predicate(Id::new(p))).collect();
+    if history.window > 0 && history.success {
+        atoms.extend((0..behaviors).map(|b| Atom::Done(Id::new(b))));
+    }
+    if history.window > 0 && history.failure {
+        atoms.extend((0..behaviors).map(|b| Atom::Failed(Id::new(b))));
+    }
+    let rules = rules(random, &atoms, predicates, behaviors);
+    let minterm = |values: &[bool], window: &Window| {
+        Minterm::new(atoms.iter().map(|atom| match atom {
+            Atom::Predicate(p) => values[p.index()],
+            Atom::Done(b) => window.contains(&(b.index(), Status::Success)),
+            Atom::Failed(b) => window.contains(&(b.index(), Status::Failure)),
+        }))
+    };
+    let choice = |m: &Minterm| {
+        let rule = rules.iter().find(|(c, _)| c.iter().all(|(a, v)| m.get(*a) == *v));
+        rule.map_or(0, |(_, b)| *b)
+    };
+    // Few valuations, so that paths meet again.
+    let pool: Vec<Vec<bool>> = (0..1 + random.below(10))
+        .map(|_| (0..predicates).map(|_| random.chance(50)).collect())
+        .collect();
+    let mut starts: BTreeMap<Minterm, u64> = BTreeMap::new();
+    let mut counts: BTreeMap<(Minterm, Id<Behavior>, Status, Option<Minterm>), u64> = BTreeMap::new();
+    let mut seen: BTreeSet<Minterm> = BTreeSet::new();
+    let never_fails: Vec<bool> = (0..behaviors).map(|_| random.chance(60)).collect();
+    for _ in 0..1 + random.below(8) {
+        let mut values = pool[random.below(pool.len())].clone();
+        let mut window = Window::new();
+        if random.chance(60) && history.window > 0 && history.success {
+            window.push((random.below(behaviors), Status::Success));
+        }
+        let mut m = minterm(&values, &window);
+        *starts.entry(m.clone()).or_default() += 1;
+        for step in 0..random.below(30) {
+            seen.insert(m.clone());
+            let does = choice(&m);
+            let status = match random.below(10) {
+                0..5 => Status::Success,
+                5..7 if !never_fails[does] => Status::Failure,
+                _ => Status::Running,
+            };
+            let kept = match status {
+                Status::Success => history.success,
+                Status::Failure => history.failure,
+                Status::Running => false,
+            };
+            if kept {
+                window.push((does, status));
+                let over = window.len().saturating_sub(history.window);
+                window.drain(..over);
+            }
+            if random.chance(60) {
+                values = pool[random.below(pool.len())].clone();
+            }
+            let next = minterm(&values, &window);
+            let to = (step != 28).then(|| next.clone());
+            *counts.entry((m, Id::new(does), status, to)).or_default() += 1;
+            m = next;
+        }
+        seen.insert(m);
+    }
+    // Some minterms that exploration has seen and the greedy policy does not reach.
+    for values in &pool {
+        if history.window == 0 || random.chance(50) {
+            seen.insert(minterm(values, &Window::new()));
+        }
+    }
+    Policy {
+        rows: seen
+            .into_iter()
+            .map(|m| Row {
+                behavior: Id::new(choice(&m)),
+                minterm: m,
+                visits: 1,
+                values: vec![None; behaviors],
+            })
+            .collect(),
+        starts: starts.into_iter().collect(),
+        transitions: counts
+            .into_iter()
+            .map(|((from, behavior, status, to), count)| Transition {
+                from,
+                behavior,
+                status,
+                to,
+                count,
+            })
+            .collect(),
+        atoms,
+        behaviors: (0..behaviors).map(Id::new).collect(),
+        history,
+    }
+}
+
+/// Rules over a few literals, and often a pair of behaviours that follow each other.
+fn rules(random: &mut Random, atoms: &[Atom], predicates: usize, behaviors: usize) -> Vec<Rule> {
+    let mut rules: Vec<Rule> = vec![];
+    let position = |atom: Atom| atoms.iter().position(|a| *a == atom);
+    if behaviors >= 2 && random.chance(75) {
+        let shared: Vec<(usize, bool)> = (0..predicates.min(1))
+            .map(|_| (random.below(predicates), random.chance(60)))
+            .collect();
+        let (i, j) = (random.below(behaviors), random.below(behaviors));
+        let k = random.below(behaviors);
+        let link = |from: usize, fails: bool| {
+            position(match fails {
+                true => Atom::Failed(Id::new(from)),
+                false => Atom::Done(Id::new(from)),
+            })
+        };
+        let fails = random.chance(30);
+        if random.chance(30)
+            && let Some(c) = link(j, fails)
+        {
+            rules.push(([shared.clone(), vec![(c, true)]].concat(), k));
+        }
+        if let Some(c) = link(i, fails) {
+            let mut second = shared.clone();
+            if predicates > 0 && random.chance(30) {
+                second = vec![(random.below(predicates), random.chance(50))];
+            }
+            second.push((c, true));
+            rules.push((second, j));
+        }
+        rules.push((shared, i));
+    }
+    for _ in 0..random.below(5) {
+        let guard = (0..1 + random.below(3))
+            .filter(|_| !atoms.is_empty())
+            .map(|_| (random.below(atoms.len()), random.chance(50)));
+        rules.push((guard.collect(), random.below(behaviors)));
+    }
+    rules.push((vec![], random.below(behaviors)));
+    rules
+}
