@@ -68,6 +68,7 @@ codes! {
     E0126 "a value by `if` needs an `else`",
     E0127 "the wrong mark before a value",
     E0128 "a parameter without a type",
+    E0130 "a file that is not text",
 
     E0201 "declared twice",
     E0202 "not declared",
@@ -76,6 +77,7 @@ codes! {
     E0205 "defined by itself",
     E0206 "used before it is declared",
     E0207 "declared only",
+    E0208 "a file that cannot be read",
 
     E0301 "units do not match",
     E0302 "types do not match",
@@ -98,10 +100,13 @@ codes! {
     E0406 "a sensor is missing",
     E0407 "a world is missing",
     E0408 "more than one robot that learns",
+    E0409 "a world that cannot be built",
 
     E0501 "unknown to a learner",
     E0502 "something of a task or a learner is missing",
     E0503 "said twice",
+    E0504 "nothing of that name in the program",
+    E0505 "nothing was learned",
 
     E0601 "a guard that is no predicate",
     E0602 "an empty composite",
@@ -111,6 +116,8 @@ codes! {
     E0606 "arguments of a node do not match",
     E0607 "the history is not kept",
     E0608 "a proof with terms",
+    E0609 "a tree that is not equal to its policy",
+    E0610 "a table that does not fit",
 
     E0701 "not built yet",
 

@@ -27,7 +27,7 @@ pub struct Episode {
     pub events: Vec<u64>,
     /// Why it ended.
     pub end: End,
-    /// Ticks that began in a minterm outside the care set.
+    /// Ticks of decisions that were taken in minterms never learned; counted in roll-outs.
     pub outside: u64,
 }
 
@@ -38,23 +38,17 @@ pub fn play(
     controller: &mut impl Controller,
     start: Start,
     patience: Option<u64>,
-    cared: &impl Fn(Key) -> bool,
 ) -> Episode {
     simulation.start(start);
     controller.reset();
     let patience = patience.unwrap_or(u64::MAX);
-    let (mut total, mut since, mut outside) = (0.0, 0, 0);
-    let mut inside = cared(simulation.key());
+    let (mut total, mut since) = (0.0, 0);
     loop {
-        outside += u64::from(!inside);
         simulation.begin_tick();
         controller.tick(simulation);
         let outcome = simulation.end_tick();
         since += 1;
         let due = outcome.terminated || outcome.changed || outcome.closed || since >= patience;
-        if outcome.changed {
-            inside = cared(simulation.key());
-        }
         if due || outcome.end.is_some() {
             total += outcome.reward;
             since = 0;
@@ -65,7 +59,7 @@ pub fn play(
                 total,
                 events: simulation.counts().to_vec(),
                 end,
-                outside,
+                outside: 0,
             };
         }
     }
@@ -76,14 +70,13 @@ pub fn play_all<'s, C: Controller>(
     episodes: u64,
     start: Start,
     patience: Option<u64>,
-    cared: &(impl Fn(Key) -> bool + Sync),
     make: impl Fn() -> (Simulation<'s>, C) + Sync + Send,
 ) -> Vec<Episode> {
     (0..episodes)
         .into_par_iter()
         .map_init(&make, |(simulation, controller), episode| {
             let start = Start { episode, ..start };
-            play(simulation, controller, start, patience, cared)
+            play(simulation, controller, start, patience)
         })
         .collect()
 }

@@ -16,6 +16,9 @@ pub trait Process {
     /// Carries a choice out until the next decision is due. `choice` counts the behaviours of the task, `dwell` is the
     /// number of ticks for which the choice is kept whatever changes.
     fn decide(&mut self, choice: usize, dwell: u64) -> Step;
+
+    /// How often each event of the program has fired in this episode.
+    fn events(&self) -> &[u64];
 }
 
 /// What a decision led to.
@@ -38,8 +41,8 @@ pub struct Step {
 pub enum End {
     /// It goes on.
     Not,
-    /// An event ended it: nothing follows.
-    Terminal,
+    /// This line of the task's `end on`, counted from zero, ended it: nothing follows.
+    Terminal(usize),
     /// The tick limit cut it: the value of what would follow still counts.
     Cut,
 }

@@ -66,7 +66,7 @@ pub fn learn(
             counts.decisions += 1;
             counts.ticks += step.ticks;
             let next = table.row(step.to);
-            let future = if step.end == End::Terminal {
+            let future = if matches!(step.end, End::Terminal(_)) {
                 0.0
             } else {
                 discount(settings, step.ticks) * table.best_value(next)

@@ -1,7 +1,9 @@
 //! The frozen greedy policy at work: where its episodes start, and what its decisions lead to.
 
+use super::episode::Episode;
 use super::process::{End, Key, Process};
 use crate::ir::tree::Status;
+use crate::world;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -9,12 +11,14 @@ use std::collections::BTreeMap;
 pub type Taken = (Key, usize, Status, Option<Key>);
 
 /// What the greedy policy met, with how often.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct RollOut {
     /// The minterms in which episodes started.
     pub starts: BTreeMap<Key, u64>,
     /// The decisions. One that the tick limit cut short is not among them: nothing is known of its outcome.
     pub taken: BTreeMap<Taken, u64>,
+    /// What the episodes came to, in their order.
+    pub episodes: Vec<Episode>,
 }
 
 impl RollOut {
@@ -25,6 +29,7 @@ impl RollOut {
         for (taken, count) in other.taken {
             *self.taken.entry(taken).or_default() += count;
         }
+        self.episodes.extend(other.episodes);
         self
     }
 }
@@ -32,39 +37,62 @@ impl RollOut {
 /// Episodes that one thread plays in a row; a fixed number, so that the work is cut alike on any number of threads.
 const CHUNK: u64 = 50;
 
-/// Plays episodes under `choice`, on all threads.
+/// Plays episodes on all threads. `choice` says what is done in a minterm, and whether it was seen in learning.
 pub fn roll_out<P: Process>(
     episodes: u64,
-    choice: &(impl Fn(Key) -> usize + Sync),
+    choice: &(impl Fn(Key) -> (usize, bool) + Sync),
     make: impl Fn() -> P + Sync,
 ) -> RollOut {
-    let chunks = episodes.div_ceil(CHUNK);
-    let parts: Vec<RollOut> = (0..chunks)
+    let chunks: Vec<RollOut> = (0..episodes.div_ceil(CHUNK))
         .into_par_iter()
         .map(|chunk| {
             let mut process = make();
-            let mut part = RollOut::default();
+            let mut met = RollOut::default();
             for episode in chunk * CHUNK..((chunk + 1) * CHUNK).min(episodes) {
                 process.start(episode);
-                let mut key = process.key();
-                *part.starts.entry(key).or_default() += 1;
-                loop {
-                    let chosen = choice(key);
-                    let step = process.decide(chosen, 0);
-                    let to = match step.end {
-                        End::Not => Some(step.to),
-                        End::Terminal => None,
-                        End::Cut => break,
-                    };
-                    *part.taken.entry((key, chosen, step.status, to)).or_default() += 1;
-                    match to {
-                        Some(next) => key = next,
-                        None => break,
-                    }
-                }
+                let played = play(&mut process, choice, &mut met);
+                met.episodes.push(played);
             }
-            part
+            met
         })
         .collect();
-    parts.into_iter().fold(RollOut::default(), RollOut::merge)
+    chunks.into_iter().fold(RollOut::default(), RollOut::merge)
+}
+
+/// Plays the episode that was started, and notes what it meets.
+fn play(
+    process: &mut impl Process,
+    choice: &impl Fn(Key) -> (usize, bool),
+    met: &mut RollOut,
+) -> Episode {
+    let mut key = process.key();
+    *met.starts.entry(key).or_default() += 1;
+    let (mut ticks, mut total, mut outside) = (0, 0.0, 0);
+    loop {
+        let (chosen, seen) = choice(key);
+        let step = process.decide(chosen, 0);
+        ticks += step.ticks;
+        total += step.reward;
+        if !seen {
+            outside += step.ticks;
+        }
+        let (to, end) = match step.end {
+            End::Not => (Some(step.to), None),
+            End::Terminal(line) => (None, Some(world::End::On(line))),
+            End::Cut => (None, Some(world::End::Cut)),
+        };
+        if step.end != End::Cut {
+            *met.taken.entry((key, chosen, step.status, to)).or_default() += 1;
+        }
+        if let Some(end) = end {
+            return Episode {
+                ticks,
+                total,
+                events: process.events().to_vec(),
+                end,
+                outside,
+            };
+        }
+        key = step.to;
+    }
 }

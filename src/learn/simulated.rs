@@ -26,18 +26,16 @@ pub struct Simulated<'a> {
     choices: &'a [Id<Behavior>],
     patience: Option<u64>,
     start: Start,
-    observed: Key,
 }
 
 impl<'a> Simulated<'a> {
-    /// The process of a task from these starts; only the bits of `observed` make a minterm.
-    pub fn new(simulation: Simulation<'a>, task: &'a Task, start: Start, observed: Key) -> Self {
+    /// The process of a task from these starts.
+    pub fn new(simulation: Simulation<'a>, task: &'a Task, start: Start) -> Self {
         Self {
             simulation,
             choices: &task.choose,
             patience: task.patience,
             start,
-            observed,
         }
     }
 }
@@ -51,7 +49,7 @@ impl Process for Simulated<'_> {
     }
 
     fn key(&self) -> Key {
-        self.simulation.key() & self.observed
+        self.simulation.key()
     }
 
     fn decide(&mut self, choice: usize, dwell: u64) -> Step {
@@ -68,15 +66,19 @@ impl Process for Simulated<'_> {
         };
         let transition = self.simulation.run_option(behavior, self.patience, dwell);
         Step {
-            to: transition.key & self.observed,
+            to: transition.key,
             status: transition.status,
             reward: transition.reward,
             ticks: transition.ticks,
             end: match transition.end {
                 None => process::End::Not,
-                Some(End::On(_)) => process::End::Terminal,
+                Some(End::On(line)) => process::End::Terminal(line),
                 Some(End::Cut) => process::End::Cut,
             },
         }
+    }
+
+    fn events(&self) -> &[u64] {
+        self.simulation.counts()
     }
 }

@@ -1,0 +1,55 @@
+//! `btc compile`
+
+use super::report::Reporter;
+use super::{Failure, files};
+use crate::driver::compile::{self, Form};
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub(super) struct Arguments {
+    /// The program; `-` is standard input.
+    file: String,
+    /// The form to write; without it, a summary.
+    #[arg(long, value_name = "FORM")]
+    emit: Option<Emit>,
+    /// The tree to write.
+    #[arg(long, value_name = "NAME", requires = "emit")]
+    tree: Option<String>,
+    /// The file to write to, in the place of standard output.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Emit {
+    /// The syntax tree.
+    Ast,
+    /// The checked program.
+    Ir,
+    /// The language, laid out.
+    Bt,
+    /// Graphviz.
+    Dot,
+    /// JSON.
+    Json,
+}
+
+pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {
+    let loaded = files::load(&arguments.file, say)?;
+    let text = match arguments.emit {
+        None => compile::summary(&loaded),
+        Some(emit) => {
+            let form = match emit {
+                Emit::Ast => Form::Ast,
+                Emit::Ir => Form::Ir,
+                Emit::Bt => Form::Bt,
+                Emit::Dot => Form::Dot,
+                Emit::Json => Form::Json,
+            };
+            compile::emit(&loaded, form, arguments.tree.as_deref())
+                .map_err(|mistake| say.one(&loaded.sources, mistake))?
+        }
+    };
+    files::put(arguments.output.as_deref(), &text)
+}

@@ -1,0 +1,94 @@
+//! `btc learn`
+
+use super::files::{self, STDIN};
+use super::progress::Progress;
+use super::report::Reporter;
+use super::Failure;
+use crate::driver::learn::{self, Options};
+use crate::driver::verify;
+use crate::tree::decanonicalise::Method;
+use clap::{Args, ValueEnum};
+use std::path::{Path, PathBuf};
+
+#[derive(Debug, Args)]
+pub(super) struct Arguments {
+    /// The program.
+    file: String,
+    /// The folder for the results; `<program>.learned` if not given.
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// The learner, if the program has several.
+    #[arg(long, value_name = "NAME")]
+    learner: Option<String>,
+    /// The seed, in the place of the program's.
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// The number of episodes, in the place of the program's.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    episodes: Option<u64>,
+    /// How the tree is found.
+    #[arg(long, value_name = "METHOD", default_value = "search")]
+    method: TreeMethod,
+    /// How many greedy episodes show the transitions of the policy.
+    #[arg(long, value_name = "N", default_value_t = 2000, value_parser = clap::value_parser!(u64).range(1..))]
+    roll_outs: u64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum TreeMethod {
+    /// Algorithm 1 of the paper.
+    Paper,
+    /// The smallest tree that a search finds from there.
+    Search,
+}
+
+pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {
+    if arguments.file == STDIN {
+        eprintln!("error: a program is learned from its file, so that the result can use it");
+        return Err(Failure::Usage);
+    }
+    let loaded = files::load(&arguments.file, say)?;
+    let folder = match &arguments.output {
+        Some(folder) => folder.clone(),
+        None => {
+            let name = Path::new(&arguments.file).file_stem().unwrap_or_default();
+            PathBuf::from(format!("{}.learned", name.to_string_lossy()))
+        }
+    };
+    std::fs::create_dir_all(&folder)
+        .map_err(|error| files::complain(&format!("{}: {error}", folder.display())))?;
+    let source = files::from_folder(&folder, Path::new(&arguments.file))?;
+    let options = Options {
+        learner: arguments.learner.as_deref(),
+        seed: arguments.seed,
+        episodes: arguments.episodes,
+        method: match arguments.method {
+            TreeMethod::Paper => Method::Paper,
+            TreeMethod::Search => Method::Search,
+        },
+        roll_outs: arguments.roll_outs,
+        source: &source,
+    };
+    let bar = Progress::new();
+    let learned = learn::learn(&loaded, &options, &|stage| bar.show(stage));
+    bar.finish();
+    let learned = learned.map_err(|mistake| say.one(&loaded.sources, mistake))?;
+    for (name, text) in &learned.files {
+        files::write(&folder.join(name), text)?;
+    }
+    files::print(&learned.tree)?;
+    for line in &learned.report {
+        eprintln!("{line}");
+    }
+    let claims = verify::claims_of_learned(&loaded, &learned)
+        .map_err(|mistake| say.one(&loaded.sources, mistake))?;
+    for claim in &claims {
+        eprintln!("{}", claim.text);
+    }
+    eprintln!("written to {}", folder.display());
+    if claims.iter().all(|claim| claim.holds) {
+        Ok(())
+    } else {
+        Err(Failure::Input)
+    }
+}

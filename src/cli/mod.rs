@@ -1,0 +1,92 @@
+//! Arguments, files, progress, exit codes: one file per command.
+//!
+//! Results go to standard output, diagnostics and reports to standard error. Exit codes: 0 for success, 1 for a program
+//! with mistakes or a refuted claim, 2 for a bad command line.
+
+mod check;
+mod compile;
+mod explain;
+mod files;
+mod fmt;
+mod learn;
+mod progress;
+mod report;
+mod run;
+mod verify;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// A compiler for behaviour trees that robots learn by themselves.
+#[derive(Debug, Parser)]
+#[command(name = "btc", version, max_term_width = 100)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+    /// Threads to use; the results are the same on any number.
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    /// When to colour diagnostics.
+    #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
+    color: report::Color,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Report every mistake of a program.
+    Check(check::Arguments),
+    /// Say what was built, or write it in another form.
+    Compile(compile::Arguments),
+    /// Learn a policy and print it as a proved tree.
+    Learn(learn::Arguments),
+    /// Run a tree or a policy in its world.
+    Run(run::Arguments),
+    /// Prove two trees equal, or show a shortest trace on which they part.
+    Verify(verify::Arguments),
+    /// Lay files out.
+    Fmt(fmt::Arguments),
+    /// Explain a diagnostic code.
+    Explain(explain::Arguments),
+}
+
+/// Why a command stops without its result. Everything has been said on standard error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Failure {
+    /// The input is wrong, or a claim does not hold.
+    Input,
+    /// The command line is wrong.
+    Usage,
+}
+
+impl From<Failure> for ExitCode {
+    fn from(failure: Failure) -> Self {
+        match failure {
+            Failure::Input => ExitCode::from(1),
+            Failure::Usage => ExitCode::from(2),
+        }
+    }
+}
+
+/// Runs the command of the process's arguments.
+pub fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    if let Some(threads) = arguments.threads {
+        // Fails only if a pool is there already, and nothing has made one yet.
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads));
+        let _ = pool.build_global();
+    }
+    let say = report::Reporter::new(arguments.color);
+    let result = match arguments.command {
+        Command::Check(arguments) => check::run(&arguments, &say),
+        Command::Compile(arguments) => compile::run(&arguments, &say),
+        Command::Learn(arguments) => learn::run(&arguments, &say),
+        Command::Run(arguments) => run::run(&arguments, &say),
+        Command::Verify(arguments) => verify::run(&arguments, &say),
+        Command::Fmt(arguments) => fmt::run(&arguments, &say),
+        Command::Explain(arguments) => explain::run(&arguments),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.into(),
+    }
+}

@@ -1,0 +1,172 @@
+//! `btc compile`: what was built, in a summary or in a form of its own.
+
+use super::load::Loaded;
+use super::target;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::emit;
+use crate::ir::Id;
+use crate::ir::tree::Tree;
+use crate::ir::world::{DriveKind, Shape};
+use crate::syntax::print;
+
+/// The forms that a program or a tree can be written in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// The syntax tree.
+    Ast,
+    /// The checked program.
+    Ir,
+    /// The language.
+    Bt,
+    /// Graphviz.
+    Dot,
+    /// JSON.
+    Json,
+}
+
+/// Writes a program, or one of its trees, in a form.
+///
+/// # Errors
+/// There is no such tree, or it is not said which one of several.
+pub fn emit(loaded: &Loaded, form: Form, tree: Option<&str>) -> Result<String, Diagnostic> {
+    let program = &loaded.program;
+    let named = tree.map(|name| target::tree(loaded, name)).transpose()?;
+    Ok(match (form, named) {
+        (Form::Ast, _) => format!("{:#?}\n", loaded.ast),
+        (Form::Ir, _) => emit::ir::program(program),
+        (Form::Bt, None) => {
+            let text = loaded.sources.get(loaded.main).map(|s| s.text.as_str());
+            print::file(&loaded.ast, text)
+        }
+        (Form::Bt, Some(id)) => {
+            let tree = &program.trees[id];
+            let task = tree.task.map(|task| program.tasks[task].name.as_str());
+            emit::bt::tree(program, &tree.name, &tree.docs, task, &tree.root)
+        }
+        (Form::Dot, named) => {
+            let tree = &program.trees[one_tree(loaded, named)?];
+            emit::dot::dot(program, &tree.name, &tree.root)
+        }
+        (Form::Json, named) => emit::json::program(program, named),
+    })
+}
+
+fn one_tree(loaded: &Loaded, named: Option<Id<Tree>>) -> Result<Id<Tree>, Diagnostic> {
+    let trees = &loaded.program.trees;
+    if let Some(id) = named {
+        return Ok(id);
+    }
+    let ids: Vec<Id<Tree>> = trees.ids().collect();
+    match ids.as_slice() {
+        [one] => Ok(*one),
+        _ => {
+            let names: Vec<&str> = trees.values().map(|tree| tree.name.as_str()).collect();
+            Err(Diagnostic::new(
+                Code::E0504,
+                target::end_of_file(loaded),
+                match names.as_slice() {
+                    [] => "the program has no tree".to_owned(),
+                    names => format!("the program has several trees: {}", names.join(", ")),
+                },
+            )
+            .label("say which one with `--tree NAME`"))
+        }
+    }
+}
+
+/// What was built, for a person.
+pub fn summary(loaded: &Loaded) -> String {
+    let program = &loaded.program;
+    let mut text = String::new();
+    let mut line = |head: &str, rest: String| text.push_str(&format!("{head:<12}{rest}\n"));
+    if let Some(world) = &program.world {
+        let robot = &world.robot;
+        line(
+            "world",
+            format!(
+                "{}: {}, {}, tick {} s",
+                world.name,
+                shape(&world.arena),
+                counted(world.walls.len(), "wall"),
+                world.tick
+            ),
+        );
+        let names = |names: Vec<&str>| if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+        line("places", names(world.places.values().map(|p| p.name.as_str()).collect()));
+        line(
+            "robot",
+            format!(
+                "{}: radius {} m, {} {} m/s, {} rad/s; sensors: {}",
+                robot.name,
+                robot.radius,
+                match robot.drive.kind {
+                    DriveKind::Differential => "differential",
+                    DriveKind::Holonomic => "holonomic",
+                },
+                robot.drive.max_speed,
+                robot.drive.max_turn,
+                names(robot.sensors.values().map(|s| s.name.as_str()).collect())
+            ),
+        );
+    }
+    let list = |names: Vec<&str>| format!("{}: {}", names.len(), names.join(", "));
+    line("predicates", list(program.predicates.values().map(|p| p.name.as_str()).collect()));
+    line("behaviours", list(program.behaviors.values().map(|b| b.name.as_str()).collect()));
+    line("events", list(program.events.values().map(|e| e.name.as_str()).collect()));
+    for (id, task) in program.tasks.iter() {
+        let atoms = program.atoms(id).len();
+        let history = atoms - task.observe.len();
+        line(
+            "task",
+            format!(
+                "{}: {} and {} of history make {} atoms; table of at most 2^{atoms} minterms × {} choices",
+                task.name,
+                counted(task.observe.len(), "predicate"),
+                counted(history, "predicate"),
+                atoms,
+                task.choose.len()
+            ),
+        );
+    }
+    for learner in program.learners.values() {
+        line(
+            "learner",
+            format!(
+                "{} for {}: {} episodes of {} ticks, seed {}",
+                learner.name,
+                program.tasks[learner.task].name,
+                learner.episodes,
+                learner.episode_ticks,
+                learner.seed
+            ),
+        );
+    }
+    for tree in program.trees.values() {
+        let size = crate::tree::Size::of(&tree.root);
+        line(
+            "tree",
+            format!(
+                "{}: {} nodes, {} literals, depth {}",
+                tree.name, size.nodes, size.literals, size.depth
+            ),
+        );
+    }
+    text
+}
+
+fn shape(shape: &Shape) -> String {
+    match shape {
+        Shape::Disc { radius, .. } => format!("disc of radius {radius} m"),
+        Shape::Rect { min, max } => format!("{} m × {} m", max[0] - min[0], max[1] - min[1]),
+        Shape::Polygon(points) => format!("polygon of {} corners", points.len()),
+        Shape::Polyline(points) => format!("line of {} points", points.len()),
+    }
+}
+
+fn counted(n: usize, what: &str) -> String {
+    match n {
+        0 => format!("no {what}s"),
+        1 => format!("1 {what}"),
+        n => format!("{n} {what}s"),
+    }
+}

@@ -1,0 +1,207 @@
+//! A program with everything that it uses.
+
+use crate::check::{self, Input};
+use crate::diagnostic::{self, Code, Diagnostic};
+use crate::ir::Program;
+use crate::source::{FileId, Source, Sources, Span};
+use crate::syntax::ast::{self, ItemKind, UseWhat};
+use crate::syntax;
+
+/// The embedded library.
+const LIBRARY: &str = include_str!("../library/std.bt");
+
+/// How the library is called in diagnostics.
+const LIBRARY_NAME: &str = "std";
+
+/// Where the files of a program come from.
+pub trait Reader {
+    /// The bytes of the file at a path.
+    ///
+    /// # Errors
+    /// Why it cannot be read, in the words of the system.
+    fn read(&mut self, path: &str) -> Result<Vec<u8>, String>;
+}
+
+/// A loaded and checked program.
+#[derive(Debug)]
+pub struct Loaded {
+    /// Every file.
+    pub sources: Sources,
+    /// The file that was asked for.
+    pub main: FileId,
+    /// Its syntax tree.
+    pub ast: ast::File,
+    /// The program; of use only without errors.
+    pub program: Program,
+    /// The files of the user's program in the order of their first use, the main file last.
+    pub files: Vec<FileId>,
+    /// The tables that the main file names as the environment of its proofs, with the place of the `use`.
+    pub tables: Vec<(FileId, Span)>,
+    /// Every mistake and warning, sorted.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+impl Loaded {
+    /// Whether there is any error.
+    pub fn has_errors(&self) -> bool {
+        self.diagnostics.iter().any(Diagnostic::is_error)
+    }
+}
+
+/// Loads and checks the program in `text`, which is called `name` and whose `use`s are relative to it.
+pub fn load(name: &str, text: Vec<u8>, reader: &mut dyn Reader) -> Loaded {
+    let mut loader = Loader {
+        reader,
+        sources: Sources::default(),
+        parsed: Vec::new(),
+        known: Vec::new(),
+        tables: Vec::new(),
+        diagnostics: Vec::new(),
+        depth: 0,
+    };
+    let main = loader.file(name, text, false);
+    let inputs: Vec<Input> = loader
+        .parsed
+        .iter()
+        .map(|parsed| Input {
+            ast: &parsed.ast,
+            library: parsed.library,
+        })
+        .collect();
+    let checked = check::check(&inputs);
+    let mut diagnostics = loader.diagnostics;
+    diagnostics.extend(checked.diagnostics);
+    diagnostic::sort(&mut diagnostics);
+    let user = loader.parsed.iter().filter(|parsed| !parsed.library);
+    let files = user.map(|parsed| parsed.file).collect();
+    let ast = loader
+        .parsed
+        .into_iter()
+        .find(|parsed| parsed.file == main)
+        .map(|parsed| parsed.ast)
+        .unwrap_or_default();
+    Loaded {
+        sources: loader.sources,
+        main,
+        ast,
+        program: checked.program,
+        files,
+        tables: loader.tables,
+        diagnostics,
+    }
+}
+
+/// The text of a source, with a diagnostic where its bytes are no text.
+pub fn decode(sources: &mut Sources, name: &str, bytes: Vec<u8>) -> (FileId, Option<Diagnostic>) {
+    match String::from_utf8(bytes) {
+        Ok(text) => (sources.add(Source::new(name, text)), None),
+        Err(error) => {
+            let at = error.utf8_error().valid_up_to();
+            let text = String::from_utf8_lossy(error.as_bytes()).into_owned();
+            let file = sources.add(Source::new(name, text));
+            let span = Span::new(file, at, at + '\u{fffd}'.len_utf8());
+            let diagnostic = Diagnostic::new(Code::E0130, span, "the file is not text (UTF-8)")
+                .label("this byte belongs to no character");
+            (file, Some(diagnostic))
+        }
+    }
+}
+
+struct Parsed {
+    file: FileId,
+    ast: ast::File,
+    library: bool,
+}
+
+struct Loader<'r> {
+    reader: &'r mut dyn Reader,
+    sources: Sources,
+    /// Used files before those that use them.
+    parsed: Vec<Parsed>,
+    known: Vec<String>,
+    tables: Vec<(FileId, Span)>,
+    diagnostics: Vec<Diagnostic>,
+    depth: usize,
+}
+
+impl Loader<'_> {
+    fn file(&mut self, name: &str, bytes: Vec<u8>, library: bool) -> FileId {
+        self.known.push(name.to_owned());
+        let (file, mistake) = decode(&mut self.sources, name, bytes);
+        let broken = mistake.is_some();
+        self.diagnostics.extend(mistake);
+        let text = self.sources.get(file).map(|source| source.text.clone());
+        let (ast, mistakes) = syntax::parse(file, &text.unwrap_or_default());
+        if !broken {
+            self.diagnostics.extend(mistakes);
+        }
+        self.depth += 1;
+        for item in &ast.items {
+            if let ItemKind::Use(used) = &item.kind {
+                match &used.what.node {
+                    UseWhat::Std => self.library(),
+                    UseWhat::Path(path) => self.used(name, path, used.what.span),
+                }
+            }
+        }
+        self.depth -= 1;
+        self.parsed.push(Parsed { file, ast, library });
+        file
+    }
+
+    fn library(&mut self) {
+        if !self.known.iter().any(|known| known == LIBRARY_NAME) {
+            self.file(LIBRARY_NAME, LIBRARY.as_bytes().to_vec(), true);
+        }
+    }
+
+    fn used(&mut self, from: &str, path: &str, span: Span) {
+        let resolved = beside(from, path);
+        let table = path.ends_with(".csv");
+        if self.known.contains(&resolved) && !table {
+            return;
+        }
+        match self.reader.read(&resolved) {
+            Ok(bytes) if table => {
+                let (file, mistake) = decode(&mut self.sources, &resolved, bytes);
+                self.diagnostics.extend(mistake);
+                if self.depth == 1 {
+                    self.tables.push((file, span));
+                }
+            }
+            Ok(bytes) => {
+                self.file(&resolved, bytes, false);
+            }
+            Err(why) => self.diagnostics.push(
+                Diagnostic::new(Code::E0208, span, format!("`{path}` cannot be read"))
+                    .label(why)
+                    .note(format!("looked for at {resolved}")),
+            ),
+        }
+    }
+}
+
+/// The path of a file that `from` names: relative to the folder of `from`, `.` and `..` taken out where they can be.
+pub fn beside(from: &str, path: &str) -> String {
+    if path.starts_with('/') {
+        return path.to_owned();
+    }
+    let folder = from.rsplit_once('/').map_or("", |(folder, _)| folder);
+    let rooted = folder.is_empty() && from.starts_with('/') || folder.starts_with('/');
+    let mut parts: Vec<&str> = Vec::new();
+    for part in folder.split('/').chain(path.split('/')) {
+        match part {
+            "" | "." => {}
+            ".." => match parts.last() {
+                Some(&last) if last != ".." => {
+                    parts.pop();
+                }
+                _ if rooted => {}
+                _ => parts.push(".."),
+            },
+            other => parts.push(other),
+        }
+    }
+    let joined = parts.join("/");
+    if rooted { format!("/{joined}") } else { joined }
+}

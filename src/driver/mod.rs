@@ -1,0 +1,11 @@
+//! What each command does, as functions from text to results: nothing is printed, no file is touched.
+
+pub mod compile;
+pub mod explain;
+pub mod format;
+pub mod learn;
+pub mod load;
+pub mod run;
+pub mod table;
+pub mod target;
+pub mod verify;

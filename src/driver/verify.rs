@@ -1,0 +1,240 @@
+//! `btc verify`: proofs that two trees take the same decisions.
+
+use super::learn::{Learned, minterm_text};
+use super::load::Loaded;
+use super::{table, target};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::ir::law::Behavior;
+use crate::ir::task::{ClaimKind, Learner, Task, TreeRef};
+use crate::ir::tree::{Atom, Node};
+use crate::ir::{Id, Program};
+use crate::policy::Policy;
+use crate::tree::equivalence::{Environment, Side, Trace, Verdict, compare};
+
+/// What came of a proof.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Proved {
+    /// Whether what was asked holds.
+    pub holds: bool,
+    /// The answer in words: equal, with environment and care set, or the shortest trace on which they part.
+    pub text: String,
+}
+
+/// Compares two trees of a program, in the environment that its main file names or else in any that is consistent with
+/// the history window.
+///
+/// # Errors
+/// There is no such tree, the trees are for different tasks, or the table that is named does not fit.
+pub fn trees(loaded: &Loaded, left: &str, right: &str) -> Result<Proved, Vec<Diagnostic>> {
+    let one = |mistake| vec![mistake];
+    let left_id = target::tree(loaded, left).map_err(one)?;
+    let right_id = target::tree(loaded, right).map_err(one)?;
+    let program = &loaded.program;
+    let (a, b) = (&program.trees[left_id], &program.trees[right_id]);
+    let task = target::task_of(loaded, Some(left_id)).map_err(one)?;
+    let other = target::task_of(loaded, Some(right_id)).map_err(one)?;
+    if task != other {
+        let (first, second) = (&program.tasks[task].name, &program.tasks[other].name);
+        return Err(vec![
+            Diagnostic::new(
+                Code::E0504,
+                target::end_of_file(loaded),
+                format!("`{left}` is for the task `{first}`, `{right}` for `{second}`"),
+            )
+            .label("trees for different tasks are not compared"),
+        ]);
+    }
+    let recorded = match loaded.tables.as_slice() {
+        [] => None,
+        [(file, _), ..] => Some(table::environment(loaded, *file, task)?),
+    };
+    let pair = Pair {
+        loaded,
+        task,
+        recorded: recorded.as_ref(),
+    };
+    pair.prove((left, &a.root), (right, &b.root))
+}
+
+/// Proves every `equals` of the program's claims whose trees are there.
+///
+/// # Errors
+/// As [`trees`].
+pub fn claims(loaded: &Loaded) -> Result<Vec<Proved>, Vec<Diagnostic>> {
+    let program = &loaded.program;
+    let mut results = Vec::new();
+    for claim in &program.claims {
+        let ClaimKind::Equals(other) = claim.kind else {
+            continue;
+        };
+        let (TreeRef::Tree(left), TreeRef::Tree(right)) = (claim.tree, other) else {
+            results.push(Proved {
+                holds: true,
+                text: format!("{}: not learned yet", claim.text),
+            });
+            continue;
+        };
+        let (left, right) = (&program.trees[left].name, &program.trees[right].name);
+        results.push(trees(loaded, left, right)?);
+    }
+    if results.is_empty() {
+        results.push(Proved {
+            holds: true,
+            text: "the program claims nothing that could be proved".to_owned(),
+        });
+    }
+    Ok(results)
+}
+
+/// Proves the claims about the tree that was just learned, along the greedy transitions of its policy.
+///
+/// # Errors
+/// A claim asks what the policy does not observe.
+pub fn claims_of_learned(loaded: &Loaded, learned: &Learned) -> Result<Vec<Proved>, Diagnostic> {
+    let program = &loaded.program;
+    let pair = Pair {
+        loaded,
+        task: program.learners[learned.learner].task,
+        recorded: Some(&learned.policy),
+    };
+    let side = |tree: TreeRef| side(program, learned, tree);
+    let mut results = Vec::new();
+    for claim in &program.claims {
+        let ClaimKind::Equals(other) = claim.kind else {
+            continue;
+        };
+        let about = [claim.tree, other].contains(&TreeRef::Learned(learned.learner));
+        if let (true, Some(left), Some(right)) = (about, side(claim.tree), side(other)) {
+            let proved = pair.prove(left, right);
+            results.push(proved.map_err(|mut mistakes| mistakes.remove(0))?);
+        }
+    }
+    Ok(results)
+}
+
+fn side<'a>(program: &'a Program, learned: &'a Learned, tree: TreeRef) -> Option<(&'a str, &'a Node)> {
+    match tree {
+        TreeRef::Tree(id) => {
+            let tree = &program.trees[id];
+            Some((&tree.name, &tree.root))
+        }
+        TreeRef::Learned(id) if id == learned.learner => {
+            let learner: &Learner = &program.learners[id];
+            Some((&learner.name, &learned.root))
+        }
+        TreeRef::Learned(_) => None,
+    }
+}
+
+/// Two trees in their environment.
+struct Pair<'a> {
+    loaded: &'a Loaded,
+    task: Id<Task>,
+    recorded: Option<&'a Policy>,
+}
+
+impl Pair<'_> {
+    fn prove(
+        &self,
+        (left, a): (&str, &Node),
+        (right, b): (&str, &Node),
+    ) -> Result<Proved, Vec<Diagnostic>> {
+        let program = &self.loaded.program;
+        let environment = match self.recorded {
+            Some(policy) => Environment::Greedy(policy),
+            None => Environment::Any(program.tasks[self.task].history),
+        };
+        let verdict = compare(Side::Tree(a), Side::Tree(b), environment).map_err(|unknown| {
+            vec![
+                Diagnostic::new(
+                    Code::E0610,
+                    self.place_of_table(),
+                    format!(
+                        "the table does not say whether `{}` holds, and a tree asks it",
+                        program.atom_name(unknown.0)
+                    ),
+                )
+                .label("named here"),
+            ]
+        })?;
+        Ok(match verdict {
+            Verdict::Equal(explored) => Proved {
+                holds: true,
+                text: match self.recorded {
+                    Some(policy) => {
+                        let open = match explored.open {
+                            0 => "closed under them".to_owned(),
+                            n => format!("with {n} places where the table says nothing of what follows"),
+                        };
+                        format!(
+                            "equal: `{left}` and `{right}` select the same behaviour on {} minterms and {} of {} greedy \
+                             transitions, {open}",
+                            explored.minterms,
+                            explored.transitions,
+                            policy.transitions.len()
+                        )
+                    }
+                    None => format!(
+                        "equal: `{left}` and `{right}` select the same behaviour in every environment that is \
+                         consistent with the history window ({} states explored)",
+                        explored.states
+                    ),
+                },
+            },
+            Verdict::Differ(trace) => Proved {
+                holds: false,
+                text: self.trace(left, right, &trace),
+            },
+            Verdict::Undecided(explored) => Proved {
+                holds: false,
+                text: format!(
+                    "undecided: `{left}` and `{right}` agree on the {} states explored, and there are more",
+                    explored.states
+                ),
+            },
+        })
+    }
+
+    fn place_of_table(&self) -> crate::source::Span {
+        let end = target::end_of_file(self.loaded);
+        self.loaded.tables.first().map_or(end, |(_, span)| *span)
+    }
+
+    fn trace(&self, left: &str, right: &str, trace: &Trace) -> String {
+        let program = &self.loaded.program;
+        let name = |behavior: &Option<Id<Behavior>>| {
+            behavior.map_or("nothing", |id| &program.behaviors[id].name).to_owned()
+        };
+        let atoms: Vec<Atom> = trace.atoms.clone();
+        let policy = Policy {
+            atoms,
+            ..Policy::default()
+        };
+        let held = |minterm| minterm_text(program, &policy, minterm);
+        let environment = match self.recorded {
+            Some(_) => "along the greedy transitions",
+            None => "in an environment consistent with the history window",
+        };
+        let mut lines = vec![format!(
+            "different: `{left}` and `{right}` part after {} ticks {environment}",
+            trace.steps.len()
+        )];
+        for (i, step) in trace.steps.iter().enumerate() {
+            lines.push(format!(
+                "  tick {:<3} {}: both select {}, which answers {}",
+                i + 1,
+                held(&step.valuation),
+                name(&step.behavior),
+                step.status.name()
+            ));
+        }
+        lines.push(format!(
+            "  tick {:<3} {}: `{left}` selects {}, `{right}` selects {}",
+            trace.steps.len() + 1,
+            held(&trace.valuation),
+            name(&trace.left),
+            name(&trace.right)
+        ));
+        lines.join("\n")
+    }
+}

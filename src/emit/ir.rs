@@ -1,0 +1,297 @@
+//! The checked program as text, for reading and for snapshots.
+
+use crate::ir::expr::{Draw, Expr, ExprId};
+use crate::ir::law::{Block, Law, Stmt};
+use crate::ir::program::{Program, ValueKind};
+use crate::ir::task::{Discount, StartLine, TreeRef};
+use std::fmt::Write;
+
+/// The program, a definition a line, expressions written out.
+pub fn program(program: &Program) -> String {
+    let mut out = Out {
+        program,
+        text: String::new(),
+    };
+    out.world();
+    out.states();
+    out.behaviors();
+    out.tasks();
+    out.trees();
+    out.text
+}
+
+struct Out<'p> {
+    program: &'p Program,
+    text: String,
+}
+
+impl Out<'_> {
+    fn line(&mut self, depth: usize, line: impl AsRef<str>) {
+        for _ in 0..depth {
+            self.text.push_str("    ");
+        }
+        self.text.push_str(line.as_ref());
+        self.text.push('\n');
+    }
+
+    fn world(&mut self) {
+        let Some(world) = &self.program.world else {
+            return;
+        };
+        self.line(0, format!("world {} tick {} s", world.name, world.tick));
+        self.line(1, format!("arena {:?}", world.arena));
+        for (id, wall) in world.walls.iter() {
+            self.line(1, format!("wall {id:?} {} {:?}", wall.name, wall.shape));
+        }
+        for (id, place) in world.places.iter() {
+            let facing = place.facing.map_or(String::new(), |a| format!(" facing {a}"));
+            self.line(1, format!("place {id:?} {} {:?}{facing}", place.name, place.shape));
+        }
+        let robot = &world.robot;
+        self.line(
+            1,
+            format!("robot {} radius {} {:?} {:?}", robot.name, robot.radius, robot.drive, robot.contact),
+        );
+        for (id, sensor) in robot.sensors.iter() {
+            self.line(
+                2,
+                format!("sensor {id:?} {} {:?} noise {}", sensor.name, sensor.kind, sensor.noise),
+            );
+        }
+    }
+
+    fn states(&mut self) {
+        for (id, state) in self.program.states.iter() {
+            let kind = match &state.kind {
+                ValueKind::Bool => "bool".to_owned(),
+                ValueKind::Quantity => "quantity".to_owned(),
+                ValueKind::Enum(variants) => format!("enum {{{}}}", variants.join(", ")),
+            };
+            let initial = self.expr(state.initial);
+            self.line(0, format!("state {id:?} {}: {kind} = {initial}", state.name));
+        }
+        for (id, event) in self.program.events.iter() {
+            let when = self.expr(event.when);
+            self.line(0, format!("event {id:?} {} = {when}", event.name));
+        }
+        if !self.program.each_tick.0.is_empty() {
+            self.line(0, "each tick");
+            self.block(&self.program.each_tick, 1);
+        }
+        for effect in &self.program.effects {
+            let on = self.expr(effect.on);
+            self.line(0, format!("on {on}"));
+            self.block(&effect.block, 1);
+        }
+        for (id, predicate) in self.program.predicates.iter() {
+            let when = predicate.when.map_or("declared".to_owned(), |id| self.expr(id));
+            self.line(0, format!("predicate {id:?} {} = {when}", predicate.name));
+        }
+    }
+
+    fn behaviors(&mut self) {
+        for (id, behavior) in self.program.behaviors.iter() {
+            self.line(0, format!("behavior {id:?} {}", behavior.name));
+            match &behavior.law {
+                Some(law) => self.law(law),
+                None => self.line(1, "declared"),
+            }
+        }
+    }
+
+    fn law(&mut self, law: &Law) {
+        for (id, local) in law.locals.iter() {
+            let initial = self.expr(local.initial);
+            self.line(1, format!("local {id:?} {} = {initial}", local.name));
+        }
+        for (word, region) in [
+            ("requires", law.requires),
+            ("succeed", law.succeed),
+            ("fail", law.fail),
+        ] {
+            let region = self.expr(region);
+            self.line(1, format!("{word} {region}"));
+        }
+        self.line(1, "control");
+        self.block(&law.control, 2);
+    }
+
+    fn block(&mut self, block: &Block, depth: usize) {
+        for stmt in &block.0 {
+            match stmt {
+                Stmt::Let(temp, value) => {
+                    let value = self.expr(*value);
+                    let name = &self.program.temps[*temp].name;
+                    self.line(depth, format!("let t{} = {value}  // {name}", temp.index()));
+                }
+                Stmt::SetState(id, value) => {
+                    let value = self.expr(*value);
+                    let name = &self.program.states[*id].name;
+                    self.line(depth, format!("{name} = {value}"));
+                }
+                Stmt::SetLocal(id, value) => {
+                    let value = self.expr(*value);
+                    self.line(depth, format!("local{id:?} = {value}"));
+                }
+                Stmt::If(condition, then, otherwise) => {
+                    let condition = self.expr(*condition);
+                    self.line(depth, format!("if {condition}"));
+                    self.block(then, depth + 1);
+                    if !otherwise.0.is_empty() {
+                        self.line(depth, "else");
+                        self.block(otherwise, depth + 1);
+                    }
+                }
+                Stmt::Drive {
+                    speed,
+                    strafe,
+                    turn,
+                } => {
+                    let (speed, turn) = (self.expr(*speed), self.expr(*turn));
+                    let strafe = self.expr(*strafe);
+                    self.line(depth, format!("drive speed {speed} strafe {strafe} turn {turn}"));
+                }
+            }
+        }
+    }
+
+    fn tasks(&mut self) {
+        let program = self.program;
+        for (id, task) in program.tasks.iter() {
+            self.line(0, format!("task {id:?} {}", task.name));
+            let observe: Vec<&str> = task
+                .observe
+                .iter()
+                .map(|id| program.predicates[*id].name.as_str())
+                .collect();
+            let choose: Vec<&str> = task
+                .choose
+                .iter()
+                .map(|id| program.behaviors[*id].name.as_str())
+                .collect();
+            self.line(1, format!("observe {}", observe.join(", ")));
+            self.line(1, format!("choose {}", choose.join(", ")));
+            self.line(1, format!("{:?} patience {:?}", task.history, task.patience));
+            self.start(&task.start);
+            for id in &task.end_on {
+                let event = self.expr(*id);
+                self.line(1, format!("end on {event}"));
+            }
+            self.line(1, format!("end after {} ticks", task.end_after));
+            for line in &task.reward {
+                let (event, value) = (self.expr(line.event), self.expr(line.value));
+                self.line(1, format!("reward {event}: {value}  // {}", line.name));
+            }
+            let otherwise = self.expr(task.otherwise);
+            self.line(1, format!("reward otherwise: {otherwise}"));
+        }
+        for learner in program.learners.values() {
+            self.line(
+                0,
+                format!("learner {} for {}", learner.name, program.tasks[learner.task].name),
+            );
+            let (rate, explore) = (self.expr(learner.rate), self.expr(learner.explore));
+            let discount = match learner.discount {
+                Discount::PerDecision(factor) => format!("{factor} per decision"),
+                Discount::PerTime(factor, span) => format!("{factor} per {span} s"),
+            };
+            self.line(
+                1,
+                format!(
+                    "{:?} episodes {} of {} ticks, rate {rate}, explore {explore}, discount {discount}, initial {}, \
+                     dwell {}, seed {}",
+                    learner.method,
+                    learner.episodes,
+                    learner.episode_ticks,
+                    learner.initial,
+                    learner.dwell,
+                    learner.seed
+                ),
+            );
+            if let Some(unseen) = learner.unseen {
+                self.line(1, format!("unseen {}", program.behaviors[unseen].name));
+            }
+            self.start(&learner.start);
+        }
+    }
+
+    fn start(&mut self, lines: &[StartLine]) {
+        for line in lines {
+            let text = match line {
+                StartLine::Anywhere => "start pose anywhere".to_owned(),
+                StartLine::Position(x, y) => {
+                    format!("start position ({}, {})", self.expr(*x), self.expr(*y))
+                }
+                StartLine::Heading(a) => format!("start heading {}", self.expr(*a)),
+                StartLine::State(id, value) => {
+                    let name = &self.program.states[*id].name;
+                    format!("start {name} = {}", self.expr(*value))
+                }
+                StartLine::History(code) => format!("start history {}", self.expr(*code)),
+            };
+            self.line(1, text);
+        }
+    }
+
+    fn trees(&mut self) {
+        let program = self.program;
+        for (id, tree) in program.trees.iter() {
+            let task = tree.task.map(|task| program.tasks[task].name.as_str());
+            let text = super::bt::tree(program, &tree.name, &[], task, &tree.root);
+            self.line(0, format!("tree {id:?}"));
+            for line in text.lines() {
+                self.line(1, line);
+            }
+        }
+        for claim in &program.claims {
+            let tree = match claim.tree {
+                TreeRef::Tree(id) => &program.trees[id].name,
+                TreeRef::Learned(id) => &program.learners[id].name,
+            };
+            self.line(0, format!("claim of {tree}: {}", claim.text));
+        }
+    }
+
+    fn expr(&self, id: ExprId) -> String {
+        let program = self.program;
+        let sub = |id| self.expr(id);
+        match program.pool.get(id) {
+            Expr::Num(value) => format!("{value}"),
+            Expr::Bool(value) => format!("{value}"),
+            Expr::State(id) => program.states[id].name.clone(),
+            Expr::Local(id) => format!("local{id:?}"),
+            Expr::Temp(id) => format!("t{}", id.index()),
+            Expr::Pose(pose) => lower(&pose),
+            Expr::Touching => "touching".to_owned(),
+            Expr::Elapsed => "elapsed".to_owned(),
+            Expr::Visits => "visits".to_owned(),
+            Expr::Progress => "progress".to_owned(),
+            Expr::Visible(x, y) => format!("visible({}, {})", sub(x), sub(y)),
+            Expr::NearestWall(echo) => format!("nearest_wall.{}", lower(&echo)),
+            Expr::Wall(id, echo) => format!("wall{id:?}.{}", lower(&echo)),
+            Expr::Sensor(id, echo) => format!("sensor{id:?}.{}", lower(&echo)),
+            Expr::Inside(id) => format!("inside(place{id:?})"),
+            Expr::Ended(id, status) => {
+                format!("{}({})", status.name(), program.behaviors[id].name)
+            }
+            Expr::Event(id) => program.events[id].name.clone(),
+            Expr::Unary(op, a) => format!("{}({})", lower(&op), sub(a)),
+            Expr::Binary(op, a, b) => format!("{}({}, {})", lower(&op), sub(a), sub(b)),
+            Expr::Select(c, a, b) => format!("select({}, {}, {})", sub(c), sub(a), sub(b)),
+            Expr::Draw(number, draw) => {
+                let mut text = format!("draw{number}:");
+                let _ = match draw {
+                    Draw::Uniform(a, b) => write!(text, "uniform({}, {})", sub(a), sub(b)),
+                    Draw::Normal(a, b) => write!(text, "normal({}, {})", sub(a), sub(b)),
+                    Draw::Chance(p) => write!(text, "chance({})", sub(p)),
+                    Draw::Pick(n) => write!(text, "pick({n})"),
+                };
+                text
+            }
+        }
+    }
+}
+
+fn lower(value: &impl std::fmt::Debug) -> String {
+    format!("{value:?}").to_lowercase()
+}

@@ -1,0 +1,6 @@
+//! What btc writes, one file per form.
+
+pub mod bt;
+pub mod dot;
+pub mod ir;
+pub mod json;
