@@ -156,7 +156,11 @@ impl<'a> Builder<'a> {
                 }
             }
             next.sort_by_key(|(cost, ..)| *cost);
-            done.extend(next.iter().take(width).map(|(.., finished)| finished.clone()));
+            done.extend(
+                next.iter()
+                    .take(width)
+                    .map(|(.., finished)| finished.clone()),
+            );
             next.retain(|(_, step, _)| self.sole(&step.left).is_none());
             next.truncate(width);
             open = next.into_iter().map(|(_, step, _)| step).collect();
