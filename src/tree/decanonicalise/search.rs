@@ -22,7 +22,7 @@ const INNER_BEAM: usize = 2;
 /// Selectors within selectors.
 const DEPTH: usize = 3;
 /// Rows that the minimisations of one configuration may go through before it only takes what is cheapest next.
-const EFFORT: usize = 400_000;
+const EFFORT: usize = 100_000;
 /// Finished trees that are kept for the proof.
 const FINALISTS: usize = 24;
 

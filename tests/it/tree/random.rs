@@ -142,7 +142,10 @@ pub(crate) fn policy(seed: u64) -> Policy {
     for values in &pool {
         if random.chance(30) {
             let m = minterm(values, &Window::new());
-            let does = by_rules(&m);
+            let does = match &tree {
+                Some(tree) => selects(tree, &Memory::new(), &atoms, &m),
+                None => by_rules(&m),
+            };
             choices.entry(m).or_insert(does);
         }
     }
