@@ -4,6 +4,7 @@
 //! The modules stand in the order in which a program goes through them; see `ARCHITECTURE.md`.
 
 pub mod diagnostic;
+pub mod emit;
 pub mod ir;
 pub mod logic;
 pub mod math;

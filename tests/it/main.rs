@@ -1,4 +1,5 @@
 //! Integration tests, one binary.
 
 mod naive;
+mod snapshot;
 mod tree;

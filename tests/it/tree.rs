@@ -1,5 +1,7 @@
 //! Trees from policies, and what is proved of them.
 
+mod drawn;
+mod files;
 mod proofs;
 mod random;
 mod small_delivery;
