@@ -2,6 +2,7 @@
 
 mod drawn;
 mod files;
+mod guards;
 mod proofs;
 mod random;
 mod small_delivery;
