@@ -3,15 +3,32 @@
 //!
 //! The modules stand in the order in which a program goes through them; see `ARCHITECTURE.md`.
 
-pub mod check;
-pub mod diagnostic;
-pub mod eval;
-pub mod ir;
-pub mod learn;
-pub mod logic;
-pub mod math;
-pub mod policy;
 pub mod source;
+
+pub mod diagnostic;
+
 pub mod syntax;
+
+pub mod check;
+
+pub mod ir;
+
+pub mod math;
+
+pub mod eval;
+
 pub mod world;
+
+pub mod learn;
+
+pub mod policy;
+
+pub mod logic;
+
 pub mod tree;
+
+pub mod emit;
+
+pub mod driver;
+
+pub mod cli;

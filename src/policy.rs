@@ -1,4 +1,12 @@
 //! What learning hands to the tree: minterm → behaviour with its evidence, start minterms, greedy transitions.
+//!
+//! Three files hold it: the decisions in [`decisions`], the greedy process in [`transitions`], the evidence in
+//! [`evidence`].
+
+pub mod decisions;
+pub mod evidence;
+pub mod sheet;
+pub mod transitions;
 
 use crate::ir::Id;
 use crate::ir::law::Behavior;

@@ -45,7 +45,7 @@ pub fn emit(loaded: &Loaded, form: Form, tree: Option<&str>) -> Result<String, D
         }
         (Form::Dot, named) => {
             let tree = &program.trees[one_tree(loaded, named)?];
-            emit::dot::dot(program, &tree.name, &tree.root)
+            emit::dot::tree(&tree.name, &tree.root, program)
         }
         (Form::Json, named) => emit::json::program(program, named),
     })

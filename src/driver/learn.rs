@@ -17,8 +17,7 @@ use crate::learn::schedule::Schedule;
 use crate::learn::simulated::{Purpose, Simulated};
 use crate::learn::statistics::{Summary, upper95};
 use crate::learn::table::Table;
-use crate::policy::Policy;
-use crate::policy::csv;
+use crate::policy::{Policy, decisions, evidence, transitions};
 use crate::tree::decanonicalise::{self, Care, Decanonicalised, Method};
 use crate::world::{End, Simulator, Start};
 use rustc_hash::FxHashMap;
@@ -255,10 +254,10 @@ impl Bench<'_> {
         let metrics = self.metrics(loaded, options, &counts, &summary, &policy, &found);
         let files = vec![
             ("learned.bt", program_text),
-            ("learned.dot", emit::dot::dot(program, name, &found.root)),
-            ("policy.csv", csv::policy(program, &policy)),
-            ("transitions.csv", csv::transitions(program, &policy)),
-            ("q.csv", csv::q_table(program, &policy)),
+            ("learned.dot", emit::dot::tree(name, &found.root, program)),
+            ("policy.csv", decisions::write(&policy, program)),
+            ("transitions.csv", transitions::write(&policy, program)),
+            ("q.csv", evidence::write(&policy, program)),
             ("curve.csv", curve::csv(&points)),
             ("metrics.json", pretty(&metrics)),
         ];

@@ -38,7 +38,7 @@ pub fn environment(loaded: &Loaded, file: FileId, task: Id<Task>) -> Result<Poli
 
 fn located(file: FileId, error: &TableError) -> Diagnostic {
     let span = |range: &std::ops::Range<usize>| Span::new(file, range.start, range.end);
-    let diagnostic = Diagnostic::new(Code::E0610, span(&error.span), error.kind.to_string());
+    let diagnostic = Diagnostic::new(Code::E0610, span(&error.span), error.to_string());
     match &error.kind {
         TableErrorKind::Contradiction { earlier } => {
             diagnostic.also(span(earlier), "this row says otherwise")

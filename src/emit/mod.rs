@@ -1,4 +1,4 @@
-//! What btc writes, one file per form.
+//! What a program or a tree is written as: one file per form.
 
 pub mod bt;
 pub mod dot;

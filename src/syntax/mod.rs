@@ -8,7 +8,6 @@ mod expected;
 mod grammar;
 mod nesting;
 mod parse;
-pub mod print;
 mod tokens;
 mod words;
 

@@ -4,6 +4,7 @@ pub mod atoms;
 pub mod canonicalise;
 pub mod decanonicalise;
 
+pub mod drawing;
 pub mod equivalence;
 pub mod formula;
 pub mod program;

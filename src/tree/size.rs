@@ -1,6 +1,7 @@
 //! The size of a tree, the figure in every report.
 
-use crate::ir::tree::{Composite, Guard, Node};
+use super::drawing::{Drawing, Shape};
+use crate::ir::tree::Node;
 
 /// The size of a tree as it would be drawn; smaller ones come first: by nodes, then literals, then depth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -15,79 +16,24 @@ pub struct Size {
 
 impl Size {
     /// The size of a tree.
-    ///
-    /// The literals of a guard stand as children under the sequence of `guard => node`; each `or` is a selector, each
-    /// of its alternatives with several literals a sequence; negating a literal is free.
     pub fn of(node: &Node) -> Self {
-        match node {
-            Node::Behavior(_) => Self::leaf(0),
-            Node::Condition(guard) => Self::guard(guard, false, None),
-            Node::Composite {
-                kind,
-                memory,
-                children,
-            } => {
-                let joins = (*kind, *memory) == (Composite::Sequence, false);
-                Self::over(children.iter().map(|child| match child {
-                    Node::Condition(guard) if joins => {
-                        Self::guard(guard, false, Some(Composite::Sequence))
-                    }
-                    child => Self::of(child),
-                }))
-            }
-            Node::Parallel { children, .. } => Self::over(children.iter().map(Self::of)),
-            Node::Decorator { child, .. } => Self::over([Self::of(child)].into_iter()),
-        }
+        Self::drawn(&Drawing::of(node))
     }
 
-    fn leaf(literals: usize) -> Self {
-        Self {
+    fn drawn(drawing: &Drawing) -> Self {
+        let own = Self {
             nodes: 1,
-            literals,
+            literals: usize::from(matches!(drawing.shape, Shape::Literal(..))),
             depth: 1,
-        }
-    }
-
-    /// A node over these.
-    fn over(children: impl Iterator<Item = Self>) -> Self {
-        let below = Self::beside(children);
-        Self {
-            nodes: below.nodes + 1,
-            literals: below.literals,
-            depth: below.depth + 1,
-        }
-    }
-
-    /// These side by side.
-    fn beside(children: impl Iterator<Item = Self>) -> Self {
-        children.fold(Self::default(), |all, child| Self {
-            nodes: all.nodes + child.nodes,
-            literals: all.literals + child.literals,
-            depth: all.depth.max(child.depth),
-        })
-    }
-
-    /// A guard, negated if so, under a node that joins in the way `under`.
-    fn guard(guard: &Guard, negated: bool, under: Option<Composite>) -> Self {
-        let (joins, guards) = match (guard, negated) {
-            (Guard::Const(_), _) => return Self::leaf(0),
-            (Guard::Atom(_), _) => return Self::leaf(1),
-            (Guard::Not(guard), _) => return Self::guard(guard, !negated, under),
-            (Guard::And(guards), false) | (Guard::Or(guards), true) => {
-                (Composite::Sequence, guards)
-            }
-            (Guard::Or(guards), false) | (Guard::And(guards), true) => {
-                (Composite::Selector, guards)
-            }
         };
-        let parts = guards
-            .iter()
-            .map(|guard| Self::guard(guard, negated, Some(joins)));
-        if under == Some(joins) {
-            Self::beside(parts)
-        } else {
-            Self::over(parts)
-        }
+        drawing.children.iter().fold(own, |all, child| {
+            let below = Self::drawn(child);
+            Self {
+                nodes: all.nodes + below.nodes,
+                literals: all.literals + below.literals,
+                depth: all.depth.max(below.depth + 1),
+            }
+        })
     }
 }
 

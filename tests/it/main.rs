@@ -1,6 +1,7 @@
 //! The tests that see the crate as its users do.
 
 mod naive;
+mod snapshot;
 mod syntax;
 mod tree;
 mod world_delivery;

@@ -22,7 +22,7 @@ const INNER_BEAM: usize = 2;
 /// Selectors within selectors.
 const DEPTH: usize = 3;
 /// Rows that the minimisations of one configuration may go through before it only takes what is cheapest next.
-const EFFORT: usize = 400_000;
+const EFFORT: usize = 100_000;
 /// Finished trees that are kept for the proof.
 const FINALISTS: usize = 24;
 
@@ -156,7 +156,11 @@ impl<'a> Builder<'a> {
                 }
             }
             next.sort_by_key(|(cost, ..)| *cost);
-            done.extend(next.iter().take(width).map(|(.., finished)| finished.clone()));
+            done.extend(
+                next.iter()
+                    .take(width)
+                    .map(|(.., finished)| finished.clone()),
+            );
             next.retain(|(_, step, _)| self.sole(&step.left).is_none());
             next.truncate(width);
             open = next.into_iter().map(|(_, step, _)| step).collect();

@@ -14,12 +14,21 @@ fn checked(policy: &Policy, method: Method, seed: u64) -> Decanonicalised {
         .unwrap_or_else(|refuted| panic!("seed {seed}, {method:?}: {refuted:?}"));
     for row in &policy.rows {
         let reads = read(&found.root, &holds(&policy.atoms, &row.minterm));
-        assert_eq!(reads, Reads::Behavior(row.behavior), "seed {seed}: P1 of {:?}", found.root);
+        assert_eq!(
+            reads,
+            Reads::Behavior(row.behavior),
+            "seed {seed}: P1 of {:?}",
+            found.root
+        );
     }
     assert_eq!(parts_after(&found.root, policy), None, "seed {seed}: P2");
     assert_eq!(Size::of(&found.root), found.size);
     if let Ok(canonical) = canonicalise(&found.root) {
-        assert_eq!(parts_after(&canonical.tree(), policy), None, "seed {seed}: canonical form");
+        assert_eq!(
+            parts_after(&canonical.tree(), policy),
+            None,
+            "seed {seed}: canonical form"
+        );
     }
     found
 }
@@ -33,7 +42,12 @@ fn trees_of_random_policies_take_their_decisions() {
         let paper = checked(&policy, Method::Paper, seed);
         let search = checked(&policy, Method::Search, seed);
         assert_eq!(paper.size, search.paper_size);
-        assert!(search.size <= paper.size, "seed {seed}: {:?} > {:?}", search.size, paper.size);
+        assert!(
+            search.size <= paper.size,
+            "seed {seed}: {:?} > {:?}",
+            search.size,
+            paper.size
+        );
         memory += usize::from(format!("{:?}", search.root).contains("memory: true"));
         paper_nodes += paper.size.nodes;
         search_nodes += search.size.nodes;
@@ -59,7 +73,11 @@ fn mutations_are_refuted_or_equal() {
             match compared.unwrap() {
                 Verdict::Differ(trace) => {
                     replay(&mutant, &policy, &trace);
-                    assert_eq!(parts_after(&mutant, &policy), Some(trace.steps.len()), "seed {seed}");
+                    assert_eq!(
+                        parts_after(&mutant, &policy),
+                        Some(trace.steps.len()),
+                        "seed {seed}"
+                    );
                     refuted += 1;
                 }
                 Verdict::Equal(_) => {
@@ -70,7 +88,10 @@ fn mutations_are_refuted_or_equal() {
             }
         }
     }
-    assert!(refuted > 300 && equal > 50, "{refuted} refuted, {equal} equal");
+    assert!(
+        refuted > 300 && equal > 50,
+        "{refuted} refuted, {equal} equal"
+    );
 }
 
 /// The tree with one thing changed, for every thing.

@@ -19,7 +19,10 @@ pub(crate) fn holds<'a>(atoms: &'a [Atom], minterm: &'a Minterm) -> impl Fn(Atom
 
 /// P2: the number of ticks after which the tree first does something else than the policy on some path, if it does.
 pub(crate) fn parts_after(root: &Node, policy: &Policy) -> Option<usize> {
-    let starts = policy.starts.iter().map(|(m, _)| (Memory::new(), m.clone(), 0));
+    let starts = policy
+        .starts
+        .iter()
+        .map(|(m, _)| (Memory::new(), m.clone(), 0));
     let mut open: VecDeque<(Memory, Minterm, usize)> = starts.collect();
     let mut known: BTreeSet<(Memory, Minterm)> = BTreeSet::new();
     while let Some((memory, minterm, depth)) = open.pop_front() {
@@ -104,7 +107,9 @@ pub(crate) fn replay(root: &Node, policy: &Policy, trace: &Trace) {
     for step in &trace.steps {
         assert_eq!(step.behavior, policy.choice(&step.valuation));
         let here = holds(&trace.atoms, &step.valuation);
-        let ticks = naive.iter().flat_map(|m| all_ticks(root, m, &here, step.status));
+        let ticks = naive
+            .iter()
+            .flat_map(|m| all_ticks(root, m, &here, step.status));
         naive = ticks
             .filter(|tick| tick.ticked.first() == step.behavior.as_ref())
             .map(|tick| tick.memory)
@@ -145,7 +150,10 @@ fn run(
         runner.resume(memory);
         runner.tick(valuation, |behavior| {
             ticked.push(behavior);
-            script.get(ticked.len() - 1).copied().unwrap_or(Status::Running)
+            script
+                .get(ticked.len() - 1)
+                .copied()
+                .unwrap_or(Status::Running)
         });
         if ticked.len() > script.len() {
             for status in [Status::Success, Status::Failure, Status::Running] {
