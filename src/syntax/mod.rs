@@ -8,6 +8,7 @@ mod expected;
 mod grammar;
 mod nesting;
 mod parse;
+pub mod print;
 mod tokens;
 mod words;
 

@@ -1,0 +1,162 @@
+//! Lines, and the columns into which adjacent ones are brought.
+
+/// What a line is; adjacent lines of one group are aligned.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Group {
+    /// Not aligned.
+    None,
+    /// A comment on a line of its own: it does not part the lines around it.
+    Comment,
+    /// One-line entries of one kind.
+    Of(&'static str),
+    /// One-line entries of one kind, whose first column is aligned, and further ones among those of one shape.
+    Shaped(&'static str, String),
+}
+
+impl Group {
+    fn kind(&self) -> Option<&'static str> {
+        match self {
+            Self::None | Self::Comment => None,
+            Self::Of(kind) | Self::Shaped(kind, _) => Some(kind),
+        }
+    }
+}
+
+/// A comment at the end of a line.
+#[derive(Clone, Debug)]
+pub(super) struct Trailing {
+    /// With its slashes.
+    pub(super) text: String,
+    /// The column, in characters, at which it was written.
+    pub(super) column: usize,
+}
+
+/// A line, cut into columns.
+#[derive(Clone, Debug)]
+pub(super) struct Line {
+    pub(super) indent: usize,
+    pub(super) cells: Vec<String>,
+    pub(super) group: Group,
+    pub(super) blank_before: bool,
+    pub(super) comment: Option<Trailing>,
+}
+
+/// The text of the lines, in columns.
+pub(super) fn text(lines: &[Line]) -> String {
+    let mut code: Vec<String> = lines.iter().map(unaligned).collect();
+    for run in runs(lines) {
+        align(lines, &run, &mut code);
+    }
+    trailing(lines, &mut code);
+    let mut text = String::new();
+    for (line, code) in lines.iter().zip(&code) {
+        if line.blank_before && !text.is_empty() {
+            text.push('\n');
+        }
+        text.push_str(code.trim_end());
+        text.push('\n');
+    }
+    text
+}
+
+fn unaligned(line: &Line) -> String {
+    let cells: Vec<&str> = line
+        .cells
+        .iter()
+        .map(String::as_str)
+        .filter(|cell| !cell.is_empty())
+        .collect();
+    format!("{}{}", " ".repeat(4 * line.indent), cells.join(" "))
+}
+
+/// The runs of adjacent lines of one group.
+fn runs(lines: &[Line]) -> Vec<Vec<usize>> {
+    let mut runs: Vec<Vec<usize>> = Vec::new();
+    let mut open: Option<(&'static str, usize)> = None;
+    for (index, line) in lines.iter().enumerate() {
+        if line.group == Group::Comment && !line.blank_before {
+            continue;
+        }
+        let key = line.group.kind().map(|kind| (kind, line.indent));
+        match (key, runs.last_mut()) {
+            (Some(key), Some(run)) if open == Some(key) && !line.blank_before => run.push(index),
+            (Some(_), _) => runs.push(vec![index]),
+            (None, _) => {}
+        }
+        open = key;
+    }
+    runs
+}
+
+fn align(lines: &[Line], run: &[usize], code: &mut [String]) {
+    let run: Vec<(usize, &Line)> = run
+        .iter()
+        .filter_map(|&index| Some((index, lines.get(index)?)))
+        .collect();
+    let same_shape = run
+        .windows(2)
+        .all(|pair| matches!(pair, [(_, a), (_, b)] if a.group == b.group && a.cells.len() == b.cells.len()));
+    let shaped = run
+        .iter()
+        .any(|(_, line)| matches!(line.group, Group::Shaped(..)));
+    let columns = if shaped && !same_shape { 1 } else { usize::MAX };
+    let widths: Vec<usize> = (0..)
+        .map_while(|column| {
+            run.iter()
+                .filter_map(|(_, line)| line.cells.get(column))
+                .map(|cell| cell.chars().count())
+                .max()
+        })
+        .collect();
+    for (index, line) in run {
+        let mut text = " ".repeat(4 * line.indent);
+        let last = line.cells.len().saturating_sub(1);
+        for (column, (cell, &width)) in line.cells.iter().zip(&widths).enumerate() {
+            let padded = column < last && column < columns;
+            let wanted = if padded { width } else { cell.chars().count() };
+            text.push_str(cell);
+            text.push_str(&" ".repeat(wanted - cell.chars().count()));
+            // A column that is empty all the way down takes no room.
+            if column < last && (!padded || width > 0) {
+                text.push(' ');
+            }
+        }
+        if let Some(code) = code.get_mut(index) {
+            *code = text.trim_end().to_owned();
+        }
+    }
+}
+
+/// Puts the comments behind their lines: at the column at which they were written if the code leaves room for it,
+/// and at one column for adjacent lines.
+fn trailing(lines: &[Line], code: &mut [String]) {
+    let mut start = 0;
+    while start < lines.len() {
+        let run = lines
+            .iter()
+            .enumerate()
+            .skip(start)
+            .take_while(|(index, line)| {
+                line.comment.is_some() && (*index == start || !line.blank_before)
+            })
+            .count();
+        let columns = lines
+            .iter()
+            .zip(code.iter())
+            .skip(start)
+            .take(run)
+            .map(|(line, code)| {
+                let written = line.comment.as_ref().map_or(0, |comment| comment.column);
+                written.max(code.chars().count() + 1)
+            });
+        let column = columns.max().unwrap_or(0);
+        for (line, code) in lines.iter().zip(code.iter_mut()).skip(start).take(run) {
+            if let Some(comment) = &line.comment {
+                let blanks = column.saturating_sub(code.chars().count());
+                code.push_str(&" ".repeat(blanks));
+                code.push_str(&comment.text);
+            }
+        }
+        start += run.max(1);
+    }
+}
