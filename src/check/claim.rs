@@ -8,7 +8,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::program::Event;
 use crate::ir::task::{Claim, ClaimKind, Occurrence, TreeRef};
 use crate::ir::Id;
-use crate::syntax::ast::{self, ClaimWhat, Expr, ExprKind, Ident};
+use crate::syntax::ast::{self, ClaimWhat, Expr, ExprKind, Ident, Item, ItemKind};
 use crate::syntax::print;
 
 impl<'a> Checker<'a> {
@@ -28,7 +28,7 @@ impl<'a> Checker<'a> {
         if let (Some(tree), Some(kind)) = (tree, kind) {
             self.program.claims.push(Claim {
                 tree,
-                text: print::claim(claim),
+                text: written(claim),
                 kind,
             });
         }
@@ -141,4 +141,14 @@ impl<'a> Checker<'a> {
             }
         }
     }
+}
+
+/// A claim as the language writes it.
+fn written(claim: &ast::Claim) -> String {
+    let item = Item {
+        docs: Vec::new(),
+        kind: ItemKind::Claim(claim.clone()),
+        span: claim.tree.span,
+    };
+    print::item(&item).trim().to_owned()
 }

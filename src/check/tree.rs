@@ -421,10 +421,7 @@ impl<'a> Checker<'a> {
                         "a guard asks predicates by name",
                     )
                     .label(format!("`{name}` is built in"))
-                    .help(format!(
-                        "give it one: `predicate NAME = {}`",
-                        crate::syntax::print::reference(reference)
-                    )),
+                    .help(format!("give it one: `predicate NAME = {name}…`")),
                 );
                 None
             }

@@ -135,7 +135,7 @@ pub enum Discount {
 pub struct Claim {
     /// The tree.
     pub tree: TreeRef,
-    /// As it is written, without the word `claim`.
+    /// As it is written.
     pub text: String,
     /// What is claimed.
     pub kind: ClaimKind,
