@@ -23,8 +23,11 @@ impl<'a> Checker<'a> {
             return;
         }
         let scope = self.unknown_parameters(behavior.params.as_ref());
-        self.body_for_itself(behavior.name.span, Region::Clause, scope, |checker| {
-            match &behavior.body {
+        self.body_for_itself(
+            behavior.name.span,
+            Region::Clause,
+            scope,
+            |checker| match &behavior.body {
                 BehaviorBody::Declared => {}
                 BehaviorBody::Alias(target) => {
                     checker.context.region = Region::Tree;
@@ -33,8 +36,8 @@ impl<'a> Checker<'a> {
                 BehaviorBody::Clauses(clauses) => {
                     checker.law(clauses, Table::default());
                 }
-            }
-        });
+            },
+        );
     }
 
     /// The behaviour with the given arguments: a known value, or an unknown one inside a body that is checked for
@@ -63,20 +66,29 @@ impl<'a> Checker<'a> {
             self.hold(binding, &mut locals);
         }
         let body = behavior.name.span;
-        let law = self.unrolled(body, reference, library, Region::Clause, scope, |checker| {
-            match &behavior.body {
-                BehaviorBody::Declared => Some(None),
-                BehaviorBody::Alias(target) => {
-                    checker.context.region = Region::Tree;
-                    let target = checker.alias(target)?;
-                    Some(checker.program.behaviors[target].law.clone())
-                }
-                BehaviorBody::Clauses(clauses) => checker.law(clauses, locals).map(Some),
-            }
+        let law =
+            self.unrolled(
+                body,
+                reference,
+                library,
+                Region::Clause,
+                scope,
+                |checker| match &behavior.body {
+                    BehaviorBody::Declared => Some(None),
+                    BehaviorBody::Alias(target) => {
+                        checker.context.region = Region::Tree;
+                        let target = checker.alias(target)?;
+                        Some(checker.program.behaviors[target].law.clone())
+                    }
+                    BehaviorBody::Clauses(clauses) => checker.law(clauses, locals).map(Some),
+                },
+            );
+        let id = law.flatten().map(|law| {
+            self.program.behaviors.push(Behavior {
+                name: name.clone(),
+                law,
+            })
         });
-        let id = law
-            .flatten()
-            .map(|law| self.program.behaviors.push(Behavior { name: name.clone(), law }));
         self.behaviors.insert(name, id);
         id.map(Value::Behavior)
     }
@@ -129,9 +141,8 @@ impl<'a> Checker<'a> {
         let mut control: Option<(&'a ast::Block, Option<Block>)> = None;
         for clause in clauses {
             self.context.region = Region::Clause;
-            let mut region = |role: &str, test: &'a ast::Expr| {
-                self.expect(test, &Type::Bool, role).scalar()
-            };
+            let mut region =
+                |role: &str, test: &'a ast::Expr| self.expect(test, &Type::Bool, role).scalar();
             match &clause.kind {
                 ClauseKind::Local { .. } => {}
                 ClauseKind::Requires(test) => match region("`requires`", test) {
@@ -203,7 +214,9 @@ impl<'a> Checker<'a> {
                 })
             })
             .collect();
-        let mut leaves = ids.iter().map(|id| self.program.pool.leaf(Expr::Local(*id)));
+        let mut leaves = ids
+            .iter()
+            .map(|id| self.program.pool.leaf(Expr::Local(*id)));
         let value = match (leaves.next(), leaves.next()) {
             (Some(x), Some(y)) => Value::Point(x, y),
             (Some(id), None) => Value::Scalar(id),
@@ -277,9 +290,11 @@ impl<'a> Checker<'a> {
             Value::Sensor(id) => world.map(|world| world.robot.sensors[*id].name.clone()),
             Value::Behavior(id) => Some(self.program.behaviors[*id].name.clone()),
             // A parameter of a subtree or a shared expression stands for a number that has no spelling here.
-            Value::Scalar(id) if self.mentions_parameter(given) => {
-                self.program.pool.constant(*id).map(|number| number.to_string())
-            }
+            Value::Scalar(id) if self.mentions_parameter(given) => self
+                .program
+                .pool
+                .constant(*id)
+                .map(|number| number.to_string()),
             _ => None,
         };
         by_name.unwrap_or_else(|| print::expr(given))

@@ -154,8 +154,12 @@ impl<'a> Checker<'a> {
         };
         if op.node != AssignOp::Set && ty.dim().is_none() && ty != Type::Error {
             self.report(
-                Diagnostic::new(Code::E0302, span, format!("{role} is {ty}, which has no sum"))
-                    .label("only numbers are added to"),
+                Diagnostic::new(
+                    Code::E0302,
+                    span,
+                    format!("{role} is {ty}, which has no sum"),
+                )
+                .label("only numbers are added to"),
             );
             return None;
         }
@@ -313,8 +317,12 @@ impl<'a> Checker<'a> {
             let Some(slot) = slot else { continue };
             let (Some((name, ty)), Some(place)) = (parts.get(slot), given.get_mut(slot)) else {
                 self.report(
-                    Diagnostic::new(Code::E0305, arg.span, "`drive` takes a speed and a turn rate")
-                        .label("one too many"),
+                    Diagnostic::new(
+                        Code::E0305,
+                        arg.span,
+                        "`drive` takes a speed and a turn rate",
+                    )
+                    .label("one too many"),
                 );
                 fine = false;
                 continue;
@@ -363,7 +371,11 @@ impl<'a> Checker<'a> {
     }
 
     /// Reports every `drive` that a path reaches after another; whether some path drives.
-    pub(super) fn drives_once(&mut self, block: &'a ast::Block, mut before: Option<Span>) -> Option<Span> {
+    pub(super) fn drives_once(
+        &mut self,
+        block: &'a ast::Block,
+        mut before: Option<Span>,
+    ) -> Option<Span> {
         for stmt in &block.stmts {
             match &stmt.kind {
                 StmtKind::Call(call) if call.name.name == "drive" => {
@@ -394,4 +406,3 @@ impl<'a> Checker<'a> {
         then.or(otherwise)
     }
 }
-

@@ -216,12 +216,15 @@ impl<'a> Checker<'a> {
                 let Some((a, b)) = self.two_alike(reference) else {
                     return Typed::error(span);
                 };
-                self.lifted(Type::Quantity(Dim::ANGLE), span, &[&a, &b], |pool, ids| {
-                    match ids {
+                self.lifted(
+                    Type::Quantity(Dim::ANGLE),
+                    span,
+                    &[&a, &b],
+                    |pool, ids| match ids {
                         [a, b] => Some(pool.binary(Binary::Atan2, *a, *b)),
                         _ => None,
-                    }
-                })
+                    },
+                )
             }
             _ => self.function_of_one(function, reference),
         }
@@ -288,7 +291,11 @@ impl<'a> Checker<'a> {
             Diagnostic::new(
                 Code::E0305,
                 surplus,
-                format!("`{}` takes {wanted}, not {}", reference.name.name, values.len()),
+                format!(
+                    "`{}` takes {wanted}, not {}",
+                    reference.name.name,
+                    values.len()
+                ),
             )
             .label(if values.len() > most {
                 "one too many"
@@ -512,7 +519,10 @@ impl<'a> Checker<'a> {
                 Diagnostic::new(
                     Code::E0306,
                     span,
-                    format!("nothing is drawn at random in {}", self.context.region.name()),
+                    format!(
+                        "nothing is drawn at random in {}",
+                        self.context.region.name()
+                    ),
                 )
                 .label("its value would change from one look to the next")
                 .help("draw it in a `local`, an effect or a `start` line, and read that"),

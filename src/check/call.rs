@@ -52,12 +52,7 @@ impl<'a> Checker<'a> {
         self.report(diagnostic);
     }
 
-    fn declared_reference(
-        &mut self,
-        decl: Decl<'a>,
-        library: bool,
-        reference: &'a Ref,
-    ) -> Typed {
+    fn declared_reference(&mut self, decl: Decl<'a>, library: bool, reference: &'a Ref) -> Typed {
         let span = reference.span;
         match decl {
             Decl::Let(shared) => return self.shared_call(shared, library, reference),
@@ -101,10 +96,7 @@ impl<'a> Checker<'a> {
         match decl {
             Decl::Variant(decl, index) => {
                 let id = self.program.pool.num(index as f64);
-                known(
-                    Type::Enum(decl.name.name.clone()),
-                    Some(Value::Scalar(id)),
-                )
+                known(Type::Enum(decl.name.name.clone()), Some(Value::Scalar(id)))
             }
             Decl::Place(name, kind) => known(
                 Type::Place(kind.map(|kind| kind.name.clone())),
@@ -421,7 +413,10 @@ impl<'a> Checker<'a> {
                         Diagnostic::new(
                             Code::E0305,
                             reference.span,
-                            format!("`{}` needs its argument `{}`", reference.name.name, param.name.name),
+                            format!(
+                                "`{}` needs its argument `{}`",
+                                reference.name.name, param.name.name
+                            ),
                         )
                         .label(format!("`{}` is not given", param.name.name))
                         .also(param.span, "declared here"),

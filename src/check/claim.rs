@@ -5,9 +5,9 @@ use super::context::{Context, Region};
 use super::names::{Decl, unknown};
 use super::types::Type;
 use crate::diagnostic::{Code, Diagnostic};
+use crate::ir::Id;
 use crate::ir::program::Event;
 use crate::ir::task::{Claim, ClaimKind, Occurrence, TreeRef};
-use crate::ir::Id;
 use crate::syntax::ast::{self, ClaimWhat, Expr, ExprKind, Ident, Item, ItemKind};
 use crate::syntax::print;
 
@@ -40,7 +40,11 @@ impl<'a> Checker<'a> {
         if let Some(id) = self.program.trees.find(|tree| tree.name == spelled) {
             return Some(TreeRef::Tree(id));
         }
-        if let Some(id) = self.program.learners.find(|learner| learner.name == spelled) {
+        if let Some(id) = self
+            .program
+            .learners
+            .find(|learner| learner.name == spelled)
+        {
             return Some(TreeRef::Learned(id));
         }
         let known = self.names.learners.contains_key(name.name.as_str());
@@ -69,7 +73,10 @@ impl<'a> Checker<'a> {
     }
 
     fn no_terms(&mut self, claim: &'a ast::Claim) {
-        let term = claim.within.as_ref().or(claim.probability.as_ref().map(|(_, p)| p));
+        let term = claim
+            .within
+            .as_ref()
+            .or(claim.probability.as_ref().map(|(_, p)| p));
         if let Some(term) = term {
             self.report(
                 Diagnostic::new(
@@ -84,7 +91,10 @@ impl<'a> Checker<'a> {
 
     fn occurrence(&mut self, claim: &'a ast::Claim, event: &'a Expr) -> Option<Occurrence> {
         let event = self.claimed_event(event);
-        let within = claim.within.as_ref().map(|time| self.ticks(time, "`within`"));
+        let within = claim
+            .within
+            .as_ref()
+            .map(|time| self.ticks(time, "`within`"));
         let probability = claim.probability.as_ref().map(|(_, p)| {
             let value = self.constant(p, &Type::Ratio, "a probability")?;
             if (0.0..=1.0).contains(&value) {
@@ -94,12 +104,7 @@ impl<'a> Checker<'a> {
                 None
             }
         });
-        // Claims on events are checked, and not yet tested: that needs the simulator at check time.
-        let span = match &claim.what {
-            ClaimWhat::Equals(_) => claim.tree.span,
-            ClaimWhat::Never(event) | ClaimWhat::Reaches(event) => event.span,
-        };
-        let occurrence = Occurrence {
+        Some(Occurrence {
             event: event?,
             within: match within {
                 Some(ticks) => Some(ticks?),
@@ -109,9 +114,7 @@ impl<'a> Checker<'a> {
                 Some(value) => value?,
                 None => 1.0,
             },
-        };
-        self.not_yet(span, "claims on events");
-        Some(occurrence)
+        })
     }
 
     fn claimed_event(&mut self, event: &'a Expr) -> Option<Id<Event>> {

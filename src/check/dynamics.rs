@@ -65,7 +65,10 @@ impl<'a> Checker<'a> {
                 value: Value::Scalar(initial),
                 ..value.clone()
             };
-            if self.constant_of(&part, "the first value of a state").is_none() {
+            if self
+                .constant_of(&part, "the first value of a state")
+                .is_none()
+            {
                 return;
             }
             ids.push(self.program.states.push(State {
@@ -108,7 +111,10 @@ impl<'a> Checker<'a> {
             for arg in reference.args.iter().flatten() {
                 self.stray_argument(arg);
             }
-            let ty = state.ty.as_ref().map_or(Type::Error, |ty| self.type_expr(ty));
+            let ty = state
+                .ty
+                .as_ref()
+                .map_or(Type::Error, |ty| self.type_expr(ty));
             return Typed {
                 ty,
                 value: Value::Unknown,

@@ -73,8 +73,12 @@ impl<'a> Checker<'a> {
         let value = self.program.pool.constant(id);
         if value.is_none() {
             self.report(
-                Diagnostic::new(Code::E0303, typed.span, format!("{role} has to be a constant"))
-                    .label("this changes as the program runs"),
+                Diagnostic::new(
+                    Code::E0303,
+                    typed.span,
+                    format!("{role} has to be a constant"),
+                )
+                .label("this changes as the program runs"),
             );
         }
         match value {
@@ -173,13 +177,16 @@ impl<'a> Checker<'a> {
             );
             return Typed::error(span);
         }
-        self.lifted(operand.ty.clone(), span, &[&operand], |pool, ids| {
-            match ids {
+        self.lifted(
+            operand.ty.clone(),
+            span,
+            &[&operand],
+            |pool, ids| match ids {
                 [a] if op == UnaryOp::Neg => Some(pool.unary(Unary::Neg, *a)),
                 [a] => Some(*a),
                 _ => None,
-            }
-        })
+            },
+        )
     }
 
     fn binary(
@@ -191,7 +198,11 @@ impl<'a> Checker<'a> {
     ) -> Typed {
         match op.node {
             BinaryOp::And | BinaryOp::Or => {
-                let word = if op.node == BinaryOp::And { "and" } else { "or" };
+                let word = if op.node == BinaryOp::And {
+                    "and"
+                } else {
+                    "or"
+                };
                 let role = format!("each side of `{word}`");
                 let a = self.expect(left, &Type::Bool, &role);
                 let b = self.expect(right, &Type::Bool, &role);
@@ -260,8 +271,10 @@ impl<'a> Checker<'a> {
             };
         }
         let equality = matches!(op.node, BinaryOp::Eq | BinaryOp::Ne);
-        let alike = matches!((&a.ty, &b.ty), (Type::Bool, Type::Bool) | (Type::Enum(_), Type::Enum(_)))
-            && a.ty == b.ty;
+        let alike = matches!(
+            (&a.ty, &b.ty),
+            (Type::Bool, Type::Bool) | (Type::Enum(_), Type::Enum(_))
+        ) && a.ty == b.ty;
         let operands = if equality && alike {
             Some((a, b))
         } else {
@@ -334,10 +347,13 @@ impl<'a> Checker<'a> {
                 (Some(_), Some(_)) => Code::E0301,
                 _ => Code::E0302,
             };
-            let mut diagnostic =
-                Diagnostic::new(code, otherwise.span, "both sides of a choice are of one type")
-                    .label(format!("this is {}", otherwise.ty))
-                    .also(then.span, format!("this is {}", then.ty));
+            let mut diagnostic = Diagnostic::new(
+                code,
+                otherwise.span,
+                "both sides of a choice are of one type",
+            )
+            .label(format!("this is {}", otherwise.ty))
+            .also(then.span, format!("this is {}", then.ty));
             if let (Some(expr), Some(dim)) = (other_expr, then.ty.dim()) {
                 diagnostic = with_unit_fix(diagnostic, expr, dim);
             }

@@ -212,7 +212,9 @@ impl<'a> Checker<'a> {
         };
         match word {
             "q_learning" => {}
-            "double_q" | "model" => self.not_yet(value.span, "double Q-learning and model learning"),
+            "double_q" | "model" => {
+                self.not_yet(value.span, "double Q-learning and model learning")
+            }
             _ => self.report(
                 Diagnostic::new(Code::E0501, value.span, "there is no such method")
                     .label("`q_learning` is one"),
@@ -226,7 +228,10 @@ impl<'a> Checker<'a> {
         if number.fract() == 0.0 && (least..=9e15).contains(&number) {
             return Some(number as u64);
         }
-        self.out_of_range(value.span, &format!("{role} is a whole number from {least} up"));
+        self.out_of_range(
+            value.span,
+            &format!("{role} is a whole number from {least} up"),
+        );
         None
     }
 
@@ -293,9 +298,7 @@ impl<'a> Checker<'a> {
             self.out_of_range(setting.value.span, "a discount goes from 0 to 1");
             return;
         }
-        let per_decision = |tail: &ast::Expr| {
-            matches!(&tail.kind, ExprKind::Ref(Ref { name, args: None, .. }) if name.name == "decision")
-        };
+        let per_decision = |tail: &ast::Expr| matches!(&tail.kind, ExprKind::Ref(Ref { name, args: None, .. }) if name.name == "decision");
         learner.discount = match tail {
             None => Discount::PerDecision(factor),
             Some(tail) if per_decision(tail) => Discount::PerDecision(factor),

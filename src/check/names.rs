@@ -144,12 +144,7 @@ impl<'a> Names<'a> {
             .map(|(name, _)| *name)
     }
 
-    fn item(
-        &mut self,
-        kind: &'a ItemKind,
-        library: bool,
-        diagnostics: &mut Vec<Diagnostic>,
-    ) {
+    fn item(&mut self, kind: &'a ItemKind, library: bool, diagnostics: &mut Vec<Diagnostic>) {
         let mut declare = |decl: Decl<'a>| {
             let layer = if library {
                 &mut self.library

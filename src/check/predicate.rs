@@ -68,9 +68,14 @@ impl<'a> Checker<'a> {
         }
         let body = predicate.name.span;
         let value = self
-            .unrolled(body, reference, library, Region::Predicate, scope, |checker| {
-                checker.predicate_body(predicate)
-            })
+            .unrolled(
+                body,
+                reference,
+                library,
+                Region::Predicate,
+                scope,
+                |checker| checker.predicate_body(predicate),
+            )
             .flatten();
         Typed {
             ty: Type::Bool,
@@ -96,9 +101,14 @@ impl<'a> Checker<'a> {
         }
         let when = if predicate.value.is_some() {
             let body = predicate.name.span;
-            self.unrolled(body, reference, library, Region::Predicate, scope, |checker| {
-                checker.predicate_body(predicate)
-            })
+            self.unrolled(
+                body,
+                reference,
+                library,
+                Region::Predicate,
+                scope,
+                |checker| checker.predicate_body(predicate),
+            )
             .map(|when| when.map(Some))
         } else {
             Some(Some(None))

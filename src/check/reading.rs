@@ -116,7 +116,10 @@ impl<'a> Checker<'a> {
     fn offset(&mut self, target: &Typed) -> Option<(ExprId, ExprId)> {
         let (x, y) = self.point_of(target)?;
         let pool = &mut self.program.pool;
-        let here = (pool.leaf(Expr::Pose(Pose::X)), pool.leaf(Expr::Pose(Pose::Y)));
+        let here = (
+            pool.leaf(Expr::Pose(Pose::X)),
+            pool.leaf(Expr::Pose(Pose::Y)),
+        );
         Some((
             pool.binary(Binary::Sub, x, here.0),
             pool.binary(Binary::Sub, y, here.1),

@@ -60,7 +60,11 @@ impl<'a> Checker<'a> {
                     usize::MAX
                 };
                 let points = self.points(reference, 2, most)?;
-                if points.iter().zip(points.iter().skip(1)).any(|(a, b)| a == b) {
+                if points
+                    .iter()
+                    .zip(points.iter().skip(1))
+                    .any(|(a, b)| a == b)
+                {
                     return self.senseless(span, "a line without length");
                 }
                 Some(Shape::Polyline(points))

@@ -90,8 +90,12 @@ impl<'a> Checker<'a> {
         }
         if !self.has_world {
             self.report(
-                Diagnostic::new(Code::E0407, task.name.span, "a task needs a world, and there is none")
-                    .label("where is this to be done?"),
+                Diagnostic::new(
+                    Code::E0407,
+                    task.name.span,
+                    "a task needs a world, and there is none",
+                )
+                .label("where is this to be done?"),
             );
         }
         // A task with a mistake in it is known by name, so that what refers to it is not reported as well.
@@ -171,7 +175,9 @@ impl<'a> Checker<'a> {
     }
 
     fn uses_library(&self) -> bool {
-        self.names.value("idle", true).is_some_and(|(_, library)| library)
+        self.names
+            .value("idle", true)
+            .is_some_and(|(_, library)| library)
     }
 
     fn once<T: PartialEq>(&mut self, list: &mut Vec<T>, item: T, span: Span) {
@@ -191,7 +197,10 @@ impl<'a> Checker<'a> {
             Diagnostic::new(
                 Code::E0203,
                 reference.span,
-                format!("{wanted} is needed here, and `{}` is {found}", reference.name.name),
+                format!(
+                    "{wanted} is needed here, and `{}` is {found}",
+                    reference.name.name
+                ),
             )
             .label(format!("this is {found}")),
         );
@@ -316,7 +325,11 @@ impl<'a> Checker<'a> {
             _ => return None,
         };
         let ids = ids.unwrap_or_default().into_iter();
-        Some(ids.zip(parts).map(|(id, part)| StartLine::State(id, part)).collect())
+        Some(
+            ids.zip(parts)
+                .map(|(id, part)| StartLine::State(id, part))
+                .collect(),
+        )
     }
 
     fn reward(
@@ -338,8 +351,8 @@ impl<'a> Checker<'a> {
             }
         }
         self.context = Context::new(Region::Reward);
-        let otherwise = otherwise
-            .and_then(|value| self.expect(value, &Type::NUMBER, "a reward").scalar());
+        let otherwise =
+            otherwise.and_then(|value| self.expect(value, &Type::NUMBER, "a reward").scalar());
         let otherwise = otherwise.unwrap_or_else(|| self.program.pool.num(0.0));
         (built, otherwise)
     }

@@ -223,9 +223,13 @@ impl<'a> Checker<'a> {
                     format!("{name}(2) {{ … }}")
                 };
                 self.report(
-                    Diagnostic::new(Code::E0606, word.span, format!("`{name}` takes one argument"))
-                        .label("how many?")
-                        .help(format!("for example: `{example}`")),
+                    Diagnostic::new(
+                        Code::E0606,
+                        word.span,
+                        format!("`{name}` takes one argument"),
+                    )
+                    .label("how many?")
+                    .help(format!("for example: `{example}`")),
                 );
                 None
             }
@@ -306,10 +310,7 @@ impl<'a> Checker<'a> {
                 }
                 None if !matches!(name, "done" | "failed") => {
                     let nodes = self.names.values(|decl| {
-                        matches!(
-                            decl,
-                            Decl::Behavior(_) | Decl::Tree(_) | Decl::Predicate(_)
-                        )
+                        matches!(decl, Decl::Behavior(_) | Decl::Tree(_) | Decl::Predicate(_))
                     });
                     let mut diagnostic =
                         unknown(&reference.name, "behaviour, subtree or predicate", nodes);
@@ -385,8 +386,12 @@ impl<'a> Checker<'a> {
             let ended = values.first().copied()?;
             let ExprKind::Ref(behavior) = strip(ended) else {
                 self.report(
-                    Diagnostic::new(Code::E0203, ended.span, format!("`{name}` asks a behaviour"))
-                        .label("this is an expression"),
+                    Diagnostic::new(
+                        Code::E0203,
+                        ended.span,
+                        format!("`{name}` asks a behaviour"),
+                    )
+                    .label("this is an expression"),
                 );
                 return None;
             };

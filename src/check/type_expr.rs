@@ -42,7 +42,10 @@ impl<'a> Checker<'a> {
                         Diagnostic::new(
                             Code::E0304,
                             name.span,
-                            format!("`{}` has no unit, so it makes no product or quotient", name.name),
+                            format!(
+                                "`{}` has no unit, so it makes no product or quotient",
+                                name.name
+                            ),
                         )
                         .label(format!("this is {ty}")),
                     );

@@ -279,11 +279,7 @@ impl<'a> Checker<'a> {
             Some("differential") => DriveKind::Differential,
             Some("holonomic") => DriveKind::Holonomic,
             _ => {
-                self.choice_of(
-                    value,
-                    "`drive`",
-                    &["differential(…)", "holonomic(…)"],
-                );
+                self.choice_of(value, "`drive`", &["differential(…)", "holonomic(…)"]);
                 return None;
             }
         };
@@ -359,11 +355,7 @@ impl<'a> Checker<'a> {
                 let (target, facing) = self.beacon_target(reference)?;
                 let set = self.settings(
                     reference,
-                    &[
-                        ("range", length, None),
-                        ("sector", angle, Some(TAU)),
-                        noise,
-                    ],
+                    &[("range", length, None), ("sector", angle, Some(TAU)), noise],
                 )?;
                 let [(range, far), (sector, _), (noise, _)] = *set.as_slice() else {
                     return None;
@@ -391,10 +383,14 @@ impl<'a> Checker<'a> {
 
     /// The `target` of a beacon: a place, whose `facing` is the way that it sends, against the robot that faces it.
     fn beacon_target(&mut self, reference: &'a Ref) -> Option<(Point, f64)> {
-        let named = reference.args.iter().flatten().find_map(|arg| match &arg.kind {
-            ArgKind::Named(name, value) if name.name == "target" => Some(value),
-            _ => None,
-        });
+        let named = reference
+            .args
+            .iter()
+            .flatten()
+            .find_map(|arg| match &arg.kind {
+                ArgKind::Named(name, value) if name.name == "target" => Some(value),
+                _ => None,
+            });
         let Some(value) = named else {
             self.missing(reference.span, "beacon", "target", "beacon(target = C, …)");
             return None;
@@ -475,7 +471,10 @@ impl<'a> Checker<'a> {
     fn fields(&mut self, fields: &[&'a Field], known: &[&str], what: &str) {
         for (i, field) in fields.iter().enumerate() {
             let name = &field.name;
-            let before = fields.iter().take(i).find(|other| other.name.name == name.name);
+            let before = fields
+                .iter()
+                .take(i)
+                .find(|other| other.name.name == name.name);
             if let Some(first) = before {
                 self.report(
                     Diagnostic::new(
@@ -587,8 +586,7 @@ fn contains(shape: &Shape, [x, y]: Point) -> bool {
         Shape::Polygon(points) => {
             let next = points.iter().cycle().skip(1);
             let crossings = points.iter().zip(next).filter(|(a, b)| {
-                (a[1] > y) != (b[1] > y)
-                    && x < (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1]) + a[0]
+                (a[1] > y) != (b[1] > y) && x < (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1]) + a[0]
             });
             crossings.count() % 2 == 1
         }

@@ -13,7 +13,9 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let Some(code) = &arguments.code else {
-        let lines = Code::ALL.iter().map(|code| format!("{code}  {}\n", code.title()));
+        let lines = Code::ALL
+            .iter()
+            .map(|code| format!("{code}  {}\n", code.title()));
         return files::print(&lines.collect::<String>());
     };
     match explain::explain(code) {

@@ -54,7 +54,9 @@ pub(super) fn load(path: &str, say: &Reporter) -> Result<Loaded, Failure> {
 /// Writes a whole file or nothing: to a temporary name beside it, synced and renamed.
 pub(super) fn write(path: &Path, text: &str) -> Result<(), Failure> {
     let attempt = || -> io::Result<()> {
-        let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty());
+        let folder = path
+            .parent()
+            .filter(|parent| !parent.as_os_str().is_empty());
         let folder = folder.unwrap_or_else(|| Path::new("."));
         let mut builder = tempfile::Builder::new();
         builder.prefix(".btc-");

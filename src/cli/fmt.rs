@@ -1,8 +1,8 @@
 //! `btc fmt`
 
+use super::Failure;
 use super::files::{self, STDIN};
 use super::report::Reporter;
-use super::Failure;
 use crate::driver::format;
 use clap::Args;
 use std::path::Path;

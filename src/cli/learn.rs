@@ -1,9 +1,9 @@
 //! `btc learn`
 
+use super::Failure;
 use super::files::{self, STDIN};
 use super::progress::Progress;
 use super::report::Reporter;
-use super::Failure;
 use crate::driver::learn::{self, Options};
 use crate::driver::verify;
 use crate::tree::decanonicalise::Method;

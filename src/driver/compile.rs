@@ -91,8 +91,17 @@ pub fn summary(loaded: &Loaded) -> String {
                 world.tick
             ),
         );
-        let names = |names: Vec<&str>| if names.is_empty() { "none".to_owned() } else { names.join(", ") };
-        line("places", names(world.places.values().map(|p| p.name.as_str()).collect()));
+        let names = |names: Vec<&str>| {
+            if names.is_empty() {
+                "none".to_owned()
+            } else {
+                names.join(", ")
+            }
+        };
+        line(
+            "places",
+            names(world.places.values().map(|p| p.name.as_str()).collect()),
+        );
         line(
             "robot",
             format!(
@@ -110,9 +119,30 @@ pub fn summary(loaded: &Loaded) -> String {
         );
     }
     let list = |names: Vec<&str>| format!("{}: {}", names.len(), names.join(", "));
-    line("predicates", list(program.predicates.values().map(|p| p.name.as_str()).collect()));
-    line("behaviours", list(program.behaviors.values().map(|b| b.name.as_str()).collect()));
-    line("events", list(program.events.values().map(|e| e.name.as_str()).collect()));
+    line(
+        "predicates",
+        list(
+            program
+                .predicates
+                .values()
+                .map(|p| p.name.as_str())
+                .collect(),
+        ),
+    );
+    line(
+        "behaviours",
+        list(
+            program
+                .behaviors
+                .values()
+                .map(|b| b.name.as_str())
+                .collect(),
+        ),
+    );
+    line(
+        "events",
+        list(program.events.values().map(|e| e.name.as_str()).collect()),
+    );
     for (id, task) in program.tasks.iter() {
         let atoms = program.atoms(id).len();
         let history = atoms - task.observe.len();

@@ -11,7 +11,10 @@ pub fn explain(code: &str) -> Result<&'static str, Option<&'static str>> {
         Some(code) => Ok(code.explanation()),
         None => {
             let upper = code.to_uppercase();
-            Err(suggest::nearest(&upper, Code::ALL.iter().map(|code| code.name())))
+            Err(suggest::nearest(
+                &upper,
+                Code::ALL.iter().map(|code| code.name()),
+            ))
         }
     }
 }

@@ -100,19 +100,22 @@ pub fn learn(
     progress(Stage::Proving);
     let found = decanonicalise::decanonicalise(&policy, options.method, Care::Seen)
         .map_err(|refuted| refused(loaded, &refuted))?;
-    Ok(bench.write(loaded, options, learner_id, Results {
-        table,
-        counts,
-        points,
-        summary,
-        policy,
-        found,
-    }))
+    Ok(bench.write(
+        loaded,
+        options,
+        learner_id,
+        Results {
+            counts,
+            points,
+            summary,
+            policy,
+            found,
+        },
+    ))
 }
 
 /// Everything that learning came to.
 struct Results {
-    table: Table,
     counts: Counts,
     points: Vec<Point>,
     summary: Summary,
@@ -169,13 +172,14 @@ impl Bench<'_> {
         let start = self.start(Purpose::Learn, EXPLORING, learner.episode_ticks);
         let mut process = self.process(start);
         let mut points = Vec::new();
-        let (table, counts) = q_learning::learn(&mut process, &settings, |episode, table, counts| {
-            if curve::due(episode, self.episodes) {
-                points.push(self.point(table, counts));
-            }
-            progress(Stage::Learning(episode + 1, self.episodes));
-            true
-        });
+        let (table, counts) =
+            q_learning::learn(&mut process, &settings, |episode, table, counts| {
+                if curve::due(episode, self.episodes) {
+                    points.push(self.point(table, counts));
+                }
+                progress(Stage::Learning(episode + 1, self.episodes));
+                true
+            });
         (table, counts, points)
     }
 
@@ -201,7 +205,11 @@ impl Bench<'_> {
     }
 
     /// The greedy policy from the task's own starts: its transitions, and what it is worth.
-    fn roll_out(&self, choices: &FxHashMap<Key, Id<crate::ir::law::Behavior>>, episodes: u64) -> (RollOut, Summary) {
+    fn roll_out(
+        &self,
+        choices: &FxHashMap<Key, Id<crate::ir::law::Behavior>>,
+        episodes: u64,
+    ) -> (RollOut, Summary) {
         let task = &self.program.tasks[self.learner.task];
         let unseen = run::unseen(self.program, self.learner.task);
         let start = self.start(Purpose::RollOut, OWN, task.end_after);
@@ -223,7 +231,6 @@ impl Bench<'_> {
         results: Results,
     ) -> Learned {
         let Results {
-            table: _,
             counts,
             points,
             summary,
@@ -361,9 +368,7 @@ impl Bench<'_> {
             events: program.events.values().map(|e| e.name.clone()).collect(),
             ends: run::end_names(program, task),
         };
-        let size = |size: &crate::tree::Size| {
-            json!({ "nodes": size.nodes, "literals": size.literals, "depth": size.depth })
-        };
+        let size = |size: &crate::tree::Size| json!({ "nodes": size.nodes, "literals": size.literals, "depth": size.depth });
         json!({
             "btc": env!("CARGO_PKG_VERSION"),
             "source": options.source,
@@ -428,7 +433,12 @@ pub(super) fn minterm_text(
 fn hashes(loaded: &Loaded) -> Value {
     let files = loaded.files.iter().filter_map(|id| loaded.sources.get(*id));
     let hashes = files.map(|source| {
-        let name = source.name.rsplit('/').next().unwrap_or_default().to_owned();
+        let name = source
+            .name
+            .rsplit('/')
+            .next()
+            .unwrap_or_default()
+            .to_owned();
         let digest = Sha256::digest(source.text.as_bytes());
         let hex: String = digest.iter().map(|byte| format!("{byte:02x}")).collect();
         (name, Value::String(hex))

@@ -4,8 +4,8 @@ use crate::check::{self, Input};
 use crate::diagnostic::{self, Code, Diagnostic};
 use crate::ir::Program;
 use crate::source::{FileId, Source, Sources, Span};
-use crate::syntax::ast::{self, ItemKind, UseWhat};
 use crate::syntax;
+use crate::syntax::ast::{self, ItemKind, UseWhat};
 
 /// The embedded library.
 const LIBRARY: &str = include_str!("../library/std.bt");

@@ -43,12 +43,7 @@ pub struct Ran {
 ///
 /// # Errors
 /// The world cannot be built, or something that is used is declared only.
-pub fn run(
-    loaded: &Loaded,
-    subject: Subject,
-    episodes: u64,
-    seed: u64,
-) -> Result<Ran, Diagnostic> {
+pub fn run(loaded: &Loaded, subject: Subject, episodes: u64, seed: u64) -> Result<Ran, Diagnostic> {
     let program = &loaded.program;
     let task_id = match subject {
         Subject::Tree(tree) => target::task_of(loaded, Some(tree))?,
@@ -88,7 +83,11 @@ pub fn run(
     };
     Ok(Ran {
         summary: Summary::of(&played, task.end_on.len()),
-        events: program.events.values().map(|event| event.name.clone()).collect(),
+        events: program
+            .events
+            .values()
+            .map(|event| event.name.clone())
+            .collect(),
         ends: end_names(program, task),
     })
 }
@@ -176,7 +175,10 @@ pub(super) fn choices(policy: &Policy) -> FxHashMap<Key, Id<Behavior>> {
 
 /// What is done in a minterm that was never seen: what the learner of the task says, else the first choice.
 pub(super) fn unseen(program: &Program, task: Id<Task>) -> Id<Behavior> {
-    let learner = program.learners.values().find(|learner| learner.task == task);
+    let learner = program
+        .learners
+        .values()
+        .find(|learner| learner.task == task);
     learner
         .and_then(|learner| learner.unseen)
         .or(program.tasks[task].choose.first().copied())

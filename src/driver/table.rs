@@ -21,7 +21,11 @@ pub fn policy(loaded: &Loaded, file: FileId, task: Id<Task>) -> Result<Policy, V
 ///
 /// # Errors
 /// What is wrong with the table, with its place.
-pub fn environment(loaded: &Loaded, file: FileId, task: Id<Task>) -> Result<Policy, Vec<Diagnostic>> {
+pub fn environment(
+    loaded: &Loaded,
+    file: FileId,
+    task: Id<Task>,
+) -> Result<Policy, Vec<Diagnostic>> {
     let program = &loaded.program;
     let text = loaded.sources.get(file).map_or("", |source| &source.text);
     let mut policy = Policy {

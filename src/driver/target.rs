@@ -85,7 +85,10 @@ fn only<T>(
         _ => Err(Diagnostic::new(
             Code::E0504,
             end_of_file(loaded),
-            format!("the program has several `{word}` items: {}", names.join(", ")),
+            format!(
+                "the program has several `{word}` items: {}",
+                names.join(", ")
+            ),
         )
         .label("say which one is meant")),
     }

@@ -112,7 +112,11 @@ pub fn claims_of_learned(loaded: &Loaded, learned: &Learned) -> Result<Vec<Prove
     Ok(results)
 }
 
-fn side<'a>(program: &'a Program, learned: &'a Learned, tree: TreeRef) -> Option<(&'a str, &'a Node)> {
+fn side<'a>(
+    program: &'a Program,
+    learned: &'a Learned,
+    tree: TreeRef,
+) -> Option<(&'a str, &'a Node)> {
     match tree {
         TreeRef::Tree(id) => {
             let tree = &program.trees[id];
@@ -164,7 +168,9 @@ impl Pair<'_> {
                     Some(policy) => {
                         let open = match explored.open {
                             0 => "closed under them".to_owned(),
-                            n => format!("with {n} places where the table says nothing of what follows"),
+                            n => format!(
+                                "with {n} places where the table says nothing of what follows"
+                            ),
                         };
                         format!(
                             "equal: `{left}` and `{right}` select the same behaviour on {} minterms and {} of {} greedy \
@@ -203,7 +209,9 @@ impl Pair<'_> {
     fn trace(&self, left: &str, right: &str, trace: &Trace) -> String {
         let program = &self.loaded.program;
         let name = |behavior: &Option<Id<Behavior>>| {
-            behavior.map_or("nothing", |id| &program.behaviors[id].name).to_owned()
+            behavior
+                .map_or("nothing", |id| &program.behaviors[id].name)
+                .to_owned()
         };
         let atoms: Vec<Atom> = trace.atoms.clone();
         let policy = Policy {

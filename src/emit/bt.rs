@@ -8,7 +8,13 @@ use crate::syntax;
 /// A tree as an item of the language, with a documentation line each.
 ///
 /// `task` is the name of the task that it is for.
-pub fn tree(program: &Program, name: &str, docs: &[String], task: Option<&str>, root: &Node) -> String {
+pub fn tree(
+    program: &Program,
+    name: &str,
+    docs: &[String],
+    task: Option<&str>,
+    root: &Node,
+) -> String {
     let mut text = String::new();
     for line in docs {
         text.push_str(&format!("/// {line}\n"));

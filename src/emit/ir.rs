@@ -44,18 +44,29 @@ impl Out<'_> {
             self.line(1, format!("wall {id:?} {} {:?}", wall.name, wall.shape));
         }
         for (id, place) in world.places.iter() {
-            let facing = place.facing.map_or(String::new(), |a| format!(" facing {a}"));
-            self.line(1, format!("place {id:?} {} {:?}{facing}", place.name, place.shape));
+            let facing = place
+                .facing
+                .map_or(String::new(), |a| format!(" facing {a}"));
+            self.line(
+                1,
+                format!("place {id:?} {} {:?}{facing}", place.name, place.shape),
+            );
         }
         let robot = &world.robot;
         self.line(
             1,
-            format!("robot {} radius {} {:?} {:?}", robot.name, robot.radius, robot.drive, robot.contact),
+            format!(
+                "robot {} radius {} {:?} {:?}",
+                robot.name, robot.radius, robot.drive, robot.contact
+            ),
         );
         for (id, sensor) in robot.sensors.iter() {
             self.line(
                 2,
-                format!("sensor {id:?} {} {:?} noise {}", sensor.name, sensor.kind, sensor.noise),
+                format!(
+                    "sensor {id:?} {} {:?} noise {}",
+                    sensor.name, sensor.kind, sensor.noise
+                ),
             );
         }
     }
@@ -68,7 +79,10 @@ impl Out<'_> {
                 ValueKind::Enum(variants) => format!("enum {{{}}}", variants.join(", ")),
             };
             let initial = self.expr(state.initial);
-            self.line(0, format!("state {id:?} {}: {kind} = {initial}", state.name));
+            self.line(
+                0,
+                format!("state {id:?} {}: {kind} = {initial}", state.name),
+            );
         }
         for (id, event) in self.program.events.iter() {
             let when = self.expr(event.when);
@@ -84,7 +98,9 @@ impl Out<'_> {
             self.block(&effect.block, 1);
         }
         for (id, predicate) in self.program.predicates.iter() {
-            let when = predicate.when.map_or("declared".to_owned(), |id| self.expr(id));
+            let when = predicate
+                .when
+                .map_or("declared".to_owned(), |id| self.expr(id));
             self.line(0, format!("predicate {id:?} {} = {when}", predicate.name));
         }
     }
@@ -149,7 +165,10 @@ impl Out<'_> {
                 } => {
                     let (speed, turn) = (self.expr(*speed), self.expr(*turn));
                     let strafe = self.expr(*strafe);
-                    self.line(depth, format!("drive speed {speed} strafe {strafe} turn {turn}"));
+                    self.line(
+                        depth,
+                        format!("drive speed {speed} strafe {strafe} turn {turn}"),
+                    );
                 }
             }
         }
@@ -171,7 +190,10 @@ impl Out<'_> {
                 .collect();
             self.line(1, format!("observe {}", observe.join(", ")));
             self.line(1, format!("choose {}", choose.join(", ")));
-            self.line(1, format!("{:?} patience {:?}", task.history, task.patience));
+            self.line(
+                1,
+                format!("{:?} patience {:?}", task.history, task.patience),
+            );
             self.start(&task.start);
             for id in &task.end_on {
                 let event = self.expr(*id);
@@ -188,7 +210,10 @@ impl Out<'_> {
         for learner in program.learners.values() {
             self.line(
                 0,
-                format!("learner {} for {}", learner.name, program.tasks[learner.task].name),
+                format!(
+                    "learner {} for {}",
+                    learner.name, program.tasks[learner.task].name
+                ),
             );
             let (rate, explore) = (self.expr(learner.rate), self.expr(learner.explore));
             let discount = match learner.discount {

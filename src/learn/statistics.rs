@@ -95,9 +95,8 @@ impl Summary {
     pub fn of(episodes: &[Episode], ends: usize) -> Self {
         let totals: Vec<f64> = episodes.iter().map(|episode| episode.total).collect();
         let events = episodes.first().map_or(0, |episode| episode.events.len());
-        let count = |event: usize, episode: &Episode| {
-            episode.events.get(event).copied().unwrap_or(0)
-        };
+        let count =
+            |event: usize, episode: &Episode| episode.events.get(event).copied().unwrap_or(0);
         Self {
             episodes: episodes.len() as u64,
             ticks: episodes.iter().map(|episode| episode.ticks).sum(),
