@@ -14,8 +14,6 @@ use std::f64::consts::{PI, TAU};
 pub(crate) struct Twin {
     pub(crate) world: World,
     pub(crate) obstacles: Vec<SharedShape>,
-    /// How many of them are walls; the others are the arena's boundary.
-    pub(crate) walls: usize,
 }
 
 pub(crate) fn vector(p: Point) -> Vector {
@@ -71,7 +69,7 @@ pub(crate) fn twin(random: &mut Random, contact: Contact) -> Twin {
                     .collect(),
             ),
         };
-        obstacles.push(parry_of(&shape, true));
+        obstacles.push(parry_of(&shape));
         walls.push(Wall {
             name: String::new(),
             shape,
@@ -89,9 +87,8 @@ pub(crate) fn twin(random: &mut Random, contact: Contact) -> Twin {
         2 => Shape::Polygon(polygon(random, [0.0, 0.0], 3.5, 5, false)),
         _ => Shape::Polygon(polygon(random, [0.0, 0.0], 4.5, 8, true)),
     };
-    let walls_count = obstacles.len();
     if !matches!(arena, Shape::Disc { .. }) {
-        obstacles.push(parry_of(&arena, false));
+        obstacles.push(parry_of(&arena));
     }
     Twin {
         world: World {
@@ -115,12 +112,11 @@ pub(crate) fn twin(random: &mut Random, contact: Contact) -> Twin {
             },
         },
         obstacles,
-        walls: walls_count,
     }
 }
 
-/// The outline of a shape in parry; a solid disc is a polygon of no corner, so it stays a ball.
-fn parry_of(shape: &Shape, _wall: bool) -> SharedShape {
+/// A disc as parry's ball, the outline of any other shape.
+fn parry_of(shape: &Shape) -> SharedShape {
     match shape {
         Shape::Disc { center, radius } => SharedShape::compound(vec![(
             Pose::from_translation(vector(*center)),
@@ -172,10 +168,11 @@ impl Twin {
             _ => false,
         };
         outside
-            || self
-                .obstacles
-                .iter()
-                .any(|o| intersection_test(&Pose::IDENTITY, &path, &Pose::IDENTITY, o.as_ref()).unwrap().intersecting)
+            || self.obstacles.iter().any(|o| {
+                intersection_test(&Pose::IDENTITY, &path, &Pose::IDENTITY, o.as_ref())
+                    .unwrap()
+                    .intersecting
+            })
     }
 }
 
