@@ -95,6 +95,14 @@ impl<'a> Compiler<'a> {
         {
             id = value;
         }
+        if let Expr::Select(condition, then, otherwise) = self.pool.get(id)
+            && Fixed::is_output(register)
+            && self.memo.get(id).is_none()
+        {
+            self.select_into(register, [condition, then, otherwise])?;
+            self.memo.insert(id, register);
+            return Ok(());
+        }
         let before = self.code.len();
         let fresh = self.scratch;
         let value = self.value(id)?;

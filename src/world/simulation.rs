@@ -181,7 +181,7 @@ impl<'a> Simulation<'a> {
                     self.history.clear();
                     if code >= 0.0 {
                         let code = code as usize;
-                        let status = if code % 2 == 0 {
+                        let status = if code.is_multiple_of(2) {
                             Status::Success
                         } else {
                             Status::Failure
