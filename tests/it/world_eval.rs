@@ -26,7 +26,7 @@ impl Numbers {
         Reading {
             distance: 0.4 + n,
             toward: [1.0 - n, 0.5 * n - 0.7],
-            seen: source % 2 == 0,
+            seen: source.is_multiple_of(2),
         }
     }
 }
