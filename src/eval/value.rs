@@ -111,7 +111,7 @@ impl Compiler<'_> {
         match echo {
             Echo::Distance => Ok(first),
             Echo::Seen => Ok(first + 3),
-            Echo::Direction => self.result(id, Op::Atan2, first + 2, first + 1),
+            Echo::Direction => self.result(id, Op::Direction, first + 2, first + 1),
         }
     }
 

@@ -34,7 +34,8 @@ pub(super) fn rotor(angle: f64) -> Point {
         let (sin, cos) = math::sin_cos(angle);
         return [cos, sin];
     }
-    // The coefficients ±1/n!, so that nothing is divided here.
+    // The Taylor coefficients ±1/n!, in pairs (Estrin's scheme): nothing is divided, and products do not wait for one
+    // another.
     const COS: [f64; 6] = [
         -1.0 / 2.0,
         1.0 / 24.0,
@@ -43,14 +44,16 @@ pub(super) fn rotor(angle: f64) -> Point {
         -1.0 / 3_628_800.0,
         1.0 / 479_001_600.0,
     ];
-    const SIN: [f64; 5] = [
+    const SIN: [f64; 6] = [
         -1.0 / 6.0,
         1.0 / 120.0,
         -1.0 / 5_040.0,
         1.0 / 362_880.0,
         -1.0 / 39_916_800.0,
+        1.0 / 6_227_020_800.0,
     ];
     let x = angle * angle;
-    let series = |c: &[f64]| c.iter().rev().fold(0.0, |sum, &c| sum * x + c);
-    [1.0 + x * series(&COS), angle + angle * x * series(&SIN)]
+    let xx = x * x;
+    let series = |[a, b, c, d, e, f]: [f64; 6]| (a + b * x) + xx * ((c + d * x) + xx * (e + f * x));
+    [1.0 + x * series(COS), angle + angle * x * series(SIN)]
 }

@@ -12,4 +12,5 @@ mod world_eval;
 mod world_geometry;
 mod world_motion;
 mod world_random;
+mod world_sensing;
 mod world_ticks;

@@ -10,6 +10,13 @@ use btc::ir::world::{Contact, Drive, DriveKind, Robot, Sensor, SensorKind, Shape
 use btc::ir::{Expr, ExprId, Id, Program, Table};
 use btc::world::{BuildError, End, Simulation, Simulator, Start};
 
+/// One world is shared between threads.
+#[test]
+fn a_simulator_can_be_shared() {
+    fn shared<T: Send + Sync>() {}
+    shared::<Simulator>();
+}
+
 /// The expert of the paper's Figure 8 delivers for thousands of ticks without dying.
 #[test]
 fn an_expert_delivers_in_the_small_world() {
@@ -61,7 +68,7 @@ const AGAIN: usize = 3;
 /// A program of behaviours that each show one thing:
 /// `done` succeeds at once, `refused` fails outright, `count` counts its ticks in a local and copies it to a state,
 /// `look` copies a noisy sensor to two states, `go` drives.
-fn small_program() -> Program {
+pub(crate) fn small_program() -> Program {
     let mut program = Program::default();
     let mut m = Maker(&mut program.pool);
     let (no, yes) = (m.truth(false), m.truth(true));
@@ -536,4 +543,16 @@ fn a_start_is_drawn_again_until_it_is_free() {
         let [x, y] = simulation.pose().position;
         assert!((0.2..=3.8).contains(&x) && y == 1.0);
     }
+}
+
+/// A behaviour that is declared only can be named by a tree; it fails.
+#[test]
+fn a_declared_behavior_fails() {
+    let mut program = small_program();
+    program.tasks[Id::new(0)].choose.pop();
+    program.behaviors[Id::new(GO)].law = None;
+    let simulator = build(&program).unwrap();
+    let mut simulation = simulator.simulation();
+    simulation.start(Start::default());
+    assert_eq!(option(&mut simulation, GO).status, Status::Failure);
 }
