@@ -11,13 +11,13 @@ use btc::world::{Simulator, Start};
 use std::f64::consts::PI;
 
 /// A source's distance, direction and whether it is seen, from (1, 2) in an arena of 4 m × 4 m with a thin wall from
-/// (3, 1) to (3, 2.5).
+/// (2.5, 1) to (2.5, 2.5).
 fn read(heading: f64, sensor: SensorKind, source: fn(Echo) -> Expr) -> (f64, f64, bool) {
     let mut program = small_program();
     let world = program.world.as_mut().unwrap();
     world.walls.push(Wall {
         name: "wall".into(),
-        shape: Shape::Polyline(vec![[3.0, 1.0], [3.0, 2.5]]),
+        shape: Shape::Polyline(vec![[2.5, 1.0], [2.5, 2.5]]),
     });
     let ahead = &mut world.robot.sensors[Id::new(0)];
     ahead.kind = sensor;
@@ -63,17 +63,17 @@ fn walls() {
     check(read(0.3, ANY, Expr::NearestWall), (1.0, -PI, true));
     check(
         read(0.3, ANY, |e| Expr::Wall(Id::new(0), e)),
-        (2.0, 0.0, true),
+        (1.5, 0.0, true),
     );
 }
 
 #[test]
 fn range_finders() {
     let finder = |at, range| SensorKind::RangeFinder { at, range };
-    check(read(0.0, finder(0.0, 5.0), sensor), (2.0, 0.0, true));
-    check(read(0.5, finder(-0.5, 5.0), sensor), (2.0, 0.0, true));
+    check(read(0.0, finder(0.0, 5.0), sensor), (1.5, 0.0, true));
+    check(read(0.5, finder(-0.5, 5.0), sensor), (1.5, 0.0, true));
     // Nothing within its range: the range, along the ray.
-    check(read(0.5, finder(-0.5, 1.5), sensor), (1.5, 0.0, false));
+    check(read(0.5, finder(-0.5, 1.2), sensor), (1.2, 0.0, false));
 }
 
 #[test]
@@ -82,7 +82,7 @@ fn scanners() {
     // Looking up: the left half is towards x = 0, the right half towards the thin wall.
     let up = PI / 2.0;
     check(read(up, scanner(0.0, PI, 5.0), sensor), (1.0, -PI, true));
-    check(read(up, scanner(-PI, 0.0, 5.0), sensor), (2.0, 0.0, true));
+    check(read(up, scanner(-PI, 0.0, 5.0), sensor), (1.5, 0.0, true));
     // All round; and in two parts, since more than half a turn is no half plane.
     check(read(up, scanner(-PI, PI, 5.0), sensor), (1.0, -PI, true));
     check(
@@ -90,8 +90,8 @@ fn scanners() {
         (2f64.sqrt(), 0.75 * PI, true),
     );
     check(
-        read(0.0, scanner(-0.2, 0.6, 1.5), sensor),
-        (1.5, 0.2, false),
+        read(0.0, scanner(-0.2, 0.6, 1.2), sensor),
+        (1.2, 0.2, false),
     );
 }
 
