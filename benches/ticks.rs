@@ -1,4 +1,9 @@
 //! How fast the world ticks, and how fast its geometry is beside parry's.
+#![allow(
+    clippy::unwrap_used,
+    clippy::indexing_slicing,
+    reason = "a bench fails where it goes wrong"
+)]
 
 #[allow(dead_code, unreachable_pub, reason = "shared with the tests")]
 #[path = "../tests/it/world_delivery.rs"]

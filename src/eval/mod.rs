@@ -18,6 +18,7 @@ mod memo;
 mod random;
 mod statement;
 mod value;
+mod ziggurat;
 
 pub use code::{Code, Instruction, Op, Register};
 pub use compiler::{Compiler, Label, TooLarge};

@@ -70,7 +70,8 @@ impl Compiler<'_> {
                 },
             },
             Expr::Select(condition, then, otherwise) => {
-                let dst = self.select(condition, then, otherwise)?;
+                let dst = self.fresh()?;
+                self.select_into(dst, [condition, then, otherwise])?;
                 self.memo.insert(id, dst);
                 dst
             }
@@ -110,7 +111,7 @@ impl Compiler<'_> {
         match echo {
             Echo::Distance => Ok(first),
             Echo::Seen => Ok(first + 3),
-            Echo::Direction => self.result(id, Op::Atan2, first + 2, first + 1),
+            Echo::Direction => self.result(id, Op::Direction, first + 2, first + 1),
         }
     }
 
@@ -138,14 +139,12 @@ impl Compiler<'_> {
         Ok(dst)
     }
 
-    /// A choice: the side that is not taken is skipped.
-    fn select(
+    /// A choice: the side that is not taken is skipped. `dst` must not be read by any of the three.
+    pub(super) fn select_into(
         &mut self,
-        condition: ExprId,
-        then: ExprId,
-        otherwise: ExprId,
-    ) -> Result<Register, TooLarge> {
-        let dst = self.fresh()?;
+        dst: Register,
+        [condition, then, otherwise]: [ExprId; 3],
+    ) -> Result<(), TooLarge> {
         let cheap = self.cost(otherwise) < WORTH_A_JUMP;
         if cheap {
             let value = self.value(otherwise)?;
@@ -153,8 +152,7 @@ impl Compiler<'_> {
         }
         let mut no = Label::default();
         let known = self.condition(condition, false, &mut no)?;
-        let value = self.value(then)?;
-        self.emit(Op::Move, dst, value, 0);
+        self.side(dst, then)?;
         if cheap {
             self.bind(no);
         } else {
@@ -162,12 +160,21 @@ impl Compiler<'_> {
             self.jump(Op::Jump, &mut end, 0, 0);
             self.bind(no);
             self.memo.forget(known);
-            let value = self.value(otherwise)?;
-            self.emit(Op::Move, dst, value, 0);
+            self.side(dst, otherwise)?;
             self.bind(end);
         }
         self.memo.forget(known);
-        Ok(dst)
+        Ok(())
+    }
+
+    /// One side of a choice.
+    fn side(&mut self, dst: Register, id: ExprId) -> Result<(), TooLarge> {
+        match self.pool.get(id) {
+            Expr::Select(condition, then, otherwise) if self.memo.get(id).is_none() => {
+                self.select_into(dst, [condition, then, otherwise])
+            }
+            _ => self.assign(dst, id),
+        }
     }
 
     /// Makes a draw.

@@ -2,12 +2,13 @@
 
 use super::atoms::Atoms;
 use super::body::Surroundings;
+use super::episode::Start;
 use super::error::BuildError;
 use super::motion::Motion;
 use super::programs::Programs;
 use super::scene::Scene;
 use super::sensing::Probe;
-use super::simulation::{Simulation, Start};
+use super::simulation::Simulation;
 use crate::eval::{Layout, Random, Registers};
 use crate::ir::task::{self, StartLine, Task};
 use crate::ir::tree::Atom;
