@@ -305,7 +305,11 @@ impl Inventor {
                 let distance = self.program.pool.binary(Binary::Hypot, x, y);
                 let radius = self.random.uniform(-0.5, 3.0);
                 let radius = self.program.pool.num(radius);
-                self.program.pool.binary(Binary::Le, distance, radius)
+                let op = [Binary::Le, Binary::Lt][self.pick(2)];
+                match self.pick(2) {
+                    0 => self.program.pool.binary(op, distance, radius),
+                    _ => self.program.pool.binary(op, radius, distance),
+                }
             }
             4 => {
                 let x = self.number(depth - 1, draws);
