@@ -6,6 +6,9 @@
 //!
 //! A value is computed where it is first needed, once on each path: the pool's shared nodes are shared registers, and
 //! what only one branch reads is computed in that branch.
+//!
+//! Arithmetic is that of IEEE 754: 1 / 0 is infinite, 0 / 0 is NaN. A comparison with NaN is false; a robot that is told
+//! to drive at NaN stands.
 
 mod code;
 mod compiler;

@@ -60,14 +60,10 @@ impl Compiler<'_> {
             Expr::Binary(op @ (Binary::And | Binary::Or), a, b) => self.junction(id, op, a, b)?,
             Expr::Binary(op, a, b) => match self.clamp(op, a, b) {
                 Some((a, limit)) => self.binary(id, Op::Clamp, a, limit)?,
-                None => match self.within(op, a, b) {
-                    Some((x, y, radius)) => {
-                        let square = self.square_sum(x, y)?;
-                        let limit = self.layout.constant(radius * radius)?;
-                        self.result(id, binary(op), square, limit)?
-                    }
-                    None => self.binary(id, binary(op), a, b)?,
-                },
+                None => {
+                    let (a, b) = self.compared(op, a, b)?;
+                    self.result(id, binary(op), a, b)?
+                }
             },
             Expr::Select(condition, then, otherwise) => {
                 let dst = self.fresh()?;
@@ -190,22 +186,39 @@ impl Compiler<'_> {
         Ok(dst)
     }
 
+    /// The registers of two operands. Where a distance is compared with a constant, those of the squares of both,
+    /// which need no root.
+    pub(super) fn compared(
+        &mut self,
+        op: Binary,
+        a: ExprId,
+        b: ExprId,
+    ) -> Result<(Register, Register), TooLarge> {
+        let radius = |id| self.pool.constant(id).filter(|&radius| radius >= 0.0);
+        let distance = |id| match self.pool.get(id) {
+            Expr::Binary(Binary::Hypot, x, y) => Some((x, y)),
+            _ => None,
+        };
+        if matches!(op, Binary::Lt | Binary::Le) {
+            if let (Some((x, y)), Some(radius)) = (distance(a), radius(b)) {
+                let square = self.square_sum(x, y)?;
+                return Ok((square, self.layout.constant(radius * radius)?));
+            }
+            if let (Some(radius), Some((x, y))) = (radius(a), distance(b)) {
+                let square = self.square_sum(x, y)?;
+                return Ok((self.layout.constant(radius * radius)?, square));
+            }
+        }
+        Ok((self.value(a)?, self.value(b)?))
+    }
+
     /// `x² + y²`
-    pub(super) fn square_sum(&mut self, x: ExprId, y: ExprId) -> Result<Register, TooLarge> {
+    fn square_sum(&mut self, x: ExprId, y: ExprId) -> Result<Register, TooLarge> {
         let x = self.value(x)?;
         let y = self.value(y)?;
         let dst = self.fresh()?;
         self.emit(Op::SquareSum, dst, x, y);
         Ok(dst)
-    }
-
-    /// The parts of `hypot(x, y) <= radius` or `<`, which need no root.
-    pub(super) fn within(&self, op: Binary, a: ExprId, b: ExprId) -> Option<(ExprId, ExprId, f64)> {
-        let radius = self.pool.constant(b).filter(|&radius| radius >= 0.0)?;
-        match (op, self.pool.get(a)) {
-            (Binary::Le | Binary::Lt, Expr::Binary(Binary::Hypot, x, y)) => Some((x, y, radius)),
-            _ => None,
-        }
     }
 
     /// The parts of `min(max(x, −limit), limit)`.

@@ -29,9 +29,11 @@ pub struct Simulator {
     /// A free position, for when no other is found.
     pub(super) free: Point,
     pub(super) layout: Layout,
-    /// The registers as an episode finds them, up to the first that no episode changes.
+    /// The registers with the constants in place.
     pub(super) registers: Registers,
+    /// The states' registers with their values at the start.
     pub(super) states: Vec<(u16, f64)>,
+    /// How many events there are.
     pub(super) events: usize,
 }
 
@@ -56,9 +58,6 @@ impl Simulator {
         let world = program.world.as_ref().ok_or(BuildError::NoWorld)?;
         if matches!(world.arena, Shape::Polyline(_)) {
             return Err(BuildError::OpenArena);
-        }
-        if world.robot.sensors.len() > 64 {
-            return Err(BuildError::TooManySensors(world.robot.sensors.len()));
         }
         let atoms = Atoms::new(program, task, extra)?;
         let task = &program.tasks[task];

@@ -1,6 +1,6 @@
 //! Register code does what the expressions and statements say: a second, naive reading of them is the oracle.
 
-use btc::eval::{Compiler, Fixed, Host, Layout, Random, Reading, run};
+use btc::eval::{Compiler, Fixed, Formula, Host, Layout, Random, Reading, run};
 use btc::ir::expr::{Binary, Draw, Echo, Local, Pose, Temp, Unary};
 use btc::ir::law::{Behavior, Block, Law, Stmt};
 use btc::ir::program::{State, ValueKind};
@@ -305,7 +305,11 @@ impl Inventor {
                 let distance = self.program.pool.binary(Binary::Hypot, x, y);
                 let radius = self.random.uniform(-0.5, 3.0);
                 let radius = self.program.pool.num(radius);
-                self.program.pool.binary(Binary::Le, distance, radius)
+                let op = [Binary::Le, Binary::Lt][self.pick(2)];
+                match self.pick(2) {
+                    0 => self.program.pool.binary(op, distance, radius),
+                    _ => self.program.pool.binary(op, radius, distance),
+                }
             }
             4 => {
                 let x = self.number(depth - 1, draws);
@@ -631,4 +635,23 @@ fn a_let_is_computed_where_it_is_read() {
         .map(|instruction| format!("{:?}", instruction.op))
         .collect();
     assert_eq!(ops, ["JumpUnless", "Sin"]);
+}
+
+/// A learner's `visits^-0.7` and `35% -> 5%`.
+#[test]
+fn formulas_read_visits_and_progress() {
+    let mut program = Program::default();
+    let visits = program.pool.leaf(Expr::Visits);
+    let progress = program.pool.leaf(Expr::Progress);
+    let exponent = program.pool.num(-0.7);
+    let rate = program.pool.binary(Binary::Pow, visits, exponent);
+    let (from, span) = (program.pool.num(0.35), program.pool.num(-0.3));
+    let part = program.pool.binary(Binary::Mul, span, progress);
+    let explore = program.pool.binary(Binary::Add, from, part);
+    let mut rate = Formula::compile(&program, rate).unwrap();
+    let mut explore = Formula::compile(&program, explore).unwrap();
+    assert_eq!(rate.value(1.0, 0.5), 1.0);
+    assert!((rate.value(10.0, 0.5) - 0.199_526_231_496_888).abs() < 1e-12);
+    assert!((explore.value(3.0, 0.5) - 0.2).abs() < 1e-12);
+    assert!((explore.value(3.0, 1.0) - 0.05).abs() < 1e-12);
 }

@@ -556,3 +556,29 @@ fn a_declared_behavior_fails() {
     simulation.start(Start::default());
     assert_eq!(option(&mut simulation, GO).status, Status::Failure);
 }
+
+/// The same bits on every machine and in every build.
+#[test]
+fn a_seed_is_a_course_to_the_last_bit() {
+    let (program, task) = world_delivery::large();
+    let start = &program.tasks[task].start;
+    let simulator = Simulator::build(&program, task, &[start], &[]).unwrap();
+    let mut simulation = simulator.simulation();
+    simulation.start(Start {
+        seed: 1,
+        limit: 1000,
+        ..Start::default()
+    });
+    let mut course = 0u64;
+    for i in 0.. {
+        let transition = simulation.run_option(Id::new(i % 6), Some(40), 0);
+        let pose = simulation.pose();
+        for value in [pose.position[0], pose.position[1], pose.heading] {
+            course = course.rotate_left(5) ^ value.to_bits();
+        }
+        if transition.end.is_some() {
+            break;
+        }
+    }
+    assert_eq!(course, 0xa59b_7c32_6709_d990, "{course:#x}");
+}
