@@ -460,6 +460,7 @@ pub struct Learn {
 
 /// An entry of a learner.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "a file has a handful of them")]
 pub enum LearnEntry {
     /// `start { … }`
     Start(Start),
