@@ -12,6 +12,7 @@ mod tree;
 mod world;
 
 use super::ast::{Comment, Expr, ExprKind, File, Ident, Item, ItemKind, Spanned};
+use super::brackets;
 use super::comments::docs_before;
 use super::diagnose::{self, Failure};
 use super::grammar::{self, Node, Parts, Rule};
@@ -250,7 +251,7 @@ impl<'i> Builder<'i> {
         }
         self.failed_at = Some(at);
         if let Some(open) = open {
-            let diagnostic = diagnose::unclosed(self.file, self.text, self.tokens, open, at);
+            let diagnostic = brackets::unclosed(self.file, self.text, self.tokens, open, at);
             self.report(diagnostic);
         }
     }

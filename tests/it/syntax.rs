@@ -58,7 +58,6 @@ fn the_examples_are_formatted() {
         let path = format!("{}/examples/{name}", env!("CARGO_MANIFEST_DIR"));
         let text = std::fs::read_to_string(path).unwrap();
         let formatted = syntax::print::format(&text).unwrap();
-        std::fs::write(format!("/tmp/fmt_{name}"), &formatted).unwrap();
         assert_eq!(formatted, text);
     }
 }
