@@ -3,6 +3,14 @@
 mod house;
 mod naive;
 mod snapshot;
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::indexing_slicing,
+    clippy::panic,
+    reason = "a test ends where it fails"
+)]
+
 mod syntax;
 mod syntax_print;
 mod syntax_total;
