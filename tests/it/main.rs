@@ -1,16 +1,15 @@
 //! The tests that see the crate as its users do.
+#![allow(
+    clippy::expect_used,
+    clippy::indexing_slicing,
+    clippy::panic,
+    clippy::unwrap_used,
+    reason = "a test that meets the unexpected has failed"
+)]
 
 mod house;
 mod naive;
 mod snapshot;
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::indexing_slicing,
-    clippy::panic,
-    reason = "a test ends where it fails"
-)]
-
 mod syntax;
 mod syntax_print;
 mod syntax_total;
