@@ -9,9 +9,9 @@
 #[path = "../tests/it/world_delivery.rs"]
 mod world_delivery;
 
-use btc::eval::Random;
 use btc::ir::world::Shape;
 use btc::ir::{Id, Program};
+use btc::random::Random;
 use btc::world::{Scene, Simulation, Simulator, Start};
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use parry2d_f64::math::{Pose, Vector};

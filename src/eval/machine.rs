@@ -1,8 +1,8 @@
 //! The machine: a file of registers and one loop.
 
 use super::code::{Code, Instruction, Op, Register};
-use super::random::Random;
 use crate::math;
+use crate::random::Random;
 use std::f64::consts::PI;
 
 /// How many registers there are; a power of two, so that a masked index needs no check.

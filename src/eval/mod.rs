@@ -18,10 +18,8 @@ mod formula;
 mod layout;
 mod machine;
 mod memo;
-mod random;
 mod statement;
 mod value;
-mod ziggurat;
 
 pub use code::{Code, Instruction, Op, Register};
 pub use compiler::{Compiler, Label, TooLarge};
@@ -29,4 +27,3 @@ pub use fold::Folding;
 pub use formula::Formula;
 pub use layout::{Fixed, Layout, Source};
 pub use machine::{Host, Nowhere, REGISTERS, Reading, Registers, run};
-pub use random::Random;

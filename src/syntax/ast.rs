@@ -461,7 +461,6 @@ pub struct Learn {
 /// An entry of a learner.
 #[allow(clippy::large_enum_variant, reason = "a learner has a dozen of them")]
 #[derive(Clone, Debug, PartialEq)]
-#[expect(clippy::large_enum_variant, reason = "a file has a handful of them")]
 pub enum LearnEntry {
     /// `start { … }`
     Start(Start),

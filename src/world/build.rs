@@ -9,11 +9,12 @@ use super::programs::Programs;
 use super::scene::Scene;
 use super::sensing::Probe;
 use super::simulation::Simulation;
-use crate::eval::{Layout, Random, Registers};
+use crate::eval::{Layout, Registers};
 use crate::ir::task::{self, StartLine, Task};
 use crate::ir::tree::Atom;
 use crate::ir::world::{Point, Shape};
 use crate::ir::{Id, Program};
+use crate::random::Random;
 use std::f64::consts::PI;
 
 /// A program's world, compiled for one task.

@@ -4,9 +4,10 @@ use super::build::any_heading;
 use super::pose::Pose;
 use super::programs::Step;
 use super::simulation::{Instance, Simulation};
-use crate::eval::{Fixed, Random, run};
+use crate::eval::{Fixed, run};
 use crate::ir::Id;
 use crate::ir::tree::Status;
+use crate::random::Random;
 
 /// How an episode starts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -7,9 +7,9 @@
 use super::pose::{Pose, rotor};
 use super::scene::{Scene, turned};
 use super::segment::{along, dot};
-use crate::eval::Random;
 use crate::ir::world::{Contact, Drive, DriveKind, Point, Robot};
 use crate::math;
+use crate::random::Random;
 
 /// What the wheels are told.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

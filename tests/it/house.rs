@@ -23,14 +23,21 @@ const ROOMS: &[(&str, &[&str])] = &[
     (
         "driver",
         &[
-            "source", "diagnostic", "syntax", "check", "ir", "math", "random", "world", "policy", "learn",
-            "tree", "emit",
+            "source",
+            "diagnostic",
+            "syntax",
+            "check",
+            "ir",
+            "math",
+            "random",
+            "world",
+            "policy",
+            "learn",
+            "tree",
+            "emit",
         ],
     ),
-    (
-        "cli",
-        &["source", "diagnostic", "policy", "tree", "driver"],
-    ),
+    ("cli", &["source", "diagnostic", "policy", "tree", "driver"]),
 ];
 
 /// The Rust files of the crate, each with the room that it stands in.
@@ -91,7 +98,10 @@ fn no_room_imports_upwards() {
     let mut wrong = Vec::new();
     for (room, path, text) in files() {
         let Some(may) = allowed.get(room.as_str()) else {
-            wrong.push(format!("{}: the room `{room}` is not in the plan", path.display()));
+            wrong.push(format!(
+                "{}: the room `{room}` is not in the plan",
+                path.display()
+            ));
             continue;
         };
         for name in used(&text) {
@@ -107,14 +117,23 @@ fn no_room_imports_upwards() {
 fn every_room_of_the_plan_is_there() {
     let files = files();
     for (room, _) in ROOMS {
-        assert!(files.iter().any(|(there, ..)| there == room), "no room `{room}`");
+        assert!(
+            files.iter().any(|(there, ..)| there == room),
+            "no room `{room}`"
+        );
     }
 }
 
 #[test]
 fn only_the_command_line_touches_files() {
     for (room, path, text) in files() {
-        let touches = ["std::fs", "std::io::stdin", "std::env", "println!", "std::time"];
+        let touches = [
+            "std::fs",
+            "std::io::stdin",
+            "std::env",
+            "println!",
+            "std::time",
+        ];
         for word in touches {
             assert!(
                 room == "cli" || !text.contains(word),
@@ -129,15 +148,31 @@ fn only_the_command_line_touches_files() {
 fn the_grammar_stays_in_its_room() {
     for (room, path, text) in files() {
         let names_pest = text.contains("pest::") || text.contains("Rule::");
-        assert!(room == "syntax" || !names_pest, "{} knows pest", path.display());
+        assert!(
+            room == "syntax" || !names_pest,
+            "{} knows pest",
+            path.display()
+        );
     }
 }
 
 #[test]
 fn transcendental_functions_have_one_place() {
     let calls = [
-        ".sin()", ".cos()", ".tan()", ".asin()", ".acos()", ".atan()", ".atan2(", ".exp()", ".ln()", ".powf(",
-        ".hypot(", ".sin_cos()", ".mul_add(", "libm::",
+        ".sin()",
+        ".cos()",
+        ".tan()",
+        ".asin()",
+        ".acos()",
+        ".atan()",
+        ".atan2(",
+        ".exp()",
+        ".ln()",
+        ".powf(",
+        ".hypot(",
+        ".sin_cos()",
+        ".mul_add(",
+        "libm::",
     ];
     for (room, path, text) in files() {
         for call in calls {

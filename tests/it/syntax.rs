@@ -23,10 +23,9 @@ fn the_examples_parse() {
 
 #[test]
 fn each_explanation_shows_its_mistake() {
-    for &code in Code::ALL.iter().filter(|code| code.name().contains("01")) {
-        if !code.name()[1..].starts_with("01") {
-            continue;
-        }
+    // What is no text at all is met before the parser.
+    let of_syntax = |code: &&Code| code.name().starts_with("E01") && **code != Code::E0130;
+    for &code in Code::ALL.iter().filter(of_syntax) {
         let explanation = code.explanation();
         assert!(
             explanation.starts_with(&format!("# {code}: {}\n", code.title())),

@@ -1,11 +1,12 @@
 //! Register code does what the expressions and statements say: a second, naive reading of them is the oracle.
 
-use btc::eval::{Compiler, Fixed, Formula, Host, Layout, Random, Reading, run};
+use btc::eval::{Compiler, Fixed, Formula, Host, Layout, Reading, run};
 use btc::ir::expr::{Binary, Draw, Echo, Local, Pose, Temp, Unary};
 use btc::ir::law::{Behavior, Block, Law, Stmt};
 use btc::ir::program::{State, ValueKind};
 use btc::ir::world::{Contact, Drive, DriveKind, Robot, Sensor, SensorKind, Shape, Wall, World};
 use btc::ir::{Expr, ExprId, Id, Program, Table};
+use btc::random::Random;
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 

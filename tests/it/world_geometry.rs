@@ -1,8 +1,8 @@
 //! The geometry of the inner loop beside parry's, on random worlds.
 
-use btc::eval::Random;
 use btc::ir::Table;
 use btc::ir::world::{Contact, Drive, DriveKind, Point, Robot, Shape, Wall, World};
+use btc::random::Random;
 use btc::world::Scene;
 use parry2d_f64::math::{Pose, Rotation, Vector};
 use parry2d_f64::query::{PointQuery, Ray, intersection_test};

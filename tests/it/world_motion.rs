@@ -1,8 +1,8 @@
 //! A robot never ends a tick inside a wall, nor goes through one.
 
 use crate::world_geometry::{Twin, free, twin};
-use btc::eval::Random;
 use btc::ir::world::Contact;
+use btc::random::Random;
 use btc::world::{Command, Motion, Pose, Scene};
 use proptest::prelude::*;
 use std::f64::consts::PI;

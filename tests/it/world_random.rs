@@ -1,6 +1,6 @@
 //! The random numbers are what they are said to be.
 
-use btc::eval::Random;
+use btc::random::Random;
 use statrs::distribution::{ContinuousCDF, Normal};
 
 /// The greatest distance between the distribution of a million draws and the normal one (Kolmogorov).

@@ -1,7 +1,7 @@
 //! Gaussian numbers from a stack of layers of equal area under the bell curve: nearly always one random word, one
 //! comparison and one product.
 
-use super::random::{Bits, fraction};
+use super::{Bits, fraction};
 use crate::math;
 use std::sync::LazyLock;
 

@@ -1,8 +1,9 @@
 //! The random numbers of an episode.
 
-use super::ziggurat::Ziggurat;
+mod ziggurat;
 use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
+use ziggurat::Ziggurat;
 
 /// A generator (xoshiro256++, Blackman and Vigna 2021) that is a function of a seed, a stream and an episode alone.
 #[derive(Clone, Debug)]
