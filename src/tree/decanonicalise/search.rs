@@ -22,8 +22,10 @@ const BEAM: usize = 8;
 const INNER_BEAM: usize = 2;
 /// Selectors within selectors.
 const DEPTH: usize = 3;
-/// Rows that the minimisations of one configuration may go through before it only takes what is cheapest next.
+/// Rows that the minimisations of one configuration, and of all together, may go through; after that each only takes
+/// what is cheapest next.
 const EFFORT: usize = 100_000;
+const EFFORT_IN_ALL: usize = 300_000;
 /// Finished trees that are kept for the proof.
 const FINALISTS: usize = 24;
 
@@ -150,7 +152,7 @@ impl<'a> Builder<'a> {
         Self {
             problem,
             subunits,
-            limit: problem.effort.get() + EFFORT,
+            limit: (problem.effort.get() + EFFORT).min(EFFORT_IN_ALL),
             greedy: FxHashMap::default(),
             best: FxHashMap::default(),
         }

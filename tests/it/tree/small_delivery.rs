@@ -6,6 +6,7 @@ use btc::ir::tree::{Atom, Composite, Guard, Node, Status};
 use btc::policy::{Minterm, Policy, Row, Transition};
 use btc::tree::decanonicalise::{Care, Method, decanonicalise};
 use btc::tree::equivalence::{Environment, Side, Verdict, compare};
+use btc::tree::prove::Refuted;
 
 const A: usize = 0;
 const B: usize = 1;
@@ -162,4 +163,44 @@ fn a_changed_guard_is_told_by_a_shortest_trace() {
         (trace.left, trace.right),
         (Some(Id::new(C)), Some(Id::new(B)))
     );
+}
+
+#[test]
+fn the_least_policies_have_trees() {
+    let one = |atoms: usize, does: &[usize]| {
+        let mut policy = policy();
+        policy.atoms.truncate(atoms);
+        policy.transitions.clear();
+        policy.starts.clear();
+        policy.history = History::default();
+        policy.rows = does
+            .iter()
+            .enumerate()
+            .map(|(i, b)| Row {
+                minterm: Minterm::new((0..atoms).map(|a| i >> a & 1 == 1)),
+                behavior: Id::new(*b),
+                visits: 1,
+                values: vec![None; 4],
+            })
+            .collect();
+        policy.rows.sort_by(|a, b| a.minterm.cmp(&b.minterm));
+        policy
+    };
+    for method in [Method::Paper, Method::Search] {
+        let tree = |policy: &Policy| decanonicalise(policy, method, Care::Seen);
+        // No predicates and no history: the bare leaf.
+        assert_eq!(
+            tree(&one(0, &[2])).unwrap().root,
+            Node::Behavior(Id::new(2))
+        );
+        // One behaviour everywhere.
+        assert_eq!(
+            tree(&one(2, &[1, 1, 1])).unwrap().root,
+            Node::Behavior(Id::new(1))
+        );
+        // One predicate decides.
+        assert_eq!(tree(&one(1, &[0, 1])).unwrap().size.nodes, 5);
+        // Nothing is known.
+        assert_eq!(tree(&one(2, &[])), Err(Refuted::Empty));
+    }
 }
