@@ -6,6 +6,7 @@ use super::covering::{Choice, cheapest, greedy};
 use super::cube::{Cover, Cube};
 use super::primes::{Scoring, all_through, expand};
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 /// Rows up to which all primes are sought, steps of that search, and the most primes for an exact cover.
 const EXACT_ROWS: usize = 1_000;
@@ -57,9 +58,9 @@ fn all_primes(columns: &Columns, on: &Bits, off: &Bits) -> Option<BTreeMap<Cube,
     let mut budget = PRIME_STEPS;
     for seed in on.iter() {
         for cube in all_through(columns, seed, off, &mut budget)? {
-            if !primes.contains_key(&cube) {
-                let covers = columns.cube_rows(&cube, on);
-                primes.insert(cube, covers);
+            if let Entry::Vacant(new) = primes.entry(cube) {
+                let covers = columns.cube_rows(new.key(), on);
+                new.insert(covers);
             }
         }
         if primes.len() > EXACT_PRIMES {

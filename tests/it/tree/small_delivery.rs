@@ -4,7 +4,7 @@ use btc::ir::Id;
 use btc::ir::task::History;
 use btc::ir::tree::{Atom, Composite, Guard, Node, Status};
 use btc::policy::{Minterm, Policy, Row, Transition};
-use btc::tree::decanonicalise::{Care, Method, decanonicalise};
+use btc::tree::decanonicalise::{Care, Failing, Method, decanonicalise};
 use btc::tree::equivalence::{Environment, Side, Verdict, compare};
 use btc::tree::prove::Refuted;
 
@@ -203,4 +203,27 @@ fn the_least_policies_have_trees() {
         // Nothing is known.
         assert_eq!(tree(&one(2, &[])), Err(Refuted::Empty));
     }
+}
+
+#[test]
+fn decisions_that_fail_are_listed_with_what_the_tree_does_next() {
+    let mut policy = policy();
+    let stuck = minterm(true, false, DOCK);
+    policy.transitions.push(Transition {
+        from: stuck.clone(),
+        behavior: Id::new(B),
+        status: Status::Failure,
+        to: Some(stuck.clone()),
+        count: 7,
+    });
+    policy.transitions.sort();
+    let found = decanonicalise(&policy, Method::Search, Care::Seen).unwrap();
+    let expected = Failing {
+        minterm: stuck,
+        behavior: Id::new(B),
+        count: 7,
+        repeated: 7,
+        then: vec![Some(Id::new(A))],
+    };
+    assert_eq!(found.failing, [expected]);
 }
