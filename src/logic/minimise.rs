@@ -9,11 +9,12 @@ use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 
 /// Rows up to which all primes are sought, steps of that search, and the most primes for an exact cover.
-const EXACT_ROWS: usize = 1_000;
-const PRIME_STEPS: usize = 20_000;
+const EXACT_ROWS: usize = 160;
+const PRIME_STEPS: usize = 8_000;
 const EXACT_PRIMES: usize = 1_500;
-/// Steps of the exact cover.
+/// Steps of the exact cover, and rows times choices that they may go through.
 const COVER_STEPS: usize = 4_000;
+const COVER_WORK: usize = 2_000_000;
 /// ON rows up to which every one of them is a seed of EXPAND.
 const SEEDS: usize = 512;
 
@@ -41,7 +42,8 @@ pub fn minimise(columns: &Columns, on: &Bits, off: &Bits) -> Cover {
         })
         .collect();
     let chosen = if exact || choices.len() <= EXACT_PRIMES {
-        cheapest(on, &choices, COVER_STEPS)
+        let each = on.count() * (1 + choices.len() / 8);
+        cheapest(on, &choices, (COVER_WORK / each).clamp(20, COVER_STEPS))
     } else {
         greedy(on, &choices)
     };
