@@ -6,13 +6,15 @@ use super::covering::{Choice, cheapest, greedy};
 use super::cube::{Cover, Cube};
 use super::primes::{Scoring, all_through, expand};
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 /// Rows up to which all primes are sought, steps of that search, and the most primes for an exact cover.
-const EXACT_ROWS: usize = 1_000;
-const PRIME_STEPS: usize = 20_000;
+const EXACT_ROWS: usize = 160;
+const PRIME_STEPS: usize = 8_000;
 const EXACT_PRIMES: usize = 1_500;
-/// Steps of the exact cover.
+/// Steps of the exact cover, and rows times choices that they may go through.
 const COVER_STEPS: usize = 4_000;
+const COVER_WORK: usize = 2_000_000;
 /// ON rows up to which every one of them is a seed of EXPAND.
 const SEEDS: usize = 512;
 
@@ -40,7 +42,8 @@ pub fn minimise(columns: &Columns, on: &Bits, off: &Bits) -> Cover {
         })
         .collect();
     let chosen = if exact || choices.len() <= EXACT_PRIMES {
-        cheapest(on, &choices, COVER_STEPS)
+        let each = on.count() * (1 + choices.len() / 8);
+        cheapest(on, &choices, (COVER_WORK / each).clamp(20, COVER_STEPS))
     } else {
         greedy(on, &choices)
     };
@@ -57,9 +60,9 @@ fn all_primes(columns: &Columns, on: &Bits, off: &Bits) -> Option<BTreeMap<Cube,
     let mut budget = PRIME_STEPS;
     for seed in on.iter() {
         for cube in all_through(columns, seed, off, &mut budget)? {
-            if !primes.contains_key(&cube) {
-                let covers = columns.cube_rows(&cube, on);
-                primes.insert(cube, covers);
+            if let Entry::Vacant(new) = primes.entry(cube) {
+                let covers = columns.cube_rows(new.key(), on);
+                new.insert(covers);
             }
         }
         if primes.len() > EXACT_PRIMES {

@@ -70,7 +70,7 @@ struct Hitting<'a> {
 impl Hitting<'_> {
     /// Completes what is chosen in every minimal way; differences before `from` are hit. False when the budget is spent.
     fn complete(&mut self, from: usize) -> bool {
-        let Some(budget) = self.budget.checked_sub(1) else {
+        let Some(budget) = self.budget.checked_sub(1 + self.differences.len() / 8) else {
             return false;
         };
         *self.budget = budget;

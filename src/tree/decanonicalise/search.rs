@@ -2,8 +2,8 @@
 //!
 //! Which memory nodes to use is tried out first, in a few configurations; for each, the selector over its subunits is
 //! built from the left by a beam search over what may stand next. A subunit may stand under its whole guard or under
-//! one of its cubes, and a literal may stand over a selector of everything that it lets through. Effort is counted in
-//! rows gone through, so that every machine finds the same tree.
+//! one of its cubes, and a literal may stand over a selector of everything that it lets through. Effort is counted,
+//! not timed, so that every machine finds the same tree.
 
 use super::problem::Problem;
 use super::subunit::{Pair, Subunit, behaviors, canonical, pairs, replace};
@@ -22,8 +22,9 @@ const BEAM: usize = 8;
 const INNER_BEAM: usize = 2;
 /// Selectors within selectors.
 const DEPTH: usize = 3;
-/// Rows that the minimisations of one configuration may go through before it only takes what is cheapest next.
-const EFFORT: usize = 100_000;
+/// Work that the minimisations of one configuration, and of all together, may take; see [`Problem::effort`].
+const EFFORT: usize = 150_000;
+const EFFORT_IN_ALL: usize = 450_000;
 /// Finished trees that are kept for the proof.
 const FINALISTS: usize = 24;
 
@@ -150,7 +151,7 @@ impl<'a> Builder<'a> {
         Self {
             problem,
             subunits,
-            limit: problem.effort.get() + EFFORT,
+            limit: (problem.effort.get() + EFFORT).min(EFFORT_IN_ALL),
             greedy: FxHashMap::default(),
             best: FxHashMap::default(),
         }
@@ -159,6 +160,10 @@ impl<'a> Builder<'a> {
     /// The best trees for all rows.
     fn finished(&mut self) -> Vec<Node> {
         let all = self.problem.all();
+        // What is cheapest next is always known for the whole; all else is tried as far as the effort goes.
+        let limit = std::mem::replace(&mut self.limit, usize::MAX);
+        self.cheapest_next(&all);
+        self.limit = limit;
         self.beam(&all, BEAM, DEPTH)
             .into_iter()
             .map(|finished| finished.node())
@@ -179,7 +184,9 @@ impl<'a> Builder<'a> {
             for partial in &open {
                 for step in self.steps(partial, depth) {
                     if seen.insert((step.left.clone(), step.cost)) {
-                        let rest = self.cheapest_next(&step.left);
+                        let Some(rest) = self.cheapest_next(&step.left) else {
+                            continue;
+                        };
                         let children = step.children.len() + rest.children.len();
                         next.push((whole(children, add(step.cost, rest.cost)), step, rest));
                     }
@@ -201,7 +208,7 @@ impl<'a> Builder<'a> {
             next.truncate(width);
             open = next.into_iter().map(|(_, step, _)| step).collect();
         }
-        done.push((*self.cheapest_next(rows)).clone());
+        done.extend(self.cheapest_next(rows).map(|finished| (*finished).clone()));
         done.sort_by_key(Finished::whole);
         done.truncate(FINALISTS);
         done
@@ -242,7 +249,9 @@ impl<'a> Builder<'a> {
         if depth > 1 {
             for cube in self.splits(&partial.left) {
                 let rows = self.problem.columns.cube_rows(&cube, &partial.left);
-                let (inner, (nodes, literals)) = self.best(&rows, depth - 1);
+                let Some((inner, (nodes, literals))) = self.best(&rows, depth - 1) else {
+                    continue;
+                };
                 let guard = self.problem.guard(&Cover::new([cube]));
                 let node = Rc::new(guarded(guard, (*inner).clone()));
                 // The sequence and the literal.
@@ -273,24 +282,24 @@ impl<'a> Builder<'a> {
     }
 
     /// The best selector for rows below the root, as a node.
-    fn best(&mut self, rows: &Bits, depth: usize) -> (Rc<Node>, Cost) {
+    fn best(&mut self, rows: &Bits, depth: usize) -> Option<(Rc<Node>, Cost)> {
         let key = (rows.clone(), depth);
         if let Some(known) = self.best.get(&key) {
-            return known.clone();
+            return Some(known.clone());
         }
-        let finished = match self.beam(rows, INNER_BEAM, depth).into_iter().next() {
-            Some(finished) => finished,
-            None => (*self.cheapest_next(rows)).clone(),
-        };
+        let finished = self.beam(rows, INNER_BEAM, depth).into_iter().next()?;
         let best = (Rc::new(finished.node()), finished.whole());
         self.best.insert(key, best.clone());
-        best
+        Some(best)
     }
 
-    /// Whole subunits, each time the one with the smallest guard.
-    fn cheapest_next(&mut self, rows: &Bits) -> Rc<Finished> {
+    /// Whole subunits, each time the one with the smallest guard; `None` once the effort is spent.
+    fn cheapest_next(&mut self, rows: &Bits) -> Option<Rc<Finished>> {
         if let Some(known) = self.greedy.get(rows) {
-            return known.clone();
+            return Some(known.clone());
+        }
+        if self.problem.effort.get() > self.limit {
+            return None;
         }
         let mut partial = Partial {
             children: Vec::new(),
@@ -320,7 +329,7 @@ impl<'a> Builder<'a> {
             cost: partial.cost,
         });
         self.greedy.insert(rows.clone(), finished.clone());
-        finished
+        Some(finished)
     }
 
     /// The subunit that holds all of the rows.
