@@ -48,7 +48,13 @@ impl Layout<'_> {
 
     fn bracket(&mut self, depth: usize, opening: char) {
         let length = matching(self.rest);
-        let column = self.text.lines().next_back().unwrap_or_default().chars().count();
+        let column = self
+            .text
+            .lines()
+            .next_back()
+            .unwrap_or_default()
+            .chars()
+            .count();
         let whole = self.rest.get(..length).unwrap_or_default();
         if column + whole.chars().count() <= WIDTH {
             self.copy(length);
@@ -79,7 +85,10 @@ impl Layout<'_> {
     }
 
     fn copy(&mut self, length: usize) {
-        let (taken, rest) = self.rest.split_at_checked(length).unwrap_or((self.rest, ""));
+        let (taken, rest) = self
+            .rest
+            .split_at_checked(length)
+            .unwrap_or((self.rest, ""));
         self.text.push_str(taken);
         self.rest = rest;
     }
