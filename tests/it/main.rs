@@ -7,7 +7,10 @@
     reason = "a test that meets the unexpected has failed"
 )]
 
+mod cli;
+mod examples;
 mod house;
+mod learning;
 mod naive;
 mod snapshot;
 mod syntax;
