@@ -80,7 +80,8 @@ fn offered(sources: &Sources, fix: &Fix) -> String {
             }
         })
         .collect();
-    format!("help: {}: {}", fix.title, edits.join(", "))
+    let mark = if fix.title.ends_with('?') { "" } else { ":" };
+    format!("help: {}{mark} {}", fix.title, edits.join(", "))
 }
 
 /// The beginning of a line, for a hint.
