@@ -16,7 +16,9 @@ impl<'a> Checker<'a> {
             let ty = self.type_expr(&param.ty);
             if let Some(default) = &param.default {
                 let role = format!("`{}`", param.name.name);
+                let region = std::mem::replace(&mut self.context.region, Region::Let);
                 self.expect(default, &ty, &role);
+                self.context.region = region;
             }
             if let Some(first) = bindings.iter().find(|b| b.name == param.name.name) {
                 let first = first.span;

@@ -281,7 +281,7 @@ impl<'a> Checker<'a> {
                     format!("`{}` does nothing as a statement", call.name.name),
                 )
                 .label(format!("this is {}", decl.what())),
-                None => unknown(&call.name, "statement but `drive(…)`", ["drive"]),
+                None => unknown(&call.name, "statement", ["drive"]),
             };
             for arg in call.args.iter().flatten() {
                 self.stray_argument(arg);

@@ -67,7 +67,7 @@ impl<'a> Checker<'a> {
                     ))
             }
             _ if called => unknown(&reference.name, "function, predicate or `let`", candidates),
-            _ => unknown(&reference.name, "state, place or `let`", candidates),
+            _ => unknown(&reference.name, "state, event, place or `let`", candidates),
         };
         self.report(diagnostic);
     }

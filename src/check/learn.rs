@@ -301,7 +301,11 @@ impl<'a> Checker<'a> {
             self.out_of_range(
                 setting.value.span,
                 "a discount goes from 0 to 1",
-                "what comes later would count for more, or against",
+                if factor > 1.0 {
+                    "later rewards would count for more than earlier ones"
+                } else {
+                    "later rewards would count against themselves"
+                },
             );
             return;
         }

@@ -219,12 +219,15 @@ impl<'a> Checker<'a> {
         let length = self.constant(window, &Type::NUMBER, "the length of the history");
         let window_length = match length {
             Some(n) if n.fract() == 0.0 && (1.0..=64.0).contains(&n) => n as usize,
-            Some(_) => {
-                self.out_of_range(
-                    window.span,
-                    "a history holds 1 to 64 terminations",
-                    "it cannot hold so many",
-                );
+            Some(n) => {
+                let label = if n.fract() != 0.0 {
+                    "this is no whole number"
+                } else if n < 1.0 {
+                    "nothing would be remembered"
+                } else {
+                    "these are too many"
+                };
+                self.out_of_range(window.span, "a history holds 1 to 64 terminations", label);
                 0
             }
             None => 0,
