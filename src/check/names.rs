@@ -322,12 +322,15 @@ fn likely<'n>(
     candidates: impl IntoIterator<Item = &'n str>,
 ) -> Diagnostic {
     match suggest::nearest(&name.name, candidates) {
-        Some(likely) => diagnostic.fix(
-            format!("did you mean `{likely}`?"),
-            name.span,
-            likely.to_owned(),
-            Applicability::Unsafe,
-        ),
+        Some(likely) => {
+            let question = format!("did you mean `{likely}`?");
+            diagnostic.label(question.clone()).fix(
+                question,
+                name.span,
+                likely.to_owned(),
+                Applicability::Unsafe,
+            )
+        }
         None => diagnostic,
     }
 }

@@ -133,8 +133,9 @@ impl<'a> Checker<'a> {
             .iter()
             .filter_map(|choice| choice.split('(').next().filter(|word| !word.is_empty()));
         if let Some(likely) = name.and_then(|name| suggest::nearest(&name.name, words)) {
-            diagnostic = diagnostic.fix(
-                format!("did you mean `{likely}`?"),
+            let question = format!("did you mean `{likely}`?");
+            diagnostic = diagnostic.label(question.clone()).fix(
+                question,
                 span,
                 likely,
                 Applicability::Unsafe,

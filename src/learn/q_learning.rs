@@ -3,8 +3,8 @@
 use super::process::{End, Process};
 use super::schedule::Schedule;
 use super::table::Table;
-use crate::eval::Random;
 use crate::ir::task::Discount;
+use crate::random::Random;
 
 /// How it learns.
 #[derive(Clone, Copy, Debug)]

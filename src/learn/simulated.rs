@@ -17,6 +17,8 @@ pub enum Purpose {
     Curve = 2,
     /// `btc run`.
     Run = 3,
+    /// Testing what is claimed of events.
+    Claim = 4,
 }
 
 /// A simulation that is decided over.

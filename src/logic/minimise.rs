@@ -7,7 +7,8 @@ use super::cube::{Cover, Cube};
 use super::primes::{Scoring, all_through, expand};
 use std::collections::BTreeMap;
 
-/// Steps for the search of all primes, and the most primes for which an exact cover is sought.
+/// Rows up to which all primes are sought, steps of that search, and the most primes for an exact cover.
+const EXACT_ROWS: usize = 1_000;
 const PRIME_STEPS: usize = 20_000;
 const EXACT_PRIMES: usize = 1_500;
 /// Steps of the exact cover.
@@ -49,11 +50,14 @@ pub fn minimise(columns: &Columns, on: &Bits, off: &Bits) -> Cover {
 
 /// Every prime with the ON rows on which it holds; `None` where there are too many.
 fn all_primes(columns: &Columns, on: &Bits, off: &Bits) -> Option<BTreeMap<Cube, Bits>> {
+    if on.count() + off.count() > EXACT_ROWS {
+        return None;
+    }
     let mut primes = BTreeMap::new();
     let mut budget = PRIME_STEPS;
     for seed in on.iter() {
         for cube in all_through(columns, seed, off, &mut budget)? {
-            if !primes.contains_key(&cube) && is_prime(columns, &cube, off) {
+            if !primes.contains_key(&cube) {
                 let covers = columns.cube_rows(&cube, on);
                 primes.insert(cube, covers);
             }
@@ -63,12 +67,6 @@ fn all_primes(columns: &Columns, on: &Bits, off: &Bits) -> Option<BTreeMap<Cube,
         }
     }
     Some(primes)
-}
-
-fn is_prime(columns: &Columns, cube: &Cube, off: &Bits) -> bool {
-    cube.literals()
-        .iter()
-        .all(|literal| !columns.cube_rows(&cube.without(*literal), off).is_empty())
 }
 
 /// A pool of primes: from every ON row while there are few, then from rows that no prime holds on yet.

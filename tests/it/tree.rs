@@ -6,4 +6,5 @@ mod guards;
 mod proofs;
 mod random;
 mod small_delivery;
+mod tmp;
 mod walk;

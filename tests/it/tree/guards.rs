@@ -5,7 +5,7 @@ use btc::logic::{Bits, Columns, Cover, Cube, Literal, minimise};
 use std::collections::BTreeMap;
 
 /// A table of `rows` different random rows with an ON and an OFF set; the other rows are free.
-fn table(random: &mut Random, atoms: usize, rows: usize) -> (Columns, Bits, Bits) {
+pub(super) fn table(random: &mut Random, atoms: usize, rows: usize) -> (Columns, Bits, Bits) {
     let mut words: Vec<u64> = (0..rows)
         .map(|_| random.next() & ((1 << atoms) - 1))
         .collect();
