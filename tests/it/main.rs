@@ -7,8 +7,12 @@
     reason = "a test that meets the unexpected has failed"
 )]
 
+mod check;
+mod explain;
 mod house;
 mod naive;
+mod program;
+mod robust;
 mod snapshot;
 mod syntax;
 mod syntax_print;
