@@ -9,9 +9,13 @@
 
 mod cli;
 mod examples;
+mod check;
+mod explain;
 mod house;
 mod learning;
 mod naive;
+mod program;
+mod robust;
 mod snapshot;
 mod syntax;
 mod syntax_print;
