@@ -10,7 +10,7 @@ use crate::source::Span;
 use crate::syntax::ast::{self, BinaryOp, Expr, ExprKind, Otherwise, UnaryOp};
 
 /// How many expressions may be checked within one another, those of unrolled bodies included.
-const DEEP: usize = 1_100;
+const DEEP: usize = 700;
 
 impl<'a> Checker<'a> {
     /// Checks an expression.
