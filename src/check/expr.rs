@@ -4,7 +4,7 @@ use super::Checker;
 use super::context::Binding;
 use super::types::{Type, Typed, Value};
 use super::units::{self, Dim};
-use crate::diagnostic::{Applicability, Code, Diagnostic};
+use crate::diagnostic::{Applicability, Code, Diagnostic, Label};
 use crate::ir::expr::{Binary, ExprId, Unary};
 use crate::source::Span;
 use crate::syntax::ast::{self, BinaryOp, Expr, ExprKind, Otherwise, UnaryOp};
@@ -87,7 +87,7 @@ impl<'a> Checker<'a> {
             && self.diagnostics.len() > before
             && let Some(said) = self.diagnostics.last_mut()
         {
-            said.labels.push(crate::diagnostic::Label {
+            said.labels.push(Label {
                 span: first.span,
                 message: format!("this is {ty}"),
             });
