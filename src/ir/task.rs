@@ -119,6 +119,10 @@ pub struct Learner {
 pub enum Method {
     /// Tabular Q-learning (Watkins 1989; the paper's).
     QLearning,
+    /// Double Q-learning (van Hasselt 2010).
+    DoubleQ,
+    /// Counts of the seen transitions, solved exactly.
+    Model,
 }
 
 /// How future reward counts.

@@ -17,6 +17,10 @@ pub enum Purpose {
     Curve = 2,
     /// `btc run`.
     Run = 3,
+    /// Which of several runs of learning is the best.
+    Validate = 4,
+    /// What the tree that was taken is worth, on episodes that nothing was chosen by.
+    Test = 5,
 }
 
 /// A simulation that is decided over.
