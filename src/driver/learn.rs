@@ -9,12 +9,14 @@ mod results;
 use super::load::Loaded;
 use super::{run, target};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::ir::task::Learner;
+use crate::ir::program::Event;
+use crate::ir::task::{ClaimKind, Learner, TreeRef};
 use crate::ir::tree::Node;
 use crate::ir::{Id, Program};
 use crate::learn::curve::Point;
 use crate::learn::extract;
 use crate::learn::simulated::Purpose;
+use crate::learn::statistics::Summary;
 use crate::policy::Policy;
 use crate::tree::decanonicalise::{self, Care, Method};
 use bench::{Bench, Run};
@@ -46,9 +48,6 @@ pub struct Options<'o> {
     /// The path of the source from the folder of the results.
     pub source: &'o str,
 }
-
-/// How many episodes each run is validated on, where there are several.
-const VALIDATION: u64 = 200;
 
 /// How far the learning has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -106,6 +105,7 @@ pub fn learn(
         simulator: &simulator,
         episodes: options.episodes.unwrap_or(learner.episodes),
         evidence: options.evidence,
+        never: never(program, learner_id),
     };
     let runs = learn_all(&bench, seed, options.seeds, progress);
     progress(Stage::Validating);
@@ -167,24 +167,28 @@ fn learn_all(bench: &Bench, seed: u64, seeds: u64, progress: &(dyn Fn(Stage) + S
         .collect()
 }
 
-/// The best of several runs on common episodes that none of them learned from, the first of equals; with what each came
-/// to there.
-fn best(bench: &Bench, seed: u64, runs: &[Run]) -> (usize, Vec<crate::learn::statistics::Summary>) {
+/// The best of several runs on common episodes that none of them learned from; with what each came to there.
+fn best(bench: &Bench, seed: u64, runs: &[Run]) -> (usize, Vec<Summary>) {
     if runs.len() < 2 {
         return (0, Vec::new());
     }
-    let validate = |run: &Run| {
-        let stream = (Purpose::Validate, seed);
-        bench.roll_out(&run.decisions, VALIDATION, stream).1
-    };
-    let validated: Vec<_> = runs.iter().map(validate).collect();
-    let mut best = (0, f64::NEG_INFINITY);
-    for (at, summary) in validated.iter().enumerate() {
-        if summary.total.mean > best.1 {
-            best = (at, summary.total.mean);
-        }
-    }
-    (best.0, validated)
+    let stream = (Purpose::Validate, seed);
+    let validate = |run: &Run| bench.validate(&run.decisions, stream);
+    let validated: Vec<Summary> = runs.iter().map(validate).collect();
+    (bench.best(&validated), validated)
+}
+
+/// The events that the program claims never to happen under what a learner learns.
+fn never(program: &Program, learner: Id<Learner>) -> Vec<Id<Event>> {
+    let claims = program.claims.iter();
+    claims
+        .filter_map(|claim| match &claim.kind {
+            ClaimKind::Never(occurrence) if claim.tree == TreeRef::Learned(learner) => {
+                Some(occurrence.event)
+            }
+            _ => None,
+        })
+        .collect()
 }
 
 /// The atoms that hold in a minterm.

@@ -28,7 +28,7 @@ pub trait Method {
     /// A round of episodes is over: what was only collected is learned from now.
     fn refit(&mut self) {}
 
-    /// Whether the policy of each round is a proposal of its own, of which the best by validation is kept; else the
+    /// Whether the policy of each round is a proposal of its own, of which the best by validation is taken; else the
     /// last is what was learned.
     fn proposes(&self) -> bool {
         false

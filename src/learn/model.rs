@@ -32,8 +32,9 @@ pub struct Model {
     policy: Vec<Option<usize>>,
 }
 
-/// What remains of a count from one round to the next.
-const FADE: f64 = 0.5;
+/// What remains of a count from one round to the next. Large delivery, explored by 100 % -> 20 %: with 1, policies
+/// settle early on what the first rounds happened to meet; with 0.5, they no longer settle.
+const FADE: f64 = 0.9;
 
 impl Model {
     /// One that knows nothing yet.

@@ -21,6 +21,8 @@ pub enum Purpose {
     Validate = 4,
     /// What the tree that was taken is worth, on episodes that nothing was chosen by.
     Test = 5,
+    /// Which of a run's proposals is the best.
+    Propose = 6,
 }
 
 /// A simulation that is decided over.
