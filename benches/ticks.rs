@@ -1,12 +1,17 @@
 //! How fast the world ticks, and how fast its geometry is beside parry's.
+#![allow(
+    clippy::unwrap_used,
+    clippy::indexing_slicing,
+    reason = "a bench fails where it goes wrong"
+)]
 
 #[allow(dead_code, unreachable_pub, reason = "shared with the tests")]
 #[path = "../tests/it/world_delivery.rs"]
 mod world_delivery;
 
-use btc::eval::Random;
 use btc::ir::world::Shape;
 use btc::ir::{Id, Program};
+use btc::random::Random;
 use btc::world::{Scene, Simulation, Simulator, Start};
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use parry2d_f64::math::{Pose, Vector};

@@ -15,6 +15,8 @@ pub mod ir;
 
 pub mod math;
 
+pub mod random;
+
 pub mod eval;
 
 pub mod world;

@@ -110,7 +110,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
         eprintln!("{line}");
     }
     let claims = verify::claims_of_learned(&loaded, &learned)
-        .map_err(|mistake| say.one(&loaded.sources, mistake))?;
+        .map_err(|mistakes| say.several(&loaded.sources, &mistakes))?;
     for claim in &claims {
         eprintln!("{}", claim.text);
     }

@@ -15,10 +15,10 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {
-    let mut loaded = files::load(&arguments.file, say)?;
+    let loaded = files::load(&arguments.file, say)?;
     let results = match arguments.trees.as_slice() {
-        [] => verify::claims(&mut loaded),
-        [left, right] => verify::trees(&mut loaded, left, right).map(|result| vec![result]),
+        [] => verify::claims(&loaded),
+        [left, right] => verify::trees(&loaded, left, right).map(|result| vec![result]),
         _ => {
             eprintln!("error: one tree cannot be compared: name two, or none to prove the claims");
             return Err(Failure::Usage);

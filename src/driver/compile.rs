@@ -32,7 +32,7 @@ pub fn emit(loaded: &Loaded, form: Form, tree: Option<&str>) -> Result<String, D
     let program = &loaded.program;
     let named = tree.map(|name| target::tree(loaded, name)).transpose()?;
     Ok(match (form, named) {
-        (Form::Ast, _) => format!("{:#?}\n", loaded.ast),
+        (Form::Ast, _) => emit::ast::file(&loaded.ast),
         (Form::Ir, _) => emit::ir::program(program),
         (Form::Bt, None) => {
             let text = loaded.sources.get(loaded.main).map(|s| s.text.as_str());

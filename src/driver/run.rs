@@ -8,7 +8,7 @@ use crate::ir::task::Task;
 use crate::ir::tree::{Atom, Node, Tree};
 use crate::ir::{Id, Program};
 use crate::learn::binomial::upper95;
-use crate::learn::episode::{Controller, Greedy, play_all};
+use crate::learn::episode::{Controller, Episode, Greedy, play_all};
 use crate::learn::extract;
 use crate::learn::process::Key;
 use crate::learn::simulated::Purpose;
@@ -59,19 +59,7 @@ pub fn run(loaded: &Loaded, subject: Subject, episodes: u64, seed: u64) -> Resul
     };
     let played = match subject {
         Subject::Tree(tree) => {
-            let root = &program.trees[tree].root;
-            let mut asked = BTreeSet::new();
-            root.visit_atoms(&mut |atom| {
-                asked.insert(atom);
-            });
-            let asked: Vec<Atom> = asked.into_iter().collect();
-            let simulator = simulator(loaded, task_id, &asked)?;
-            can_run(loaded, root)?;
-            let runner = Runner::new(root, simulator.atoms())
-                .map_err(|atom| internal(loaded, &program.atom_name(atom)))?;
-            play_all(episodes, start, task.patience, || {
-                (simulator.simulation(), Ticked(runner.clone()))
-            })
+            play_tree(loaded, task_id, &program.trees[tree].root, episodes, start)?
         }
         Subject::Policy(policy, _) => {
             let simulator = simulator(loaded, task_id, &[])?;
@@ -91,6 +79,29 @@ pub fn run(loaded: &Loaded, subject: Subject, episodes: u64, seed: u64) -> Resul
             .collect(),
         ends: end_names(program, task),
     })
+}
+
+/// Plays episodes 0 … n − 1 under a tree, on all threads.
+pub(super) fn play_tree(
+    loaded: &Loaded,
+    task: Id<Task>,
+    root: &Node,
+    episodes: u64,
+    start: Start,
+) -> Result<Vec<Episode>, Diagnostic> {
+    let mut asked = BTreeSet::new();
+    root.visit_atoms(&mut |atom| {
+        asked.insert(atom);
+    });
+    let asked: Vec<Atom> = asked.into_iter().collect();
+    let simulator = simulator(loaded, task, &asked)?;
+    can_run(loaded, root)?;
+    let runner = Runner::new(root, simulator.atoms())
+        .map_err(|atom| internal(loaded, &loaded.program.atom_name(atom)))?;
+    let patience = loaded.program.tasks[task].patience;
+    Ok(play_all(episodes, start, patience, || {
+        (simulator.simulation(), Ticked(runner.clone()))
+    }))
 }
 
 /// A tree as a controller.

@@ -1,15 +1,19 @@
-//! `btc verify`: proofs that two trees take the same decisions.
+//! `btc verify`: proofs that two trees take the same decisions, and tests of what is claimed of events.
 
 use super::learn::{Learned, minterm_text};
 use super::load::Loaded;
-use super::{table, target};
+use super::{run, table, target};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::law::Behavior;
-use crate::ir::task::{ClaimKind, Learner, Task, TreeRef};
+use crate::ir::task::{ClaimKind, Learner, Occurrence, Task, TreeRef};
 use crate::ir::tree::{Atom, Node};
 use crate::ir::{Id, Program};
+use crate::learn::binomial::{lower95, upper95};
+use crate::learn::episode::Episode;
+use crate::learn::simulated::Purpose;
 use crate::policy::Policy;
 use crate::tree::equivalence::{Environment, Side, Trace, Verdict, compare};
+use crate::world::Start;
 
 /// What came of a proof.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -56,60 +60,128 @@ pub fn trees(loaded: &Loaded, left: &str, right: &str) -> Result<Proved, Vec<Dia
     pair.prove((left, &a.root), (right, &b.root))
 }
 
-/// Proves every `equals` of the program's claims whose trees are there.
+/// Proves or tests every claim of the program whose trees are there.
 ///
 /// # Errors
-/// As [`trees`].
+/// As [`trees`], or the world cannot be built.
 pub fn claims(loaded: &Loaded) -> Result<Vec<Proved>, Vec<Diagnostic>> {
     let program = &loaded.program;
+    let one = |mistake| vec![mistake];
     let mut results = Vec::new();
     for claim in &program.claims {
-        let ClaimKind::Equals(other) = claim.kind else {
+        let TreeRef::Tree(id) = claim.tree else {
+            results.push(not_learned(&claim.text));
             continue;
         };
-        let (TreeRef::Tree(left), TreeRef::Tree(right)) = (claim.tree, other) else {
-            results.push(Proved {
-                holds: true,
-                text: format!("{}: not learned yet", claim.text),
-            });
-            continue;
-        };
-        let (left, right) = (&program.trees[left].name, &program.trees[right].name);
-        results.push(trees(loaded, left, right)?);
+        let tree = &program.trees[id];
+        results.push(match &claim.kind {
+            ClaimKind::Equals(TreeRef::Tree(other)) => {
+                trees(loaded, &tree.name, &program.trees[*other].name)?
+            }
+            ClaimKind::Equals(TreeRef::Learned(_)) => not_learned(&claim.text),
+            ClaimKind::Never(occurrence) | ClaimKind::Reaches(occurrence) => {
+                let task = target::task_of(loaded, Some(id)).map_err(one)?;
+                let reaches = matches!(claim.kind, ClaimKind::Reaches(_));
+                event_claim(loaded, task, &tree.root, &claim.text, occurrence, reaches)
+                    .map_err(one)?
+            }
+        });
     }
     if results.is_empty() {
         results.push(Proved {
             holds: true,
-            text: "the program claims nothing that could be proved".to_owned(),
+            text: "the program claims nothing".to_owned(),
         });
     }
     Ok(results)
 }
 
-/// Proves the claims about the tree that was just learned, along the greedy transitions of its policy.
+fn not_learned(claim: &str) -> Proved {
+    Proved {
+        holds: true,
+        text: format!("{claim}: not learned yet"),
+    }
+}
+
+/// Proves or tests the claims about the tree that was just learned, proofs along the greedy transitions of its policy.
 ///
 /// # Errors
-/// A claim asks what the policy does not observe.
-pub fn claims_of_learned(loaded: &Loaded, learned: &Learned) -> Result<Vec<Proved>, Diagnostic> {
+/// A claim asks what the policy does not observe, or the world cannot be built.
+pub fn claims_of_learned(
+    loaded: &Loaded,
+    learned: &Learned,
+) -> Result<Vec<Proved>, Vec<Diagnostic>> {
     let program = &loaded.program;
+    let task = program.learners[learned.learner].task;
     let pair = Pair {
         loaded,
-        task: program.learners[learned.learner].task,
+        task,
         recorded: Some(&learned.policy),
     };
-    let side = |tree: TreeRef| side(program, learned, tree);
     let mut results = Vec::new();
     for claim in &program.claims {
-        let ClaimKind::Equals(other) = claim.kind else {
-            continue;
-        };
-        let about = [claim.tree, other].contains(&TreeRef::Learned(learned.learner));
-        if let (true, Some(left), Some(right)) = (about, side(claim.tree), side(other)) {
-            let proved = pair.prove(left, right);
-            results.push(proved.map_err(|mut mistakes| mistakes.remove(0))?);
+        let subject = side(program, learned, claim.tree);
+        let own = claim.tree == TreeRef::Learned(learned.learner);
+        match (&claim.kind, subject) {
+            (ClaimKind::Equals(other), Some(left)) => {
+                let own = own || *other == TreeRef::Learned(learned.learner);
+                if let (true, Some(right)) = (own, side(program, learned, *other)) {
+                    results.push(pair.prove(left, right)?);
+                }
+            }
+            (ClaimKind::Never(occurrence) | ClaimKind::Reaches(occurrence), Some((_, root)))
+                if own =>
+            {
+                let reaches = matches!(claim.kind, ClaimKind::Reaches(_));
+                let tested = event_claim(loaded, task, root, &claim.text, occurrence, reaches);
+                results.push(tested.map_err(|mistake| vec![mistake])?);
+            }
+            _ => {}
         }
     }
     Ok(results)
+}
+
+/// How many episodes a claim on an event is tested in.
+const EPISODES: u64 = 1000;
+
+/// Tests a claim on an event in simulation. It is refuted where the 95 % interval of the rate at which it fails lies
+/// above what it allows; it is never proved.
+fn event_claim(
+    loaded: &Loaded,
+    task: Id<Task>,
+    root: &Node,
+    text: &str,
+    occurrence: &Occurrence,
+    reaches: bool,
+) -> Result<Proved, Diagnostic> {
+    let whole = loaded.program.tasks[task].end_after;
+    let start = Start {
+        seed: 1,
+        stream: Purpose::Claim as u64,
+        limit: occurrence.within.unwrap_or(whole).min(whole),
+        ..Start::default()
+    };
+    let episodes = run::play_tree(loaded, task, root, EPISODES, start)?;
+    let fails = |episode: &&Episode| {
+        let count = episode.events.get(occurrence.event.index()).copied();
+        (count.unwrap_or(0) > 0) != reaches
+    };
+    let failed = episodes.iter().filter(fails).count() as u64;
+    let allowed = 1.0 - occurrence.probability;
+    let refuted = if allowed > 0.0 {
+        lower95(failed, EPISODES) > allowed
+    } else {
+        failed > 0
+    };
+    let verdict = if refuted { "refuted" } else { "not refuted" };
+    Ok(Proved {
+        holds: !refuted,
+        text: format!(
+            "{text}: {verdict} in {EPISODES} episodes; it fails in {failed} of them, a rate below {:.2} % at 95 %",
+            100.0 * upper95(failed, EPISODES)
+        ),
+    })
 }
 
 fn side<'a>(

@@ -26,6 +26,8 @@ pub enum Op {
     Le,
     And,
     Or,
+    /// `dst` = the direction of the vector of x coordinate `b` and y coordinate `a`, in [−π, π)
+    Direction,
     /// `dst = a² + b²`
     SquareSum,
     /// `dst = a − b`, wrapped to [−π, π)

@@ -1,7 +1,7 @@
 //! The compiler: one piece of code at a time, over one layout.
 
 use super::code::{Code, Instruction, Op, Register};
-use super::layout::Layout;
+use super::layout::{Fixed, Layout};
 use super::memo::Memo;
 use crate::ir::expr::Temp;
 use crate::ir::law::{Behavior, Stmt};
@@ -89,7 +89,20 @@ impl<'a> Compiler<'a> {
     ///
     /// # Errors
     /// If registers run out.
-    pub fn assign(&mut self, register: Register, id: ExprId) -> Result<(), TooLarge> {
+    pub fn assign(&mut self, register: Register, mut id: ExprId) -> Result<(), TooLarge> {
+        while let Expr::Temp(temp) = self.pool.get(id)
+            && let Some(&Binding::Deferred(value)) = self.temps.get(&temp)
+        {
+            id = value;
+        }
+        if let Expr::Select(condition, then, otherwise) = self.pool.get(id)
+            && Fixed::is_output(register)
+            && self.memo.get(id).is_none()
+        {
+            self.select_into(register, [condition, then, otherwise])?;
+            self.memo.insert(id, register);
+            return Ok(());
+        }
         let before = self.code.len();
         let fresh = self.scratch;
         let value = self.value(id)?;
@@ -97,26 +110,19 @@ impl<'a> Compiler<'a> {
         if self.code.len() > before
             && self.label != self.code.len()
             && usize::from(value) >= fresh
-            && !matches!(self.pool.get(id), Expr::Temp(_))
             && let Some(last) = self.code.last_mut()
             && last.dst == value
             && last.op.makes_a_value()
         {
             last.dst = register;
-            self.memo.invalidate(|known| known == id);
+            if Fixed::is_output(register) {
+                self.memo.relocate(id, register);
+            } else {
+                self.memo.invalidate(|known| known == id);
+            }
         } else if value != register {
             self.emit(Op::Move, register, value, 0);
         }
-        Ok(())
-    }
-
-    /// Sets a register to a number.
-    ///
-    /// # Errors
-    /// If registers run out.
-    pub fn set(&mut self, register: Register, value: f64) -> Result<(), TooLarge> {
-        let constant = self.layout.constant(value)?;
-        self.emit(Op::Move, register, constant, 0);
         Ok(())
     }
 

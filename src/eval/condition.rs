@@ -107,13 +107,7 @@ impl Compiler<'_> {
         when: bool,
         target: &mut Label,
     ) -> Result<Mark, TooLarge> {
-        let (a, b) = match self.within(op, a, b) {
-            Some((x, y, radius)) => (
-                self.square_sum(x, y)?,
-                self.layout.constant(radius * radius)?,
-            ),
-            None => (self.value(a)?, self.value(b)?),
-        };
+        let (a, b) = self.compared(op, a, b)?;
         let op = match (op, when) {
             (Binary::Eq, true) | (Binary::Ne, false) => Op::JumpEq,
             (Binary::Eq, false) | (Binary::Ne, true) => Op::JumpNe,

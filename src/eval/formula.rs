@@ -4,8 +4,8 @@ use super::code::{Code, Register};
 use super::compiler::{Compiler, TooLarge};
 use super::layout::{Fixed, Layout};
 use super::machine::{Nowhere, Registers, run};
-use super::random::Random;
 use crate::ir::{ExprId, Program};
+use crate::random::Random;
 
 /// A function of `visits` and `progress`, compiled.
 #[derive(Clone, Debug)]

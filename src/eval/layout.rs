@@ -47,6 +47,11 @@ pub enum Fixed {
 impl Fixed {
     const COUNT: usize = 14;
 
+    /// Whether a register takes an answer of the code, which is given once.
+    pub(super) fn is_output(register: Register) -> bool {
+        (Self::Speed.register()..=Self::History.register()).contains(&register)
+    }
+
     /// Its register.
     pub fn register(self) -> Register {
         self as Register

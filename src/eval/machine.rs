@@ -1,8 +1,9 @@
 //! The machine: a file of registers and one loop.
 
 use super::code::{Code, Instruction, Op, Register};
-use super::random::Random;
 use crate::math;
+use crate::random::Random;
+use std::f64::consts::PI;
 
 /// How many registers there are; a power of two, so that a masked index needs no check.
 pub const REGISTERS: usize = 4096;
@@ -110,6 +111,10 @@ pub fn run<H: Host>(code: &Code, r: &mut Registers, host: &mut H) -> u16 {
             }
             Op::Pow => r.set(dst, math::pow(r.get(a), r.get(b))),
             Op::Atan2 => r.set(dst, math::atan2(r.get(a), r.get(b))),
+            Op::Direction => {
+                let angle = math::atan2(r.get(a), r.get(b));
+                r.set(dst, if angle < PI { angle } else { -PI });
+            }
             Op::Hypot => r.set(dst, math::hypot(r.get(a), r.get(b))),
             Op::Eq => r.set(dst, truth(r.get(a) == r.get(b))),
             Op::Ne => r.set(dst, truth(r.get(a) != r.get(b))),

@@ -34,6 +34,13 @@ impl Memo {
         self.log.push(Entry::Value(id));
     }
 
+    /// A known value is somewhere else now.
+    pub(super) fn relocate(&mut self, id: ExprId, register: Register) {
+        if let Some(known) = self.values.get_mut(&id) {
+            *known = register;
+        }
+    }
+
     /// Whether an echo source must be looked at; from now on it has been. Sources past 127 are always looked at.
     pub(super) fn look(&mut self, source: u16) -> bool {
         let bit = 1u128.checked_shl(u32::from(source)).unwrap_or(0);

@@ -6,6 +6,9 @@
 //!
 //! A value is computed where it is first needed, once on each path: the pool's shared nodes are shared registers, and
 //! what only one branch reads is computed in that branch.
+//!
+//! Arithmetic is that of IEEE 754: 1 / 0 is infinite, 0 / 0 is NaN. A comparison with NaN is false; a robot that is told
+//! to drive at NaN stands.
 
 mod code;
 mod compiler;
@@ -15,7 +18,6 @@ mod formula;
 mod layout;
 mod machine;
 mod memo;
-mod random;
 mod statement;
 mod value;
 
@@ -25,4 +27,3 @@ pub use fold::Folding;
 pub use formula::Formula;
 pub use layout::{Fixed, Layout, Source};
 pub use machine::{Host, Nowhere, REGISTERS, Reading, Registers, run};
-pub use random::Random;

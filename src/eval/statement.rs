@@ -45,6 +45,11 @@ impl<'a> Compiler<'a> {
         Ok(())
     }
 
+    /// The tick of a behaviour that is declared only: failure.
+    pub fn fail(&mut self) {
+        self.exit(answer(Status::Failure));
+    }
+
     /// Sets a behaviour's variables as it starts.
     ///
     /// # Errors
@@ -309,7 +314,7 @@ impl<'a> Compiler<'a> {
 }
 
 /// The number by which code answers with a status.
-pub(super) fn answer(status: Status) -> u16 {
+fn answer(status: Status) -> u16 {
     match status {
         Status::Success => 0,
         Status::Failure => 1,

@@ -60,17 +60,14 @@ impl Compiler<'_> {
             Expr::Binary(op @ (Binary::And | Binary::Or), a, b) => self.junction(id, op, a, b)?,
             Expr::Binary(op, a, b) => match self.clamp(op, a, b) {
                 Some((a, limit)) => self.binary(id, Op::Clamp, a, limit)?,
-                None => match self.within(op, a, b) {
-                    Some((x, y, radius)) => {
-                        let square = self.square_sum(x, y)?;
-                        let limit = self.layout.constant(radius * radius)?;
-                        self.result(id, binary(op), square, limit)?
-                    }
-                    None => self.binary(id, binary(op), a, b)?,
-                },
+                None => {
+                    let (a, b) = self.compared(op, a, b)?;
+                    self.result(id, binary(op), a, b)?
+                }
             },
             Expr::Select(condition, then, otherwise) => {
-                let dst = self.select(condition, then, otherwise)?;
+                let dst = self.fresh()?;
+                self.select_into(dst, [condition, then, otherwise])?;
                 self.memo.insert(id, dst);
                 dst
             }
@@ -110,7 +107,7 @@ impl Compiler<'_> {
         match echo {
             Echo::Distance => Ok(first),
             Echo::Seen => Ok(first + 3),
-            Echo::Direction => self.result(id, Op::Atan2, first + 2, first + 1),
+            Echo::Direction => self.result(id, Op::Direction, first + 2, first + 1),
         }
     }
 
@@ -138,14 +135,12 @@ impl Compiler<'_> {
         Ok(dst)
     }
 
-    /// A choice: the side that is not taken is skipped.
-    fn select(
+    /// A choice: the side that is not taken is skipped. `dst` must not be read by any of the three.
+    pub(super) fn select_into(
         &mut self,
-        condition: ExprId,
-        then: ExprId,
-        otherwise: ExprId,
-    ) -> Result<Register, TooLarge> {
-        let dst = self.fresh()?;
+        dst: Register,
+        [condition, then, otherwise]: [ExprId; 3],
+    ) -> Result<(), TooLarge> {
         let cheap = self.cost(otherwise) < WORTH_A_JUMP;
         if cheap {
             let value = self.value(otherwise)?;
@@ -153,8 +148,7 @@ impl Compiler<'_> {
         }
         let mut no = Label::default();
         let known = self.condition(condition, false, &mut no)?;
-        let value = self.value(then)?;
-        self.emit(Op::Move, dst, value, 0);
+        self.side(dst, then)?;
         if cheap {
             self.bind(no);
         } else {
@@ -162,12 +156,21 @@ impl Compiler<'_> {
             self.jump(Op::Jump, &mut end, 0, 0);
             self.bind(no);
             self.memo.forget(known);
-            let value = self.value(otherwise)?;
-            self.emit(Op::Move, dst, value, 0);
+            self.side(dst, otherwise)?;
             self.bind(end);
         }
         self.memo.forget(known);
-        Ok(dst)
+        Ok(())
+    }
+
+    /// One side of a choice.
+    fn side(&mut self, dst: Register, id: ExprId) -> Result<(), TooLarge> {
+        match self.pool.get(id) {
+            Expr::Select(condition, then, otherwise) if self.memo.get(id).is_none() => {
+                self.select_into(dst, [condition, then, otherwise])
+            }
+            _ => self.assign(dst, id),
+        }
     }
 
     /// Makes a draw.
@@ -183,22 +186,39 @@ impl Compiler<'_> {
         Ok(dst)
     }
 
+    /// The registers of two operands. Where a distance is compared with a constant, those of the squares of both,
+    /// which need no root.
+    pub(super) fn compared(
+        &mut self,
+        op: Binary,
+        a: ExprId,
+        b: ExprId,
+    ) -> Result<(Register, Register), TooLarge> {
+        let radius = |id| self.pool.constant(id).filter(|&radius| radius >= 0.0);
+        let distance = |id| match self.pool.get(id) {
+            Expr::Binary(Binary::Hypot, x, y) => Some((x, y)),
+            _ => None,
+        };
+        if matches!(op, Binary::Lt | Binary::Le) {
+            if let (Some((x, y)), Some(radius)) = (distance(a), radius(b)) {
+                let square = self.square_sum(x, y)?;
+                return Ok((square, self.layout.constant(radius * radius)?));
+            }
+            if let (Some(radius), Some((x, y))) = (radius(a), distance(b)) {
+                let square = self.square_sum(x, y)?;
+                return Ok((self.layout.constant(radius * radius)?, square));
+            }
+        }
+        Ok((self.value(a)?, self.value(b)?))
+    }
+
     /// `x² + y²`
-    pub(super) fn square_sum(&mut self, x: ExprId, y: ExprId) -> Result<Register, TooLarge> {
+    fn square_sum(&mut self, x: ExprId, y: ExprId) -> Result<Register, TooLarge> {
         let x = self.value(x)?;
         let y = self.value(y)?;
         let dst = self.fresh()?;
         self.emit(Op::SquareSum, dst, x, y);
         Ok(dst)
-    }
-
-    /// The parts of `hypot(x, y) <= radius` or `<`, which need no root.
-    pub(super) fn within(&self, op: Binary, a: ExprId, b: ExprId) -> Option<(ExprId, ExprId, f64)> {
-        let radius = self.pool.constant(b).filter(|&radius| radius >= 0.0)?;
-        match (op, self.pool.get(a)) {
-            (Binary::Le | Binary::Lt, Expr::Binary(Binary::Hypot, x, y)) => Some((x, y, radius)),
-            _ => None,
-        }
     }
 
     /// The parts of `min(max(x, −limit), limit)`.

@@ -18,6 +18,11 @@ pub fn upper95(count: u64, n: u64) -> f64 {
     high
 }
 
+/// The lower end of the same interval.
+pub fn lower95(count: u64, n: u64) -> f64 {
+    1.0 - upper95(n.saturating_sub(count), n)
+}
+
 /// P(X ≤ count) of a binomial X of n trials with probability p.
 fn at_most(count: u64, n: u64, p: f64) -> f64 {
     if p >= 1.0 {

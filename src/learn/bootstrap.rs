@@ -1,7 +1,7 @@
 //! What a few runs say: the interquartile mean with a bootstrap interval (Agarwal, Schwarzer, Castro, Courville and
 //! Bellemare 2021).
 
-use crate::eval::Random;
+use crate::random::Random;
 
 /// The mean of the middle half of a sample: a quarter of its weight is cut off at either end, values on the border
 /// counting in part. Zero without a sample.

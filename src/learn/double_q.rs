@@ -5,7 +5,7 @@ use super::method::{Decision, Method, Settings};
 use super::process::Key;
 use super::schedule::Schedule;
 use super::table::Table;
-use crate::eval::Random;
+use crate::random::Random;
 
 /// Q_A(s, a) ← Q_A(s, a) + α [r + γ Q_B(s′, argmax Q_A(s′, ·)) − Q_A(s, a)], or with A and B exchanged, by the toss of a
 /// coin. Choices are greedy in the mean of both.

@@ -6,7 +6,7 @@ use super::method::{Decision, Method};
 use super::process::{End, Process};
 use super::schedule::Schedule;
 use super::table::Table;
-use crate::eval::Random;
+use crate::random::Random;
 
 /// How it is gone about, whatever the method.
 #[derive(Clone, Copy, Debug)]

@@ -44,6 +44,13 @@ impl Bits {
         }
     }
 
+    /// Takes a number out.
+    pub fn remove(&mut self, number: usize) {
+        if let Some(word) = self.words.get_mut(number / 64) {
+            *word &= !(1 << (number % 64));
+        }
+    }
+
     /// Whether it holds the number.
     pub fn contains(&self, number: usize) -> bool {
         self.words
@@ -113,6 +120,13 @@ impl Bits {
     #[must_use]
     pub fn minus(&self, other: &Self) -> Self {
         self.combine(other, |a, b| a & !b)
+    }
+
+    /// Drops the numbers of the other.
+    pub fn subtract(&mut self, other: &Self) {
+        for (a, b) in self.words.iter_mut().zip(&other.words) {
+            *a &= !b;
+        }
     }
 
     /// Keeps the numbers that are in `column` if `inside`, the others if not.

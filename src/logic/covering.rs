@@ -64,8 +64,18 @@ fn irredundant(rows: &Bits, choices: &[Choice], mut chosen: Vec<usize>) -> Vec<u
 /// The cheapest cover, found by branch and bound from the greedy one; within `budget` steps it is exact.
 pub fn cheapest(rows: &Bits, choices: &[Choice], budget: usize) -> Vec<usize> {
     let best = greedy(rows, choices);
+    let useful = undominated(choices);
+    let mut through: Vec<(usize, Vec<usize>)> = rows
+        .iter()
+        .map(|row| {
+            let covers = |i: &usize| choices.get(*i).is_some_and(|c| c.covers.contains(row));
+            (row, useful.iter().copied().filter(covers).collect())
+        })
+        .collect();
+    through.sort_by_key(|(row, choices)| (choices.len(), *row));
     let mut search = Search {
         choices,
+        through,
         cost: cost(choices, &best),
         best,
         budget,
@@ -75,6 +85,25 @@ pub fn cheapest(rows: &Bits, choices: &[Choice], budget: usize) -> Vec<usize> {
     search.best
 }
 
+/// The choices that no other makes superfluous by covering as much for as little.
+fn undominated(choices: &[Choice]) -> Vec<usize> {
+    let mut order: Vec<(usize, &Choice)> = choices.iter().enumerate().collect();
+    order.sort_by_key(|(i, choice)| (choice.weight, std::cmp::Reverse(choice.covers.count()), *i));
+    let mut kept: Vec<(usize, &Choice)> = Vec::new();
+    for (i, choice) in order {
+        // What stands earlier is no heavier.
+        if !kept
+            .iter()
+            .any(|(_, earlier)| choice.covers.is_subset(&earlier.covers))
+        {
+            kept.push((i, choice));
+        }
+    }
+    let mut kept: Vec<usize> = kept.into_iter().map(|(i, _)| i).collect();
+    kept.sort_unstable();
+    kept
+}
+
 fn cost(choices: &[Choice], chosen: &[usize]) -> Cost {
     let weights = chosen.iter().filter_map(|i| choices.get(*i));
     (chosen.len(), weights.map(|choice| choice.weight).sum())
@@ -82,6 +111,8 @@ fn cost(choices: &[Choice], chosen: &[usize]) -> Cost {
 
 struct Search<'a> {
     choices: &'a [Choice],
+    /// The choices that cover each row, rows with few of them first.
+    through: Vec<(usize, Vec<usize>)>,
     best: Vec<usize>,
     cost: Cost,
     budget: usize,
@@ -100,19 +131,19 @@ impl Search<'_> {
             return;
         }
         self.budget -= 1;
-        let (hardest, bound) = self.bound(left);
+        let bound = self.bound(left);
         if (spent.0 + bound.0, spent.1 + bound.1) >= self.cost {
             return;
         }
         let choices = self.choices;
-        let mut through: Vec<(usize, &Choice, usize)> = choices
-            .iter()
-            .enumerate()
-            .filter(|(_, choice)| choice.covers.contains(hardest))
-            .map(|(i, choice)| (i, choice, choice.covers.count_both(left)))
+        let hardest = self.through.iter().find(|(row, _)| left.contains(*row));
+        let through = hardest.into_iter().flat_map(|(_, through)| through);
+        let mut through: Vec<(usize, usize, &Choice)> = through
+            .filter_map(|i| Some((*i, choices.get(*i)?)))
+            .map(|(i, choice)| (choice.covers.count_both(left), i, choice))
             .collect();
-        through.sort_by_key(|(i, choice, gain)| (std::cmp::Reverse(*gain), choice.weight, *i));
-        for (i, choice, _) in through {
+        through.sort_by_key(|(gain, i, choice)| (std::cmp::Reverse(*gain), choice.weight, *i));
+        for (_, i, choice) in through {
             chosen.push(i);
             self.branch(
                 &left.minus(&choice.covers),
@@ -123,29 +154,22 @@ impl Search<'_> {
         }
     }
 
-    /// The row with the fewest choices, and what rows without a choice in common cost at least.
-    fn bound(&self, left: &Bits) -> (usize, Cost) {
-        let mut rows: Vec<(usize, usize)> = left
-            .iter()
-            .map(|row| {
-                let through = self.choices.iter().filter(|c| c.covers.contains(row));
-                (through.count(), row)
-            })
-            .collect();
-        rows.sort_unstable();
+    /// What is left costs at least this: rows without a choice in common need one each.
+    fn bound(&self, left: &Bits) -> Cost {
         let mut open = left.clone();
         let mut bound = (0, 0);
-        for (_, row) in &rows {
+        for (row, through) in &self.through {
             if !open.contains(*row) {
                 continue;
             }
+            let choices = through.iter().filter_map(|i| self.choices.get(*i));
             let mut lightest = usize::MAX;
-            for choice in self.choices.iter().filter(|c| c.covers.contains(*row)) {
+            for choice in choices {
                 lightest = lightest.min(choice.weight);
-                open = open.minus(&choice.covers);
+                open.subtract(&choice.covers);
             }
             bound = (bound.0 + 1, bound.1 + lightest);
         }
-        (rows.first().map_or(0, |(_, row)| *row), bound)
+        bound
     }
 }

@@ -6,12 +6,15 @@ use super::covering::{Choice, cheapest, greedy};
 use super::cube::{Cover, Cube};
 use super::primes::{Scoring, all_through, expand};
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
-/// Steps for the search of all primes, and the most primes for which an exact cover is sought.
-const PRIME_STEPS: usize = 20_000;
+/// Rows up to which all primes are sought, steps of that search, and the most primes for an exact cover.
+const EXACT_ROWS: usize = 160;
+const PRIME_STEPS: usize = 8_000;
 const EXACT_PRIMES: usize = 1_500;
-/// Steps of the exact cover.
+/// Steps of the exact cover, and rows times choices that they may go through.
 const COVER_STEPS: usize = 4_000;
+const COVER_WORK: usize = 2_000_000;
 /// ON rows up to which every one of them is a seed of EXPAND.
 const SEEDS: usize = 512;
 
@@ -39,7 +42,8 @@ pub fn minimise(columns: &Columns, on: &Bits, off: &Bits) -> Cover {
         })
         .collect();
     let chosen = if exact || choices.len() <= EXACT_PRIMES {
-        cheapest(on, &choices, COVER_STEPS)
+        let each = on.count() * (1 + choices.len() / 8);
+        cheapest(on, &choices, (COVER_WORK / each).clamp(20, COVER_STEPS))
     } else {
         greedy(on, &choices)
     };
@@ -49,13 +53,16 @@ pub fn minimise(columns: &Columns, on: &Bits, off: &Bits) -> Cover {
 
 /// Every prime with the ON rows on which it holds; `None` where there are too many.
 fn all_primes(columns: &Columns, on: &Bits, off: &Bits) -> Option<BTreeMap<Cube, Bits>> {
+    if on.count() + off.count() > EXACT_ROWS {
+        return None;
+    }
     let mut primes = BTreeMap::new();
     let mut budget = PRIME_STEPS;
     for seed in on.iter() {
         for cube in all_through(columns, seed, off, &mut budget)? {
-            if !primes.contains_key(&cube) && is_prime(columns, &cube, off) {
-                let covers = columns.cube_rows(&cube, on);
-                primes.insert(cube, covers);
+            if let Entry::Vacant(new) = primes.entry(cube) {
+                let covers = columns.cube_rows(new.key(), on);
+                new.insert(covers);
             }
         }
         if primes.len() > EXACT_PRIMES {
@@ -63,12 +70,6 @@ fn all_primes(columns: &Columns, on: &Bits, off: &Bits) -> Option<BTreeMap<Cube,
         }
     }
     Some(primes)
-}
-
-fn is_prime(columns: &Columns, cube: &Cube, off: &Bits) -> bool {
-    cube.literals()
-        .iter()
-        .all(|literal| !columns.cube_rows(&cube.without(*literal), off).is_empty())
 }
 
 /// A pool of primes: from every ON row while there are few, then from rows that no prime holds on yet.

@@ -4,56 +4,116 @@ use super::bits::Bits;
 use super::columns::Columns;
 use super::cube::{Cube, Literal};
 
-/// All primes that hold in the row `seed`, and some cubes that are not prime, or `None` when the search for them takes more than `budget` steps.
+/// All primes that hold in the row `seed`, or `None` when the search for them takes more than `budget` steps.
 ///
 /// A prime through the seed is a minimal set of the seed's literals that excludes every OFF row: a minimal hitting set
-/// of the sets in which the OFF rows differ from the seed.
+/// of the sets of atoms in which the OFF rows differ from the seed.
 pub fn all_through(
     columns: &Columns,
     seed: usize,
     off: &Bits,
     budget: &mut usize,
 ) -> Option<Vec<Cube>> {
-    let mut found = Vec::new();
-    let open: Vec<Literal> = columns.literals_of(seed).collect();
-    let hit = hit(columns, &mut Vec::new(), &open, off, &mut found, budget);
-    hit.then_some(found)
+    let differences = differences(columns, seed, off);
+    let mut search = Hitting {
+        hits: vec![0; differences.len()],
+        open: Bits::full(columns.atoms()),
+        differences,
+        chosen: Vec::new(),
+        found: Vec::new(),
+        budget,
+    };
+    let complete = search.complete(0);
+    let cubes = search.found.into_iter().map(|atoms| {
+        Cube::new(atoms.into_iter().map(|atom| Literal {
+            atom,
+            positive: columns.value(seed, atom),
+        }))
+    });
+    complete.then(|| cubes.collect())
 }
 
-/// Completes `chosen` by literals of `open`, each of which excludes a row that those before it do not; `left` is what it does not exclude yet.
-fn hit(
-    columns: &Columns,
-    chosen: &mut Vec<Literal>,
-    open: &[Literal],
-    left: &Bits,
-    found: &mut Vec<Cube>,
-    budget: &mut usize,
-) -> bool {
-    let Some(step) = budget.checked_sub(1) else {
-        return false;
-    };
-    *budget = step;
-    let Some(row) = left.first() else {
-        found.push(Cube::new(chosen.iter().copied()));
-        return true;
-    };
-    let mut open = open.to_vec();
-    // The branches exclude each other: a literal that was tried is not open in later branches.
-    for literal in open.clone() {
-        if columns.value(row, literal.atom) == literal.positive {
-            continue;
-        }
-        open.retain(|l| *l != literal);
-        chosen.push(literal);
-        let mut rest = left.clone();
-        columns.restrict(&mut rest, literal);
-        let goes_on = hit(columns, chosen, &open, &rest, found, budget);
-        chosen.pop();
-        if !goes_on {
-            return false;
+/// The atoms in which OFF rows differ from the seed, without sets that contain another: who hits that one hits them.
+fn differences(columns: &Columns, seed: usize, off: &Bits) -> Vec<Bits> {
+    let mut all: Vec<Bits> = off
+        .iter()
+        .map(|row| {
+            let differs =
+                |(_, column): &(usize, &Bits)| column.contains(row) != column.contains(seed);
+            Bits::collect(
+                columns.atoms(),
+                columns.iter().filter(differs).map(|(atom, _)| atom),
+            )
+        })
+        .collect();
+    all.sort_by_cached_key(|set| (set.count(), set.clone()));
+    let mut minimal: Vec<Bits> = Vec::new();
+    for set in all {
+        if !minimal.iter().any(|smaller| smaller.is_subset(&set)) {
+            minimal.push(set);
         }
     }
-    true
+    minimal
+}
+
+struct Hitting<'a> {
+    differences: Vec<Bits>,
+    /// How many chosen atoms each difference has.
+    hits: Vec<u32>,
+    /// Which atoms may still be chosen: one that was tried is out of the branches after it.
+    open: Bits,
+    chosen: Vec<usize>,
+    found: Vec<Vec<usize>>,
+    budget: &'a mut usize,
+}
+
+impl Hitting<'_> {
+    /// Completes what is chosen in every minimal way; differences before `from` are hit. False when the budget is spent.
+    fn complete(&mut self, from: usize) -> bool {
+        let Some(budget) = self.budget.checked_sub(1 + self.differences.len() / 8) else {
+            return false;
+        };
+        *self.budget = budget;
+        let unhit = self.hits.iter().skip(from).position(|hits| *hits == 0);
+        let Some((at, set)) = unhit.and_then(|i| Some((from + i, self.differences.get(from + i)?)))
+        else {
+            self.found.push(self.chosen.clone());
+            return true;
+        };
+        let branches = set.and(&self.open);
+        let mut within = true;
+        for atom in branches.iter() {
+            self.open.remove(atom);
+            self.chosen.push(atom);
+            self.count(atom, u32::wrapping_add);
+            // An atom that hits no difference alone is one too many, whatever comes after.
+            if self.chosen.iter().all(|chosen| self.hits_alone(*chosen)) {
+                within = self.complete(at + 1);
+            }
+            self.count(atom, u32::wrapping_sub);
+            self.chosen.pop();
+            if !within {
+                break;
+            }
+        }
+        for atom in branches.iter() {
+            self.open.insert(atom);
+        }
+        within
+    }
+
+    fn count(&mut self, atom: usize, change: fn(u32, u32) -> u32) {
+        for (set, hits) in self.differences.iter().zip(&mut self.hits) {
+            if set.contains(atom) {
+                *hits = change(*hits, 1);
+            }
+        }
+    }
+
+    fn hits_alone(&self, atom: usize) -> bool {
+        let mut sets = self.differences.iter().zip(&self.hits);
+        sets.any(|(set, hits)| *hits == 1 && set.contains(atom))
+    }
 }
 
 /// How EXPAND weighs a literal.

@@ -12,6 +12,7 @@ mod tree;
 mod world;
 
 use super::ast::{Comment, Expr, ExprKind, File, Ident, Item, ItemKind, Spanned};
+use super::brackets;
 use super::comments::docs_before;
 use super::diagnose::{self, Failure};
 use super::grammar::{self, Node, Parts, Rule};
@@ -143,12 +144,45 @@ impl<'i> Builder<'i> {
         if failure.at == start
             && let Some(previous) = previous
         {
-            failure = self.try_again(strict, previous, start);
+            let again = self.try_again(strict, previous, start);
+            if again.at > start || self.goes_on(start) {
+                failure = again;
+            }
         }
-        self.failed_at = Some(failure.at);
-        let diagnostic = diagnose::failure(self.file, self.text, self.tokens, &failure);
+        if previous.is_some() && self.is_juxtaposed(start, failure.at) {
+            failure.at = start;
+            failure.expected.clear();
+        }
+        let (at, diagnostic) = diagnose::failure(self.file, self.text, self.tokens, &failure);
+        self.failed_at = Some(at);
         self.report(diagnostic);
         span
+    }
+
+    /// Whether a text begins on the line of what stands before it and fails at its second token, which does not look
+    /// like the second one of an entry: then it is the first one that does not belong there.
+    fn is_juxtaposed(&self, start: usize, at: usize) -> bool {
+        let index = self.tokens.partition_point(|token| token.end <= start);
+        let token = |index: usize| {
+            self.tokens
+                .get(index)
+                .filter(|token| token.kind != Kind::Comment)
+        };
+        let before = index.checked_sub(1).and_then(token);
+        let (Some(before), Some(first), Some(second)) = (before, token(index), token(index + 1))
+        else {
+            return false;
+        };
+        let is_entry =
+            before.of(self.text) == "{" || first.kind != Kind::Word || second.kind == Kind::Mark;
+        self.goes_on(start) && !is_entry && second.start == at
+    }
+
+    /// Whether something stands before byte `start` on its line.
+    fn goes_on(&self, start: usize) -> bool {
+        let before = self.text.get(..start).unwrap_or_default();
+        let line = before.rsplit('\n').next().unwrap_or_default();
+        !line.chars().all(is_blank)
     }
 
     fn try_again(&self, strict: Rule, from: usize, start: usize) -> Failure {
@@ -217,7 +251,7 @@ impl<'i> Builder<'i> {
         }
         self.failed_at = Some(at);
         if let Some(open) = open {
-            let diagnostic = diagnose::unclosed(self.file, self.text, self.tokens, open, at);
+            let diagnostic = brackets::unclosed(self.file, self.text, self.tokens, open, at);
             self.report(diagnostic);
         }
     }

@@ -1,9 +1,10 @@
 //! Why a text does not parse.
 
+use super::brackets::{innermost_open, unclosed};
 use super::build::units_note;
 use super::expected;
 use super::grammar::Rule;
-use super::tokens::{Kind, Token};
+use super::tokens::{Kind, Token, is_blank};
 use super::words::{ITEMS, RESERVED, UNITS};
 use crate::diagnostic::{Applicability, Code, Diagnostic, suggest};
 use crate::source::{FileId, Span};
@@ -44,33 +45,42 @@ const LOOK_ALIKES: [(char, &str); 20] = [
     ('\u{A0}', " "),
 ];
 
-/// The message for a text that does not parse.
-pub(super) fn failure(file: FileId, text: &str, tokens: &[Token], failure: &Failure) -> Diagnostic {
+/// The message for a text that does not parse, and the byte up to which it speaks for what is wrong.
+pub(super) fn failure(
+    file: FileId,
+    text: &str,
+    tokens: &[Token],
+    failure: &Failure,
+) -> (usize, Diagnostic) {
     let index = tokens.partition_point(|token| token.end <= failure.at);
-    let found = tokens
-        .get(index..)
-        .unwrap_or_default()
-        .iter()
-        .find(|token| token.kind != Kind::Comment)
-        .copied();
-    let before = tokens
+    let mut after = tokens.get(index..).unwrap_or_default().iter().copied();
+    let mut before = tokens
         .get(..index)
         .unwrap_or_default()
         .iter()
         .rev()
-        .find(|token| token.kind != Kind::Comment)
         .copied();
+    let is_code = |token: &Token| token.kind != Kind::Comment;
+    let found = after.find(is_code);
+    let before = [before.find(is_code), before.find(is_code)];
     let Some(found) = found else {
-        return at_the_end(file, text, tokens, failure, before);
+        return (
+            failure.at,
+            at_the_end(file, text, tokens, failure, before[0]),
+        );
     };
     let place = Place {
         file,
         text,
         failure,
         found,
-        before,
+        before: before[0],
+        second_before: before[1],
     };
-    place
+    if let Some((token, diagnostic)) = place.dangling(tokens) {
+        return (token.end, diagnostic);
+    }
+    let diagnostic = place
         .look_alike()
         .or_else(|| place.unclosed())
         .or_else(|| place.text())
@@ -78,85 +88,8 @@ pub(super) fn failure(file: FileId, text: &str, tokens: &[Token], failure: &Fail
         .or_else(|| place.modulo())
         .or_else(|| place.reserved())
         .or_else(|| place.first_word())
-        .unwrap_or_else(|| place.unexpected(tokens))
-}
-
-/// The message for a bracket that is open where a block must have ended.
-pub(super) fn unclosed(
-    file: FileId,
-    text: &str,
-    tokens: &[Token],
-    open: Span,
-    at: usize,
-) -> Diagnostic {
-    let bracket = text.get(open.range()).unwrap_or("{");
-    let close = if bracket == "(" { ")" } else { "}" };
-    let index = tokens.partition_point(|token| token.start < at);
-    let mut diagnostic = Diagnostic::new(
-        Code::E0102,
-        open,
-        format!("this `{bracket}` is never closed"),
-    )
-    .label(format!("no `{close}` belongs to it"));
-    let next = tokens
-        .get(index..)
-        .unwrap_or_default()
-        .iter()
-        .find(|token| token.kind != Kind::Comment);
-    if let Some(next) = next {
-        let place = Span::new(file, next.start, next.end);
-        diagnostic = diagnostic.also(place, format!("`{close}` was expected before this"));
-    }
-    if let Some((open, close)) = suspicious_pair(text, tokens, open) {
-        diagnostic = diagnostic
-            .also(
-                Span::new(file, open.start, open.end),
-                "perhaps it is this one that is not closed:",
-            )
-            .also(
-                Span::new(file, close.start, close.end),
-                "its `}` stands further left",
-            );
-    }
-    diagnostic
-}
-
-/// The first pair of braces after `open` whose close stands further left than the line of its opener.
-fn suspicious_pair(text: &str, tokens: &[Token], open: Span) -> Option<(Token, Token)> {
-    let indent = |at: usize| {
-        let line = text
-            .get(..at)
-            .unwrap_or_default()
-            .rsplit('\n')
-            .next()
-            .unwrap_or_default()
-            .len();
-        let start = at - line;
-        let rest = text.get(start..).unwrap_or_default();
-        (
-            start,
-            rest.find(|letter| letter != ' ' && letter != '\t')
-                .unwrap_or(0),
-        )
-    };
-    let mut stack: Vec<Token> = Vec::new();
-    for &token in tokens
-        .iter()
-        .filter(|token| token.start >= open.range().end)
-    {
-        match token.of(text) {
-            "{" => stack.push(token),
-            "}" => {
-                let opener = stack.pop()?;
-                let ((opened, left), (closed, right)) = (indent(opener.start), indent(token.start));
-                if opened != closed && right < left {
-                    return Some((opener, token));
-                }
-            }
-            _ => {}
-        }
-    }
-    None
+        .unwrap_or_else(|| place.unexpected(tokens));
+    (failure.at, diagnostic)
 }
 
 fn at_the_end(
@@ -189,24 +122,6 @@ fn at_the_end(
     }
 }
 
-/// The bracket that is open at byte `at`, among those from byte `start` on.
-fn innermost_open(text: &str, tokens: &[Token], start: usize, at: usize) -> Option<Token> {
-    let mut stack = Vec::new();
-    for &token in tokens
-        .iter()
-        .filter(|token| token.start >= start && token.end <= at)
-    {
-        match token.of(text) {
-            "{" | "(" => stack.push(token),
-            "}" | ")" => {
-                stack.pop();
-            }
-            _ => {}
-        }
-    }
-    stack.pop()
-}
-
 /// A token that does not fit, with what stands around it.
 struct Place<'a> {
     file: FileId,
@@ -214,6 +129,7 @@ struct Place<'a> {
     failure: &'a Failure,
     found: Token,
     before: Option<Token>,
+    second_before: Option<Token>,
 }
 
 impl Place<'_> {
@@ -237,6 +153,62 @@ impl Place<'_> {
         self.before
             .and_then(|before| self.text.get(before.end..self.found.start))
             .is_some_and(|gap| !gap.contains('\n'))
+    }
+
+    fn parted(&self, left: Token, right: Token) -> bool {
+        let gap = self.text.get(left.end..right.start).unwrap_or_default();
+        gap.contains('\n')
+    }
+
+    /// A line that ends too early: the message belongs to its end, not to what happens to stand on the next one.
+    fn dangling(&self, tokens: &[Token]) -> Option<(Token, Diagnostic)> {
+        let before = self.before?;
+        if before.end > self.failure.start && self.parted(before, self.found) {
+            let open = innermost_open(self.text, tokens, self.failure.start, self.found.start);
+            if let Some(open) =
+                open.filter(|open| open.of(self.text) == "(" && self.expects(Rule::close_paren))
+            {
+                let place = Span::new(self.file, open.start, open.end);
+                return Some((
+                    before,
+                    unclosed(self.file, self.text, tokens, place, self.found.start),
+                ));
+            }
+            let wanted = expected::listed(&self.failure.expected)?;
+            return Some((before, self.after(before, &wanted)));
+        }
+        let last = self.second_before?;
+        let ends_open = matches!(
+            last.of(self.text),
+            "=" | "+"
+                | "-"
+                | "*"
+                | "/"
+                | "^"
+                | "->"
+                | "=>"
+                | "=="
+                | "!="
+                | "<"
+                | ">"
+                | "<="
+                | ">="
+                | "and"
+                | "or"
+                | "not"
+        );
+        let begins_entry = matches!(self.found(), "=" | ":") && before.kind == Kind::Word;
+        (ends_open && begins_entry && self.parted(last, before))
+            .then(|| (last, self.after(last, "a value")))
+    }
+
+    fn after(&self, token: Token, wanted: &str) -> Diagnostic {
+        let span = Span::new(self.file, token.start, token.end);
+        let message = format!(
+            "expected {wanted} after `{}`, found the end of the line",
+            token.of(self.text)
+        );
+        Diagnostic::new(Code::E0101, span, message).label(format!("expected {wanted} after this"))
     }
 
     fn look_alike(&self) -> Option<Diagnostic> {
@@ -278,9 +250,9 @@ impl Place<'_> {
             Diagnostic::new(
                 Code::E0106,
                 span,
-                format!("this `{quote}` is not closed on its line"),
+                format!("this {} is not closed on its line", quote_name(quote)),
             )
-            .label(format!("no second `{quote}` follows"))
+            .label("no second one follows")
             .note("names and texts do not go over the end of a line"),
         )
     }
@@ -316,23 +288,12 @@ impl Place<'_> {
         {
             return None;
         }
-        let diagnostic = Diagnostic::new(Code::E0114, self.span(), format!("`{word}` is no unit"));
-        let near =
-            suggest::nearest(word, UNITS.into_iter().filter(|unit| unit.len() > 1)).or_else(|| {
-                UNITS
-                    .into_iter()
-                    .find(|unit| unit.eq_ignore_ascii_case(word))
-            });
-        let diagnostic = match near {
-            Some(near) => diagnostic.label(format!("did you mean `{near}`?")).fix(
-                format!("write `{near}`"),
-                self.span(),
-                near,
-                Applicability::Unsafe,
-            ),
-            None => diagnostic.label("this follows a number"),
+        let links: &[&str] = if self.failure.strict == Rule::strict_learn_entry {
+            &["of", "per"]
+        } else {
+            &[]
         };
-        Some(diagnostic.note(units_note()))
+        Some(no_such_unit(self.span(), word, links))
     }
 
     fn modulo(&self) -> Option<Diagnostic> {
@@ -344,6 +305,10 @@ impl Place<'_> {
         let starts_value = matches!(self.found.kind, Kind::Word | Kind::Number | Kind::Name)
             && !RESERVED.contains(&self.found());
         if percent.start != self.found.start && !(starts_value && self.same_line_as_before()) {
+            return None;
+        }
+        let left = self.text.get(..percent.start).unwrap_or_default();
+        if percent.start != self.found.start && !left.ends_with(is_blank) {
             return None;
         }
         let span = Span::new(self.file, percent.start, percent.end);
@@ -359,8 +324,7 @@ impl Place<'_> {
         if !RESERVED.contains(&word) || !self.expects(Rule::name) {
             return None;
         }
-        let only_name = self.failure.at > self.failure.start;
-        if !only_name {
+        if self.failure.at == self.failure.start && self.failure.strict == Rule::strict_item {
             return None;
         }
         Some(
@@ -495,5 +459,35 @@ fn either(words: &[String]) -> String {
         Some((last, [])) => last.clone(),
         Some((last, first)) => format!("{} or {last}", first.join(", ")),
         None => String::new(),
+    }
+}
+
+/// The message for a word that follows a number and is no unit; `others` may follow a number too.
+pub(super) fn no_such_unit(span: Span, word: &str, others: &[&str]) -> Diagnostic {
+    let diagnostic = Diagnostic::new(Code::E0114, span, format!("`{word}` is no unit"));
+    let units = UNITS.into_iter().filter(|unit| unit.len() > 1);
+    let near = suggest::nearest(word, units.chain(others.iter().copied())).or_else(|| {
+        UNITS
+            .into_iter()
+            .find(|unit| unit.eq_ignore_ascii_case(word))
+    });
+    let diagnostic = match near {
+        Some(near) => diagnostic.label(format!("did you mean `{near}`?")).fix(
+            format!("write `{near}`"),
+            span,
+            near,
+            Applicability::Unsafe,
+        ),
+        None => diagnostic.label("this follows a number"),
+    };
+    diagnostic.note(units_note())
+}
+
+/// What a quote is called.
+pub(super) fn quote_name(quote: char) -> &'static str {
+    if quote == '`' {
+        "backquote"
+    } else {
+        "quotation mark"
     }
 }

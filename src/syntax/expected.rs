@@ -200,7 +200,9 @@ fn name(rule: Rule) -> Option<(Rank, &'static str)> {
         | Rule::bad_child
         | Rule::bad_line
         | Rule::next_line
+        | Rule::children_end
         | Rule::item_line
+        | Rule::entry_line
         | Rule::margin_item
         | Rule::item_ahead
         | Rule::junk_group

@@ -1,6 +1,7 @@
 //! Text to syntax tree and back.
 
 pub mod ast;
+mod brackets;
 mod build;
 mod comments;
 mod diagnose;

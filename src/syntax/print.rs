@@ -73,6 +73,8 @@ pub fn name(name: &str) -> String {
 /// The lines that are printed so far, and the one that is being written.
 struct Printer<'a> {
     lines: Vec<Line>,
+    /// How many lines of code have been ended.
+    ended: usize,
     /// The columns of the present line.
     cells: Vec<String>,
     /// The level at which the next line begins.
@@ -92,6 +94,7 @@ impl<'a> Printer<'a> {
     fn new(remarks: Option<Remarks<'a>>) -> Self {
         Self {
             lines: Vec::new(),
+            ended: 0,
             cells: vec![String::new()],
             indent: 0,
             begun: None,
@@ -125,6 +128,7 @@ impl<'a> Printer<'a> {
     }
 
     fn end_line(&mut self, group: Group) {
+        self.ended += 1;
         let cells = std::mem::replace(&mut self.cells, vec![String::new()]);
         self.lines.push(Line {
             indent: self.begun.take().unwrap_or(self.indent),

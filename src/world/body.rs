@@ -4,8 +4,9 @@ use super::pose::Pose;
 use super::scene::Scene;
 use super::sensing::Probe;
 use super::shape;
-use crate::eval::{Host, Random, Reading};
+use crate::eval::{Host, Reading};
 use crate::ir::world::Shape;
+use crate::random::Random;
 
 /// What senses and is sensed.
 #[derive(Clone, Debug)]

@@ -2,17 +2,19 @@
 
 use super::atoms::Atoms;
 use super::body::Surroundings;
+use super::episode::Start;
 use super::error::BuildError;
 use super::motion::Motion;
 use super::programs::Programs;
 use super::scene::Scene;
 use super::sensing::Probe;
-use super::simulation::{Simulation, Start};
-use crate::eval::{Layout, Random, Registers};
+use super::simulation::Simulation;
+use crate::eval::{Layout, Registers};
 use crate::ir::task::{self, StartLine, Task};
 use crate::ir::tree::Atom;
 use crate::ir::world::{Point, Shape};
 use crate::ir::{Id, Program};
+use crate::random::Random;
 use std::f64::consts::PI;
 
 /// A program's world, compiled for one task.
@@ -28,9 +30,11 @@ pub struct Simulator {
     /// A free position, for when no other is found.
     pub(super) free: Point,
     pub(super) layout: Layout,
-    /// The registers as an episode finds them, up to the first that no episode changes.
+    /// The registers with the constants in place.
     pub(super) registers: Registers,
+    /// The states' registers with their values at the start.
     pub(super) states: Vec<(u16, f64)>,
+    /// How many events there are.
     pub(super) events: usize,
 }
 
@@ -55,9 +59,6 @@ impl Simulator {
         let world = program.world.as_ref().ok_or(BuildError::NoWorld)?;
         if matches!(world.arena, Shape::Polyline(_)) {
             return Err(BuildError::OpenArena);
-        }
-        if world.robot.sensors.len() > 64 {
-            return Err(BuildError::TooManySensors(world.robot.sensors.len()));
         }
         let atoms = Atoms::new(program, task, extra)?;
         let task = &program.tasks[task];

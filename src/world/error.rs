@@ -14,8 +14,6 @@ pub enum BuildError {
     TooLarge,
     /// The task has this many atoms; a minterm holds 128.
     TooManyAtoms(usize),
-    /// The robot has this many sensors; 64 are possible.
-    TooManySensors(usize),
     /// The arena is a chain of lines, which encloses nothing.
     OpenArena,
     /// The robot fits nowhere, or nearly nowhere.
@@ -31,9 +29,6 @@ impl fmt::Display for BuildError {
             Self::Declared(name) => write!(f, "`{name}` is declared only, so it cannot be run"),
             Self::TooLarge => TooLarge.fmt(f),
             Self::TooManyAtoms(n) => write!(f, "a minterm holds 128 atoms, the task has {n}"),
-            Self::TooManySensors(n) => {
-                write!(f, "a robot has at most 64 sensors, this one has {n}")
-            }
             Self::OpenArena => f.write_str("the arena is not an area"),
             Self::NoFreeArea => f.write_str("the robot fits nowhere in the arena"),
             Self::StartBlocked(_) => f.write_str("the robot does not fit where it is to start"),

@@ -7,9 +7,9 @@
 use super::pose::{Pose, rotor};
 use super::scene::{Scene, turned};
 use super::segment::{along, dot};
-use crate::eval::Random;
 use crate::ir::world::{Contact, Drive, DriveKind, Point, Robot};
 use crate::math;
+use crate::random::Random;
 
 /// What the wheels are told.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -74,16 +74,24 @@ impl Motion {
     ) -> bool {
         let drive = &self.drive;
         let mut turn = limited(command.turn, drive.max_turn);
-        let mut speed = limited(command.speed, drive.max_speed);
-        let mut strafe = 0.0;
-        if drive.kind == DriveKind::Holonomic {
-            strafe = limited(command.strafe, drive.max_speed);
-            let total = math::hypot(speed, strafe);
-            if total > drive.max_speed {
-                let scale = drive.max_speed / total;
-                (speed, strafe) = (speed * scale, strafe * scale);
+        let (mut speed, mut strafe) = match drive.kind {
+            DriveKind::Differential => (limited(command.speed, drive.max_speed), 0.0),
+            DriveKind::Holonomic => {
+                // Far beyond the limit only so that infinite commands have a direction.
+                let bound = 1e6 * drive.max_speed;
+                let (speed, strafe) = (
+                    limited(command.speed, bound),
+                    limited(command.strafe, bound),
+                );
+                let total = math::hypot(speed, strafe);
+                if total > drive.max_speed {
+                    let scale = drive.max_speed / total;
+                    (speed * scale, strafe * scale)
+                } else {
+                    (speed, strafe)
+                }
             }
-        }
+        };
         let goes = speed != 0.0 || strafe != 0.0;
         if goes && drive.speed_noise > 0.0 {
             let noise = drive.speed_noise * random.gaussian();

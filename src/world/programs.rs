@@ -96,7 +96,10 @@ impl Programs {
                 Some(law) => routine(&pool, layout, id, law),
                 None => Ok(Routine {
                     begin: Code::default(),
-                    tick: Code::default(),
+                    tick: piece(&pool, layout, |c| {
+                        c.fail();
+                        Ok(())
+                    })?,
                     timed: false,
                 }),
             })
@@ -149,20 +152,19 @@ impl Ending {
             let number = pool.num((i + 1) as f64);
             end = pool.select(line, number, end);
         }
-        // What effects depend on is looked at before the first of them.
-        let names = (program.temps.len()..).map(Id::new);
-        let mut effects = Vec::new();
-        for (effect, name) in program.effects.iter().zip(names.clone()) {
-            effects.push(Stmt::Let(name, effect.on));
-        }
-        for (effect, name) in program.effects.iter().zip(names) {
-            // A plain event folds where it cannot happen; any other condition goes through its name.
-            let condition = match pool.get(effect.on) {
-                Expr::Event(_) => effect.on,
-                _ => pool.leaf(Expr::Temp(name)),
-            };
+        // What effects depend on is looked at before the first of them. A plain event has been already, and folds
+        // where it cannot happen; any other condition is kept under a name.
+        let (mut conditions, mut effects) = (Vec::new(), Vec::new());
+        for (i, effect) in program.effects.iter().enumerate() {
+            let mut condition = effect.on;
+            if !matches!(pool.get(condition), Expr::Event(_)) {
+                let name = Id::new(program.temps.len() + i);
+                conditions.push(Stmt::Let(name, condition));
+                condition = pool.leaf(Expr::Temp(name));
+            }
             effects.push(Stmt::If(condition, effect.block.clone(), Block::default()));
         }
+        conditions.append(&mut effects);
         let predicates = atoms
             .predicates()
             .map(|(bit, id)| {
@@ -178,7 +180,7 @@ impl Ending {
             end,
             reward,
             otherwise: task.otherwise,
-            effects: Block(effects),
+            effects: Block(conditions),
             predicates,
         })
     }

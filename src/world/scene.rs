@@ -1,7 +1,7 @@
 //! Everything that stands in the way: the walls and the arena's boundary, as segments and circles.
 
 use super::circle::Circle;
-use super::segment::{Segment, along, dot, limit, minus};
+use super::segment::{Segment, along, cross, dot, limit, minus};
 use super::shape;
 use crate::ir::world::{Point, Shape, World};
 
@@ -152,11 +152,14 @@ impl Scene {
             let right = turned(heading, right);
             let left = turned(heading, left);
             for segment in self.boundary.iter().chain(&self.segments) {
-                // A segment that is too far as a whole need not be clipped.
+                // Most segments need not be clipped: they are too far as a whole, or nearest within the sector.
                 let whole = segment.nearest(p);
-                if dot(whole, whole) < best.square
-                    && let Some(vector) = segment.nearest_within(p, right, left)
-                {
+                if dot(whole, whole) >= best.square {
+                    continue;
+                }
+                if cross(right, whole) >= 0.0 && cross(whole, left) >= 0.0 {
+                    best.offer(whole);
+                } else if let Some(vector) = segment.nearest_within(p, right, left) {
                     best.offer(vector);
                 }
             }

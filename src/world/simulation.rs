@@ -1,43 +1,16 @@
-//! One episode after the other, tick by tick.
+//! Tick by tick.
 
 use super::body::Body;
-use super::build::{Simulator, any_heading};
+use super::build::Simulator;
 use super::history::History;
 use super::motion::Command;
 use super::pose::Pose;
-use super::programs::{NOT_QUIET, Step};
-use crate::eval::{Fixed, Random, Registers, run};
+use super::programs::NOT_QUIET;
+use crate::eval::{Fixed, Registers, run};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::program::{Event, State};
 use crate::ir::tree::Status;
-
-/// How an episode starts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Start {
-    /// The seed; with the stream and the number of the episode it decides everything random.
-    pub seed: u64,
-    /// What the episodes are for, such as learning or evaluation, so that they differ.
-    pub stream: u64,
-    /// The number of the episode.
-    pub episode: u64,
-    /// Which of the lists of start lines.
-    pub lines: usize,
-    /// After how many ticks the episode is cut.
-    pub limit: u64,
-}
-
-impl Default for Start {
-    fn default() -> Self {
-        Self {
-            seed: 0,
-            stream: 0,
-            episode: 0,
-            lines: 0,
-            limit: u64::MAX,
-        }
-    }
-}
 
 /// Why an episode ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,7 +38,7 @@ pub struct Outcome {
 
 /// A running instance of a behaviour.
 #[derive(Clone, Copy, Debug, Default)]
-struct Instance {
+pub(super) struct Instance {
     /// The last tick in which ticking it would resume it; later, it starts.
     until: u64,
     /// The tick in which it started.
@@ -75,22 +48,19 @@ struct Instance {
 /// A run of a world. Nothing is allocated between episodes or ticks.
 #[derive(Clone, Debug)]
 pub struct Simulation<'a> {
-    simulator: &'a Simulator,
-    registers: Registers,
-    body: Body<'a>,
-    history: History,
-    instances: Vec<Instance>,
-    terminations: Vec<(Id<Behavior>, Status)>,
-    counts: Vec<u64>,
-    atoms: u128,
-    slack: f64,
+    pub(super) simulator: &'a Simulator,
+    pub(super) registers: Registers,
+    pub(super) body: Body<'a>,
+    pub(super) history: History,
+    pub(super) instances: Vec<Instance>,
+    pub(super) terminations: Vec<(Id<Behavior>, Status)>,
+    pub(super) counts: Vec<u64>,
+    pub(super) atoms: u128,
+    pub(super) slack: f64,
     /// The number of the tick, from 1; 0 before the first.
-    now: u64,
-    limit: u64,
+    pub(super) now: u64,
+    pub(super) limit: u64,
 }
-
-/// How often the start lines are run until the robot is free where they put it.
-const TRIES: u32 = 10_000;
 
 impl<'a> Simulation<'a> {
     pub(super) fn new(simulator: &'a Simulator) -> Self {
@@ -110,105 +80,8 @@ impl<'a> Simulation<'a> {
         }
     }
 
-    /// Starts an episode. What it does depends on `start` and on nothing that happened before.
-    ///
-    /// The lines are run again until the robot is free where they put it; false if that never happens, and it is put
-    /// anywhere instead.
-    pub fn start(&mut self, start: Start) -> bool {
-        self.body.random = Random::new(start.seed, start.stream, start.episode);
-        self.clear_tick();
-        self.counts.fill(0);
-        self.instances.fill(Instance::default());
-        self.now = 0;
-        self.limit = start.limit;
-        self.slack = 0.0;
-        let mut free = false;
-        for _ in 0..TRIES {
-            self.run_start(start.lines);
-            if self
-                .simulator
-                .around
-                .scene
-                .is_free(self.body.pose.position, self.simulator.radius)
-            {
-                free = true;
-                break;
-            }
-        }
-        if !free {
-            self.place_anywhere();
-        }
-        self.body.atoms = self.history.bits;
-        run(
-            &self.simulator.programs.predicates,
-            &mut self.registers,
-            &mut self.body,
-        );
-        self.atoms = self.body.atoms;
-        free
-    }
-
-    fn run_start(&mut self, lines: usize) {
-        for &(register, value) in &self.simulator.states {
-            self.registers.set(register, value);
-        }
-        self.registers.set(Fixed::Touching.register(), 0.0);
-        self.history.clear();
-        self.body.tick();
-        let Some(steps) = self.simulator.programs.starts.get(lines) else {
-            self.place_anywhere();
-            return;
-        };
-        for step in steps {
-            match step {
-                Step::Anywhere => self.place_anywhere(),
-                Step::Set(code) => {
-                    run(code, &mut self.registers, &mut self.body);
-                }
-                Step::Place(code) => {
-                    run(code, &mut self.registers, &mut self.body);
-                    let read = |fixed: Fixed| self.registers.get(fixed.register());
-                    let heading = Some(read(Fixed::Heading)).filter(|h| h.is_finite());
-                    let pose = Pose::new(
-                        [read(Fixed::X), read(Fixed::Y)],
-                        heading.unwrap_or_default(),
-                    );
-                    self.place(pose);
-                }
-                Step::Remember(code) => {
-                    run(code, &mut self.registers, &mut self.body);
-                    let code = self.registers.get(Fixed::History.register());
-                    self.history.clear();
-                    if code >= 0.0 {
-                        let code = code as usize;
-                        let status = if code % 2 == 0 {
-                            Status::Success
-                        } else {
-                            Status::Failure
-                        };
-                        self.history
-                            .record(Id::new(code / 2), status, &self.simulator.atoms);
-                    }
-                }
-            }
-        }
-    }
-
-    fn place_anywhere(&mut self) {
-        let position = self.simulator.anywhere(&mut self.body.random);
-        let heading = any_heading(&mut self.body.random);
-        self.place(Pose::new(position, heading));
-    }
-
-    /// Puts the robot somewhere.
-    fn place(&mut self, pose: Pose) {
-        self.body.pose = pose;
-        self.slack = 0.0;
-        self.tell_pose();
-    }
-
     #[inline]
-    fn tell_pose(&mut self) {
+    pub(super) fn tell_pose(&mut self) {
         let pose = &self.body.pose;
         self.registers.set(Fixed::X.register(), pose.position[0]);
         self.registers.set(Fixed::Y.register(), pose.position[1]);
@@ -217,7 +90,7 @@ impl<'a> Simulation<'a> {
     }
 
     /// Forgets what the last tick's behaviours and events said.
-    fn clear_tick(&mut self) {
+    pub(super) fn clear_tick(&mut self) {
         let layout = &self.simulator.layout;
         for &(behavior, status) in &self.terminations {
             if let Some(register) = layout.ended(behavior, status) {

@@ -50,7 +50,14 @@ fn reported(sources: &Sources, diagnostic: &Diagnostic) -> report::Diagnostic<us
         .collect();
     let notes = diagnostic.notes.iter().map(|note| format!("note: {note}"));
     let help = diagnostic.help.iter().map(|help| format!("help: {help}"));
-    let fixes = diagnostic.fixes.iter().map(|fix| offered(sources, fix));
+    let said = diagnostic
+        .labels
+        .first()
+        .map_or("", |label| label.message.as_str());
+    let fixes = diagnostic
+        .fixes
+        .iter()
+        .map(|fix| offered(sources, fix, said));
     report::Diagnostic::new(severity)
         .with_code(diagnostic.code)
         .with_message(&diagnostic.message)
@@ -58,8 +65,9 @@ fn reported(sources: &Sources, diagnostic: &Diagnostic) -> report::Diagnostic<us
         .with_notes(notes.chain(help).chain(fixes).collect())
 }
 
-/// A fix in words: "help: write `==`: replace `=` with `==`".
-fn offered(sources: &Sources, fix: &Fix) -> String {
+/// A fix in words, such as "help: compare twice: insert `and e ` before `< 3`"; without its title if it is `said`
+/// already, or says no more than the edit.
+fn offered(sources: &Sources, fix: &Fix, said: &str) -> String {
     let edits: Vec<String> = fix
         .edits
         .iter()
@@ -80,7 +88,12 @@ fn offered(sources: &Sources, fix: &Fix) -> String {
             }
         })
         .collect();
-    format!("help: {}: {}", fix.title, edits.join(", "))
+    let edits = edits.join(", ");
+    if fix.title == said || fix.title.starts_with("write `") || fix.title.starts_with("drop ") {
+        format!("help: {edits}")
+    } else {
+        format!("help: {}: {edits}", fix.title)
+    }
 }
 
 /// The beginning of a line, for a hint.

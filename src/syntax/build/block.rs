@@ -169,7 +169,6 @@ impl<'i> Builder<'i> {
         if self.failed_at.is_some_and(|at| span.range().start <= at) {
             return;
         }
-        self.failed_at = Some(span.range().end);
         let name = self.slice(span);
         let next = self.token_at(span.range().end);
         let (at, found) = next.map_or((span, ""), |token| {
@@ -182,6 +181,11 @@ impl<'i> Builder<'i> {
             .text
             .get(span.range().end..at.range().start)
             .is_some_and(|gap| !gap.contains('\n'));
+        self.failed_at = Some(if same_line {
+            at.range().start
+        } else {
+            span.range().end
+        });
         let diagnostic = if same_line && !matches!(found, "}" | "") {
             Diagnostic::new(
                 Code::E0101,

@@ -6,7 +6,9 @@ use crate::source::Span;
 use crate::syntax::ast::{
     Arg, ArgKind, BinaryOp, Choice, Expr, ExprKind, Ident, Otherwise, Ref, Spanned, UnaryOp, Yield,
 };
+use crate::syntax::diagnose::{no_such_unit, quote_name};
 use crate::syntax::grammar::{Node, Parts, Rule};
+use crate::syntax::tokens::Kind;
 
 impl<'i> Builder<'i> {
     /// The next part as an expression; pest has made sure that it is there.
@@ -361,6 +363,7 @@ impl<'i> Builder<'i> {
         for part in Parts::of(node) {
             match part.as_rule() {
                 Rule::arg => args.push(self.arg(part)),
+                Rule::missing_arg_comma if self.unit_is_meant(&part, args.last()) => {}
                 Rule::missing_arg_comma => {
                     let before = args.last().map(|arg| arg.span);
                     self.missing_comma(&part, before, "arguments");
@@ -369,6 +372,28 @@ impl<'i> Builder<'i> {
             }
         }
         args
+    }
+
+    /// Reports a word that follows a number as no unit, rather than as an argument of its own.
+    fn unit_is_meant(&mut self, node: &Node<'i>, before: Option<&Arg>) -> bool {
+        let value = before.map(|arg| &arg.kind);
+        let (Some(ArgKind::Positional(value) | ArgKind::Named(_, value)), Some(word)) =
+            (value, self.token_at(node.as_span().start()))
+        else {
+            return false;
+        };
+        let bare = matches!(&value.kind, ExprKind::Number(literal) if literal.unit.is_none());
+        let gap = self
+            .text
+            .get(value.span.range().end..word.start)
+            .unwrap_or_default();
+        if !bare || gap.contains('\n') || word.kind != Kind::Word {
+            return false;
+        }
+        let span = Span::new(self.file, word.start, word.end);
+        let diagnostic = no_such_unit(span, self.slice(span), &[]);
+        self.report(diagnostic);
+        true
     }
 
     fn arg(&mut self, node: Node<'i>) -> Arg {
@@ -445,14 +470,10 @@ impl<'i> Builder<'i> {
         let span = self.span(node);
         let quote = node.as_str().chars().next().unwrap_or('"');
         let place = Span::new(self.file, start, start + quote.len_utf8());
-        let close = if quote == '“' { '”' } else { quote };
-        let diagnostic = Diagnostic::new(
-            Code::E0106,
-            place,
-            format!("this `{quote}` is not closed on its line"),
-        )
-        .label(format!("no `{close}` follows"))
-        .note("names and texts do not go over the end of a line");
+        let message = format!("this {} is not closed on its line", quote_name(quote));
+        let diagnostic = Diagnostic::new(Code::E0106, place, message)
+            .label("no second one follows")
+            .note("names and texts do not go over the end of a line");
         self.failed_at = Some(span.range().end);
         self.report(diagnostic);
     }

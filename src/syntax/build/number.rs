@@ -153,7 +153,11 @@ impl<'i> Builder<'i> {
         let name = divisor.name.name.as_str();
         let is_unit = UNITS.contains(&name) && !matches!(name, "tick" | "ticks" | "min");
         let unit = literal.unit.as_ref()?;
-        if divisor.args.is_some() || !is_unit || self.declares(name) {
+        if divisor.args.is_some()
+            || !is_unit
+            || self.slice(right.span).starts_with('`')
+            || self.declares(name)
+        {
             return None;
         }
         let merged = format!("{}/{name}", unit.text);

@@ -7,6 +7,7 @@ use crate::syntax::ast::{Block, Branch, Else, Stmt, StmtKind};
 impl Printer<'_> {
     /// A block that `after` more characters follow on its last line: on one line if it was written so and fits.
     pub(super) fn block(&mut self, block: &Block, after: usize) {
+        self.hoist(block.span.range().start);
         if let Some(text) = one_line(block)
             && !self.has_comment(block.span)
             && !self
@@ -17,7 +18,6 @@ impl Printer<'_> {
             self.write(&text);
             return;
         }
-        self.hoist(block.span.range().start);
         self.open_block(Group::None);
         self.trailing(block.span.range().start + 1);
         for stmt in &block.stmts {

@@ -13,12 +13,18 @@ type Operand<'e> = (Option<BinaryOp>, &'e Expr);
 
 impl Printer<'_> {
     /// Whether `text`, which stands at `span`, and `after` more characters fit on the line, with no comment inside.
-    pub(super) fn fits(&mut self, text: &str, span: Span, after: usize) -> bool {
+    pub(super) fn fits(&self, text: &str, span: Span, after: usize) -> bool {
         !self.has_comment(span) && self.column() + text.chars().count() + after <= WIDTH
+    }
+
+    /// Moves the comments out of an expression that have no place in it.
+    pub(super) fn settle(&mut self, expr: &Expr) {
+        self.hoist_unless(expr.span.range().end, |at| has_place(expr, at));
     }
 
     /// An expression that `after` more characters follow on its last line.
     pub(super) fn expr(&mut self, expr: &Expr, after: usize) {
+        self.settle(expr);
         let text = flat::expr(expr);
         if self.fits(&text, expr.span, after) && !self.stays_broken(expr) {
             self.write(&text);
@@ -135,7 +141,12 @@ impl Printer<'_> {
             self.entry(binding.span, |printer| printer.binding(binding));
         }
         self.entry(value.value.span, |printer| {
-            printer.expr(&value.value, 0);
+            let text = flat::yielded(value);
+            if text == flat::expr(&value.value) {
+                printer.expr(&value.value, 0);
+            } else {
+                printer.write(&text);
+            }
             printer.end_line(Group::None);
         });
         self.rest_of_block(value.span.range().end.saturating_sub(1));
@@ -148,6 +159,7 @@ impl Printer<'_> {
     }
 
     pub(super) fn call(&mut self, call: &Ref, after: usize) {
+        self.hoist_unless(call.span.range().end, |at| has_place_in_call(call, at));
         let text = flat::reference(call);
         match &call.args {
             Some(args) if !args.is_empty() && !self.fits(&text, call.span, after) => {
@@ -196,6 +208,7 @@ impl Printer<'_> {
 
     pub(super) fn params(&mut self, params: Option<&Params>, after: usize) {
         let Some(params) = params else { return };
+        self.hoist(params.span.range().start);
         let text = flat::params(params);
         if params.params.is_empty() || self.fits(&text, params.span, after) {
             self.write(&text);
@@ -219,6 +232,46 @@ impl Printer<'_> {
         self.write(",");
         self.end_line(Group::None);
     }
+}
+
+/// Whether a comment at byte `at` can stay where it is: among arguments, or in braces.
+fn has_place(expr: &Expr, at: usize) -> bool {
+    let within = |span: Span| span.range().contains(&at);
+    if !within(expr.span) {
+        return false;
+    }
+    match &expr.kind {
+        ExprKind::Ref(call) => has_place_in_call(call, at),
+        ExprKind::If(choice) => has_place(&choice.cond, at) || in_braces(choice, at),
+        ExprKind::Paren(inner) | ExprKind::Unary { operand: inner, .. } => has_place(inner, at),
+        ExprKind::Binary { op, left, right } if op.node != BinaryOp::Pow => {
+            has_place(left, at) || has_place(right, at)
+        }
+        _ => false,
+    }
+}
+
+fn has_place_in_call(call: &Ref, at: usize) -> bool {
+    let args = call.args.as_deref().unwrap_or_default();
+    let arg = args.iter().find(|arg| arg.span.range().contains(&at));
+    call.span.range().contains(&at)
+        && !args.is_empty()
+        && arg.is_none_or(|arg| has_place_in_arg(arg, at))
+}
+
+fn has_place_in_arg(arg: &Arg, at: usize) -> bool {
+    match &arg.kind {
+        ArgKind::Positional(value) | ArgKind::Named(_, value) => has_place(value, at),
+        ArgKind::Binder { body, .. } => body.as_ref().is_some_and(|body| has_place(body, at)),
+    }
+}
+
+fn in_braces(choice: &Choice, at: usize) -> bool {
+    choice.then.span.range().contains(&at)
+        || match &choice.otherwise {
+            Otherwise::If(choice, _) => has_place(&choice.cond, at) || in_braces(choice, at),
+            Otherwise::Yield(value) => value.span.range().contains(&at),
+        }
 }
 
 /// Whether chains of the operator are broken at it.

@@ -218,11 +218,22 @@ pub(super) fn yields(value: &Yield) -> String {
     let mut text = "{ ".to_owned();
     for binding in &value.bindings {
         text.push_str(&self::binding(binding));
-        text.push(' ');
+        // On one line a unit or a parenthesis could be taken for more of the value.
+        text.push('\n');
     }
-    text.push_str(&expr(&value.value));
+    text.push_str(&yielded(value));
     text.push_str(" }");
     text
+}
+
+/// The value of a block; a sign after a `let` would go on with the value that this binds.
+pub(super) fn yielded(value: &Yield) -> String {
+    let text = expr(&value.value);
+    if !value.bindings.is_empty() && text.starts_with(['-', '+']) {
+        format!("({text})")
+    } else {
+        text
+    }
 }
 
 fn binding(binding: &Binding) -> String {

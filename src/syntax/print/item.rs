@@ -81,10 +81,10 @@ impl Printer<'_> {
             flat::joined(item.variants.iter().map(flat::ident))
         );
         self.write(&head);
+        self.hoist(item.name.span.range().end);
         if self.fits(&text, whole.span, 0) {
             self.write(&text);
         } else {
-            self.hoist(item.name.span.range().end);
             self.open_block(Group::None);
             self.trailing(self.mark_after("{", item.name.span.range().end));
             for variant in &item.variants {
@@ -134,14 +134,14 @@ impl Printer<'_> {
 
     /// The value at the end of a line; a line that is broken is not aligned.
     pub(super) fn value(&mut self, kind: &'static str, value: &Expr) {
-        let before = self.lines.len();
+        let before = self.ended;
         self.expr(value, 0);
         self.end_entry(kind, before);
     }
 
     /// Ends an entry that began after line `before`: it is aligned with its neighbours if it is one line.
     pub(super) fn end_entry(&mut self, kind: &'static str, before: usize) {
-        let group = if self.lines.len() == before {
+        let group = if self.ended == before {
             Group::Of(kind)
         } else {
             Group::None
@@ -162,14 +162,14 @@ impl Printer<'_> {
     fn effect(&mut self, head: String, block: &crate::syntax::ast::Block) {
         self.write(&head);
         self.cell("");
-        let before = self.lines.len();
+        let before = self.ended;
         self.block(block, 0);
         self.end_entry("effect", before);
     }
 
     fn let_item(&mut self, item: &Let) {
         self.write(&format!("let {}", flat::ident(&item.name)));
-        let before = self.lines.len();
+        let before = self.ended;
         let ty = item.ty.as_ref().map(flat::type_expr);
         self.params(item.params.as_ref(), ty.as_ref().map_or(0, String::len) + 4);
         match ty {
@@ -183,6 +183,7 @@ impl Printer<'_> {
         match &item.body {
             LetBody::Expr(value) => self.expr(value, 0),
             LetBody::Yield(value) => {
+                self.hoist(value.span.range().start);
                 let text = flat::yields(value);
                 let broken = !value.bindings.is_empty()
                     || self.is_written_broken(value.span).unwrap_or(false);
@@ -210,7 +211,7 @@ impl Printer<'_> {
 
     fn behavior(&mut self, behavior: &Behavior, item: &Item) {
         self.write(&format!("behavior {}", flat::ident(&behavior.name)));
-        let before = self.lines.len();
+        let before = self.ended;
         self.params(behavior.params.as_ref(), 2);
         match &behavior.body {
             BehaviorBody::Declared => self.end_line(Group::None),

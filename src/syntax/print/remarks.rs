@@ -6,12 +6,13 @@ use crate::source::Span;
 use crate::syntax::ast::{Comment, CommentKind};
 use crate::syntax::comments::is_whole_line;
 use crate::syntax::tokens::{Kind, Token, tokens};
+use std::collections::VecDeque;
 
 /// The source with the comments that are still to be printed.
 pub(super) struct Remarks<'a> {
     text: &'a str,
     tokens: Vec<Token>,
-    comments: std::iter::Peekable<std::slice::Iter<'a, Comment>>,
+    comments: VecDeque<&'a Comment>,
     /// Up to where the source has been printed.
     printed: usize,
 }
@@ -21,8 +22,18 @@ impl<'a> Remarks<'a> {
         Self {
             text,
             tokens: tokens(text),
-            comments: comments.iter().peekable(),
+            comments: comments.iter().collect(),
             printed: 0,
+        }
+    }
+
+    /// The next comment if it stands before byte `end`.
+    fn take_before(&mut self, end: usize) -> Option<&'a Comment> {
+        let next = self.comments.front()?;
+        if (next.span.start as usize) < end {
+            self.comments.pop_front()
+        } else {
+            None
         }
     }
 
@@ -94,10 +105,7 @@ impl Printer<'_> {
         let Some(remarks) = self.remarks.as_mut() else {
             return false;
         };
-        let Some(comment) = remarks
-            .comments
-            .next_if(|comment| (comment.span.start as usize) < end)
-        else {
+        let Some(comment) = remarks.take_before(end) else {
             return false;
         };
         let start = comment.span.start as usize;
@@ -118,31 +126,48 @@ impl Printer<'_> {
 
     /// Moves the comments that stand before byte `end` above the present entry: there is no place for them in it.
     pub(super) fn hoist(&mut self, end: usize) {
-        let Some(remarks) = self.remarks.as_mut() else {
-            return;
-        };
-        while let Some(comment) = remarks
-            .comments
-            .next_if(|comment| (comment.span.start as usize) < end)
-        {
-            let at = self.entry.min(self.lines.len());
-            let blank_before = self
-                .lines
-                .get_mut(at)
-                .map(|line| std::mem::take(&mut line.blank_before));
-            let indent = self.lines.get(at).map_or(self.indent, |line| line.indent);
-            let blank_before = blank_before.unwrap_or_else(|| std::mem::take(&mut self.blank));
-            let line = Line {
-                indent,
-                cells: vec![spelled(comment, true)],
-                group: Group::Comment,
-                blank_before,
-                comment: None,
-            };
-            self.lines.insert(at, line);
-            self.entry += 1;
+        self.hoist_unless(end, |_| false);
+        if let Some(remarks) = self.remarks.as_mut() {
+            remarks.printed = remarks.printed.max(end);
         }
-        remarks.printed = remarks.printed.max(end);
+    }
+
+    /// Moves those of the comments before byte `end` above the present entry that have no place of their own in it.
+    pub(super) fn hoist_unless(&mut self, end: usize, has_place: impl Fn(usize) -> bool) {
+        let mut index = 0;
+        while let Some(remarks) = self.remarks.as_mut() {
+            let Some(comment) = remarks.comments.get(index).copied() else {
+                return;
+            };
+            let start = comment.span.start as usize;
+            if start >= end {
+                return;
+            }
+            if has_place(start) {
+                index += 1;
+            } else {
+                remarks.comments.remove(index);
+                self.put_above(comment);
+            }
+        }
+    }
+
+    fn put_above(&mut self, comment: &Comment) {
+        let at = self.entry.min(self.lines.len());
+        let written = self.begun.unwrap_or(self.indent);
+        let (indent, blank_before) = match self.lines.get_mut(at) {
+            Some(line) => (line.indent, std::mem::take(&mut line.blank_before)),
+            None => (written, std::mem::take(&mut self.blank)),
+        };
+        let line = Line {
+            indent,
+            cells: vec![spelled(comment, true)],
+            group: Group::Comment,
+            blank_before,
+            comment: None,
+        };
+        self.lines.insert(at, line);
+        self.entry += 1;
     }
 
     /// Puts the comment that follows byte `end` on its line behind the last line.
@@ -151,7 +176,7 @@ impl Printer<'_> {
             return;
         };
         remarks.printed = remarks.printed.max(end);
-        let Some(&comment) = remarks.comments.peek() else {
+        let Some(comment) = remarks.comments.front().copied() else {
             return;
         };
         let start = comment.span.start as usize;
@@ -176,7 +201,7 @@ impl Printer<'_> {
             column,
         });
         remarks.printed = comment.span.end as usize;
-        remarks.comments.next();
+        remarks.comments.pop_front();
     }
 
     /// Prints the comments that stand before the end of a block.
@@ -193,12 +218,12 @@ impl Printer<'_> {
     }
 
     /// Whether a comment that is still to be printed stands in `span`.
-    pub(super) fn has_comment(&mut self, span: Span) -> bool {
-        let Some(remarks) = self.remarks.as_mut() else {
-            return false;
-        };
-        let next = remarks.comments.peek().map(|comment| comment.span.start);
-        next.is_some_and(|start| start < span.end)
+    pub(super) fn has_comment(&self, span: Span) -> bool {
+        let next = self
+            .remarks
+            .as_ref()
+            .and_then(|remarks| remarks.comments.front());
+        next.is_some_and(|comment| comment.span.start < span.end)
     }
 
     /// Whether `span` goes over several lines in the source; nothing if there is no source.

@@ -127,7 +127,7 @@ impl Printer<'_> {
     }
 
     fn setting(&mut self, setting: &Setting) {
-        let before = self.lines.len();
+        let before = self.ended;
         self.write(&flat::ident(&setting.name));
         self.cell("= ");
         let tail = setting

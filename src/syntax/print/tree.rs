@@ -20,6 +20,23 @@ impl Printer<'_> {
 
     /// A node that `after` more characters follow on its last line.
     pub(super) fn node(&mut self, node: &Node, after: usize) {
+        match &node.kind {
+            NodeKind::Composite { word, args, .. } => {
+                let head = args
+                    .as_ref()
+                    .and_then(|args| args.last())
+                    .map_or(word.span, |arg| arg.span);
+                let open = self.mark_after("{", head.range().end);
+                self.hoist(open.saturating_sub(1));
+            }
+            NodeKind::Guarded { guard, node } => {
+                self.settle(guard);
+                self.hoist_unless(node.span.range().start, |at| {
+                    guard.span.range().contains(&at)
+                });
+            }
+            NodeKind::Leaf(_) | NodeKind::Error => {}
+        }
         let text = flat::node(node);
         if !is_several(node) && self.fits(&text, node.span, after) {
             self.write(&text);
@@ -47,7 +64,6 @@ impl Printer<'_> {
             NodeKind::Guarded { guard, node } => {
                 self.expr(guard, 4);
                 self.write(" => ");
-                self.hoist(node.span.range().start);
                 self.node(node, after);
             }
             NodeKind::Leaf(leaf) => self.expr(leaf, after),

@@ -66,7 +66,7 @@ impl Printer<'_> {
         word: &str,
         last: Option<&Expr>,
     ) {
-        let before = self.lines.len();
+        let before = self.ended;
         let tail = last.map_or(String::new(), |last| format!("{word}{}", flat::expr(last)));
         self.write(head);
         self.cell("= ");
@@ -93,9 +93,10 @@ impl Printer<'_> {
         let head = format!("sensor {}", flat::ident(name));
         self.write(&head);
         self.cell("= ");
+        self.settle(value);
         let text = flat::expr(value);
         if !self.fits(&text, value.span, 0) {
-            let before = self.lines.len();
+            let before = self.ended;
             self.expr(value, 0);
             self.end_entry("sensor", before);
             return;

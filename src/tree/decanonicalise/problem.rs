@@ -17,7 +17,7 @@ pub(super) struct Problem<'a> {
     /// minterms(B) of every behaviour that is chosen somewhere, in the order of `choose`.
     pub(super) on: Vec<(Id<Behavior>, Bits)>,
     known: RefCell<FxHashMap<(Bits, Bits), Cover>>,
-    /// Rows that minimisation has gone through.
+    /// Work that minimisation has taken: seeds × atoms × words of rows.
     pub(super) effort: Cell<usize>,
 }
 

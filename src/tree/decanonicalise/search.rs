@@ -2,8 +2,8 @@
 //!
 //! Which memory nodes to use is tried out first, in a few configurations; for each, the selector over its subunits is
 //! built from the left by a beam search over what may stand next. A subunit may stand under its whole guard or under
-//! one of its cubes, and a literal may stand over a selector of everything that it lets through. Effort is counted in
-//! rows gone through, so that every machine finds the same tree.
+//! one of its cubes, and a literal may stand over a selector of everything that it lets through. Effort is counted,
+//! not timed, so that every machine finds the same tree.
 
 use super::problem::Problem;
 use super::subunit::{Pair, Subunit, behaviors, canonical, pairs, replace};
@@ -13,6 +13,7 @@ use crate::tree::Size;
 use crate::tree::formula::{guarded, selector};
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
+use std::rc::Rc;
 
 /// Configurations of memory nodes that are tried.
 const CONFIGURATIONS: usize = 12;
@@ -21,8 +22,9 @@ const BEAM: usize = 8;
 const INNER_BEAM: usize = 2;
 /// Selectors within selectors.
 const DEPTH: usize = 3;
-/// Rows that the minimisations of one configuration may go through before it only takes what is cheapest next.
-const EFFORT: usize = 100_000;
+/// Work that the minimisations of one configuration, and of all together, may take; see [`Problem::effort`].
+const EFFORT: usize = 150_000;
+const EFFORT_IN_ALL: usize = 450_000;
 /// Finished trees that are kept for the proof.
 const FINALISTS: usize = 24;
 
@@ -85,25 +87,53 @@ fn add(a: Cost, b: Cost) -> Cost {
 /// A selector that is not finished: its children so far, and the rows that they leave.
 #[derive(Clone)]
 struct Partial {
-    children: Vec<Node>,
+    children: Vec<Rc<Node>>,
     cost: Cost,
     left: Bits,
+}
+
+impl Partial {
+    /// With one more child, which decides these rows.
+    fn with(&self, child: Rc<Node>, cost: Cost, rows: &Bits) -> Self {
+        let mut children = self.children.clone();
+        children.push(child);
+        Self {
+            children,
+            cost: add(self.cost, cost),
+            left: self.left.minus(rows),
+        }
+    }
 }
 
 /// A finished selector, without its own node where it has one child.
 #[derive(Clone)]
 struct Finished {
-    children: Vec<Node>,
+    children: Vec<Rc<Node>>,
     cost: Cost,
 }
 
 impl Finished {
     /// The cost as one node.
     fn whole(&self) -> Cost {
-        match self.children.len() {
-            1 => self.cost,
-            _ => add(self.cost, (1, 0)),
-        }
+        whole(self.children.len(), self.cost)
+    }
+
+    /// The one node.
+    fn node(&self) -> Node {
+        selector(
+            self.children
+                .iter()
+                .map(|child| (**child).clone())
+                .collect(),
+        )
+    }
+}
+
+/// The cost of so many children as one node.
+fn whole(children: usize, cost: Cost) -> Cost {
+    match children {
+        1 => cost,
+        _ => add(cost, (1, 0)),
     }
 }
 
@@ -112,8 +142,8 @@ struct Builder<'a> {
     problem: &'a Problem<'a>,
     subunits: &'a [Subunit],
     limit: usize,
-    greedy: FxHashMap<Bits, Finished>,
-    best: FxHashMap<(Bits, usize), Finished>,
+    greedy: FxHashMap<Bits, Rc<Finished>>,
+    best: FxHashMap<(Bits, usize), (Rc<Node>, Cost)>,
 }
 
 impl<'a> Builder<'a> {
@@ -121,7 +151,7 @@ impl<'a> Builder<'a> {
         Self {
             problem,
             subunits,
-            limit: problem.effort.get() + EFFORT,
+            limit: (problem.effort.get() + EFFORT).min(EFFORT_IN_ALL),
             greedy: FxHashMap::default(),
             best: FxHashMap::default(),
         }
@@ -130,9 +160,13 @@ impl<'a> Builder<'a> {
     /// The best trees for all rows.
     fn finished(&mut self) -> Vec<Node> {
         let all = self.problem.all();
+        // What is cheapest next is always known for the whole; all else is tried as far as the effort goes.
+        let limit = std::mem::replace(&mut self.limit, usize::MAX);
+        self.cheapest_next(&all);
+        self.limit = limit;
         self.beam(&all, BEAM, DEPTH)
             .into_iter()
-            .map(|finished| selector(finished.children))
+            .map(|finished| finished.node())
             .collect()
     }
 
@@ -145,27 +179,36 @@ impl<'a> Builder<'a> {
         }];
         let mut done: Vec<Finished> = Vec::new();
         while !open.is_empty() {
-            let mut next: Vec<(Cost, Partial, Finished)> = Vec::new();
+            let mut next: Vec<(Cost, Partial, Rc<Finished>)> = Vec::new();
             let mut seen: BTreeSet<(Bits, Cost)> = BTreeSet::new();
             for partial in &open {
                 for step in self.steps(partial, depth) {
                     if seen.insert((step.left.clone(), step.cost)) {
-                        let finished = self.completed(&step);
-                        next.push((finished.whole(), step, finished));
+                        let Some(rest) = self.cheapest_next(&step.left) else {
+                            continue;
+                        };
+                        let children = step.children.len() + rest.children.len();
+                        next.push((whole(children, add(step.cost, rest.cost)), step, rest));
                     }
                 }
             }
             next.sort_by_key(|(cost, ..)| *cost);
-            done.extend(
-                next.iter()
-                    .take(width)
-                    .map(|(.., finished)| finished.clone()),
-            );
+            done.extend(next.iter().take(width).map(|(_, step, rest)| {
+                Finished {
+                    children: step
+                        .children
+                        .iter()
+                        .chain(&rest.children)
+                        .cloned()
+                        .collect(),
+                    cost: add(step.cost, rest.cost),
+                }
+            }));
             next.retain(|(_, step, _)| self.sole(&step.left).is_none());
             next.truncate(width);
             open = next.into_iter().map(|(_, step, _)| step).collect();
         }
-        done.push(self.cheapest_next(rows));
+        done.extend(self.cheapest_next(rows).map(|finished| (*finished).clone()));
         done.sort_by_key(Finished::whole);
         done.truncate(FINALISTS);
         done
@@ -185,27 +228,34 @@ impl<'a> Builder<'a> {
             }
             if subunit.guards_itself {
                 if own == subunit.rows {
-                    steps.push(self.step(partial, subunit.body.clone(), &own));
+                    steps.push(self.step(partial, Rc::new(subunit.body.clone()), &own));
                 }
                 continue;
             }
             let cover = self.problem.cover(&own, &partial.left.minus(&own));
-            steps.push(self.step(partial, subunit.under(self.problem, &cover), &own));
+            steps.push(self.step(partial, Rc::new(subunit.under(self.problem, &cover)), &own));
             if let [_, _, ..] = cover.cubes() {
                 for cube in cover.cubes() {
                     let rows = self.problem.columns.cube_rows(cube, &own);
                     let cube = Cover::new([cube.clone()]);
-                    steps.push(self.step(partial, subunit.under(self.problem, &cube), &rows));
+                    steps.push(self.step(
+                        partial,
+                        Rc::new(subunit.under(self.problem, &cube)),
+                        &rows,
+                    ));
                 }
             }
         }
         if depth > 1 {
             for cube in self.splits(&partial.left) {
                 let rows = self.problem.columns.cube_rows(&cube, &partial.left);
-                let inner = self.best(&rows, depth - 1);
+                let Some((inner, (nodes, literals))) = self.best(&rows, depth - 1) else {
+                    continue;
+                };
                 let guard = self.problem.guard(&Cover::new([cube]));
-                let node = guarded(guard, selector(inner.children));
-                steps.push(self.step(partial, node, &rows));
+                let node = Rc::new(guarded(guard, (*inner).clone()));
+                // The sequence and the literal.
+                steps.push(partial.with(node, (nodes + 2, literals + 1), &rows));
             }
         }
         steps
@@ -226,47 +276,30 @@ impl<'a> Builder<'a> {
         found
     }
 
-    fn step(&self, partial: &Partial, child: Node, rows: &Bits) -> Partial {
+    fn step(&self, partial: &Partial, child: Rc<Node>, rows: &Bits) -> Partial {
         let size = Size::of(&child);
-        let mut children = partial.children.clone();
-        children.push(child);
-        Partial {
-            children,
-            cost: add(partial.cost, (size.nodes, size.literals)),
-            left: partial.left.minus(rows),
-        }
+        partial.with(child, (size.nodes, size.literals), rows)
     }
 
-    /// The best selector for rows below the root.
-    fn best(&mut self, rows: &Bits, depth: usize) -> Finished {
+    /// The best selector for rows below the root, as a node.
+    fn best(&mut self, rows: &Bits, depth: usize) -> Option<(Rc<Node>, Cost)> {
         let key = (rows.clone(), depth);
         if let Some(known) = self.best.get(&key) {
-            return known.clone();
+            return Some(known.clone());
         }
-        let mut finished = self.beam(rows, INNER_BEAM, depth);
-        let best = match finished.is_empty() {
-            true => self.cheapest_next(rows),
-            false => finished.swap_remove(0),
-        };
+        let finished = self.beam(rows, INNER_BEAM, depth).into_iter().next()?;
+        let best = (Rc::new(finished.node()), finished.whole());
         self.best.insert(key, best.clone());
-        best
+        Some(best)
     }
 
-    /// The partial selector, completed by what is cheapest next.
-    fn completed(&mut self, partial: &Partial) -> Finished {
-        let rest = self.cheapest_next(&partial.left);
-        let mut children = partial.children.clone();
-        children.extend(rest.children);
-        Finished {
-            children,
-            cost: add(partial.cost, rest.cost),
-        }
-    }
-
-    /// Whole subunits, each time the one with the smallest guard.
-    fn cheapest_next(&mut self, rows: &Bits) -> Finished {
+    /// Whole subunits, each time the one with the smallest guard; `None` once the effort is spent.
+    fn cheapest_next(&mut self, rows: &Bits) -> Option<Rc<Finished>> {
         if let Some(known) = self.greedy.get(rows) {
-            return known.clone();
+            return Some(known.clone());
+        }
+        if self.problem.effort.get() > self.limit {
+            return None;
         }
         let mut partial = Partial {
             children: Vec::new(),
@@ -275,7 +308,7 @@ impl<'a> Builder<'a> {
         };
         while !partial.left.is_empty() {
             if let Some(sole) = self.sole(&partial.left) {
-                partial = self.step(&partial, sole.body.clone(), &sole.rows);
+                partial = self.step(&partial, Rc::new(sole.body.clone()), &sole.rows);
                 break;
             }
             let next = self.subunits.iter().filter_map(|subunit| {
@@ -283,7 +316,7 @@ impl<'a> Builder<'a> {
                 let partly = subunit.guards_itself && own != subunit.rows;
                 (!own.is_empty() && !partly).then(|| {
                     let cover = self.problem.cover(&own, &partial.left.minus(&own));
-                    self.step(&partial, subunit.under(self.problem, &cover), &own)
+                    self.step(&partial, Rc::new(subunit.under(self.problem, &cover)), &own)
                 })
             });
             match next.min_by_key(|step| step.cost) {
@@ -291,12 +324,12 @@ impl<'a> Builder<'a> {
                 None => break,
             }
         }
-        let finished = Finished {
+        let finished = Rc::new(Finished {
             children: partial.children,
             cost: partial.cost,
-        };
+        });
         self.greedy.insert(rows.clone(), finished.clone());
-        finished
+        Some(finished)
     }
 
     /// The subunit that holds all of the rows.

@@ -21,13 +21,19 @@ pub enum Environment<'a> {
     Any(History),
 }
 
+/// A behaviour with how it ended; `None` is one that no atom asks for.
+pub(super) type Termination = Option<(Id<Behavior>, Status)>;
+
+/// The last terminations, the newest last.
+pub(super) type Window = Vec<Termination>;
+
 /// Where the environment stands.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Place {
     /// In a minterm of the table.
     At(usize),
-    /// Where the window holds these terminations, the newest last. `None` is one that no atom asks for.
-    Window(Vec<Option<(Id<Behavior>, Status)>>),
+    /// Where the window holds these terminations.
+    Window(Window),
     /// Before the first tick.
     Start,
 }
@@ -222,12 +228,7 @@ impl<'a> World<'a> {
     }
 
     /// A termination enters the window, and the oldest leaves it.
-    fn remember(
-        &self,
-        window: &mut Vec<Option<(Id<Behavior>, Status)>>,
-        behavior: Id<Behavior>,
-        status: Status,
-    ) {
+    fn remember(&self, window: &mut Window, behavior: Id<Behavior>, status: Status) {
         let history = self.history();
         let atom = match status {
             Status::Success if history.success => Atom::Done(behavior),
@@ -242,9 +243,9 @@ impl<'a> World<'a> {
     /// Any window that passes.
     fn window(
         &self,
-        passes: impl Fn(&[Option<(Id<Behavior>, Status)>]) -> bool,
+        passes: impl Fn(&[Termination]) -> bool,
         oracle: &mut Oracle,
-    ) -> Option<Vec<Option<(Id<Behavior>, Status)>>> {
+    ) -> Option<Window> {
         let mut kinds = vec![None];
         for atom in self.atoms.iter().filter(|atom| self.remembers(**atom)) {
             match atom {
@@ -253,7 +254,7 @@ impl<'a> World<'a> {
                 Atom::Predicate(_) => {}
             }
         }
-        let mut window = Vec::new();
+        let mut window = Window::new();
         if kinds.len() > 1 {
             for _ in 0..self.history().window {
                 // The first answer leaves the rest of the window empty.
@@ -271,7 +272,7 @@ impl<'a> World<'a> {
     }
 
     /// Whether the history atoms of a minterm are those of a window.
-    fn shows(&self, window: &[Option<(Id<Behavior>, Status)>], minterm: usize) -> bool {
+    fn shows(&self, window: &[Termination], minterm: usize) -> bool {
         self.minterms.get(minterm).is_some_and(|minterm| {
             self.atoms
                 .iter()
@@ -282,7 +283,7 @@ impl<'a> World<'a> {
 }
 
 /// Whether a window makes a history atom true.
-pub(super) fn in_window(window: &[Option<(Id<Behavior>, Status)>], atom: Atom) -> bool {
+pub(super) fn in_window(window: &[Termination], atom: Atom) -> bool {
     window.iter().flatten().any(|(behavior, status)| {
         atom == match status {
             Status::Failure => Atom::Failed(*behavior),

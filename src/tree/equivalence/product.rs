@@ -13,7 +13,7 @@ use rustc_hash::FxHashSet;
 use std::collections::BTreeSet;
 
 /// Ticks after which the search gives up.
-const PATIENCE: usize = 20_000_000;
+const PATIENCE: usize = 2_000_000;
 
 /// Both memories and the environment.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -129,12 +129,12 @@ impl<'a> Search<'a> {
                     return Verdict::Differ(trace);
                 }
                 self.explored.ticks += 1;
+                if self.explored.ticks > PATIENCE {
+                    return Verdict::Undecided(self.summary());
+                }
                 if !oracle.advance() {
                     break;
                 }
-            }
-            if self.explored.ticks > PATIENCE {
-                return Verdict::Undecided(self.summary());
             }
             next += 1;
         }
@@ -178,6 +178,7 @@ impl<'a> Search<'a> {
             oracle,
             first: None,
             outcome: None,
+            remembers: false,
             then: Vec::new(),
         };
         let chosen_left = scene.play(left, &state.left);
@@ -258,6 +259,8 @@ struct Scene<'a> {
     first: Option<Id<Behavior>>,
     /// What happens in this tick, with the behaviour that it happens to.
     outcome: Option<(Option<Id<Behavior>>, Outcome)>,
+    /// Whether the side that is being ticked has memory.
+    remembers: bool,
     /// What it has ticked after that.
     then: Vec<Id<Behavior>>,
 }
@@ -274,6 +277,7 @@ impl Scene<'_> {
             }
             Player::Tree(runner) => {
                 runner.resume(memory);
+                self.remembers = !memory.is_empty();
                 runner.tick_in(self);
                 Some(self.first)
             }
@@ -355,7 +359,11 @@ impl Surroundings for Scene<'_> {
     fn behavior(&mut self, behavior: Id<Behavior>) -> Status {
         if self.first.is_some() {
             self.then.push(behavior);
-            return any_status(self.oracle);
+            // Without memory, what comes of further behaviours leaves no trace.
+            return match self.remembers {
+                true => any_status(self.oracle),
+                false => Status::Running,
+            };
         }
         self.first = Some(behavior);
         if let Some((selected, outcome)) = &self.outcome

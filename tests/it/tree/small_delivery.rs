@@ -4,8 +4,9 @@ use btc::ir::Id;
 use btc::ir::task::History;
 use btc::ir::tree::{Atom, Composite, Guard, Node, Status};
 use btc::policy::{Minterm, Policy, Row, Transition};
-use btc::tree::decanonicalise::{Care, Method, decanonicalise};
+use btc::tree::decanonicalise::{Care, Failing, Method, decanonicalise};
 use btc::tree::equivalence::{Environment, Side, Verdict, compare};
+use btc::tree::prove::Refuted;
 
 const A: usize = 0;
 const B: usize = 1;
@@ -162,4 +163,67 @@ fn a_changed_guard_is_told_by_a_shortest_trace() {
         (trace.left, trace.right),
         (Some(Id::new(C)), Some(Id::new(B)))
     );
+}
+
+#[test]
+fn the_least_policies_have_trees() {
+    let one = |atoms: usize, does: &[usize]| {
+        let mut policy = policy();
+        policy.atoms.truncate(atoms);
+        policy.transitions.clear();
+        policy.starts.clear();
+        policy.history = History::default();
+        policy.rows = does
+            .iter()
+            .enumerate()
+            .map(|(i, b)| Row {
+                minterm: Minterm::new((0..atoms).map(|a| i >> a & 1 == 1)),
+                behavior: Id::new(*b),
+                visits: 1,
+                values: vec![None; 4],
+            })
+            .collect();
+        policy.rows.sort_by(|a, b| a.minterm.cmp(&b.minterm));
+        policy
+    };
+    for method in [Method::Paper, Method::Search] {
+        let tree = |policy: &Policy| decanonicalise(policy, method, Care::Seen);
+        // No predicates and no history: the bare leaf.
+        assert_eq!(
+            tree(&one(0, &[2])).unwrap().root,
+            Node::Behavior(Id::new(2))
+        );
+        // One behaviour everywhere.
+        assert_eq!(
+            tree(&one(2, &[1, 1, 1])).unwrap().root,
+            Node::Behavior(Id::new(1))
+        );
+        // One predicate decides.
+        assert_eq!(tree(&one(1, &[0, 1])).unwrap().size.nodes, 5);
+        // Nothing is known.
+        assert_eq!(tree(&one(2, &[])), Err(Refuted::Empty));
+    }
+}
+
+#[test]
+fn decisions_that_fail_are_listed_with_what_the_tree_does_next() {
+    let mut policy = policy();
+    let stuck = minterm(true, false, DOCK);
+    policy.transitions.push(Transition {
+        from: stuck.clone(),
+        behavior: Id::new(B),
+        status: Status::Failure,
+        to: Some(stuck.clone()),
+        count: 7,
+    });
+    policy.transitions.sort();
+    let found = decanonicalise(&policy, Method::Search, Care::Seen).unwrap();
+    let expected = Failing {
+        minterm: stuck,
+        behavior: Id::new(B),
+        count: 7,
+        repeated: 7,
+        then: vec![Some(Id::new(A))],
+    };
+    assert_eq!(found.failing, [expected]);
 }

@@ -1,15 +1,38 @@
 //! The random numbers of an episode.
 
-use crate::math;
+mod ziggurat;
 use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
+use ziggurat::Ziggurat;
 
 /// A generator (xoshiro256++, Blackman and Vigna 2021) that is a function of a seed, a stream and an episode alone.
 #[derive(Clone, Debug)]
 pub struct Random {
-    bits: Xoshiro256PlusPlus,
-    /// The second number of the last Gaussian pair.
-    spare: Option<f64>,
+    bits: Bits,
+    ziggurat: &'static Ziggurat,
+}
+
+/// The source of random bits.
+#[derive(Clone, Debug)]
+pub(super) struct Bits(Xoshiro256PlusPlus);
+
+impl Bits {
+    #[inline]
+    pub(super) fn word(&mut self) -> u64 {
+        self.0.next_u64()
+    }
+
+    /// Uniform in [0, 1).
+    #[inline]
+    pub(super) fn unit(&mut self) -> f64 {
+        fraction(self.word())
+    }
+}
+
+/// The upper 53 bits of a word as a number in [0, 1).
+#[inline]
+pub(super) fn fraction(word: u64) -> f64 {
+    (word >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
 }
 
 /// The finaliser of SplitMix64 (Steele, Lea and Flood 2014): every bit of the input moves every bit of the output.
@@ -25,21 +48,21 @@ impl Random {
     pub fn new(seed: u64, stream: u64, episode: u64) -> Self {
         let word = mix(mix(mix(seed) ^ stream) ^ episode);
         Self {
-            bits: Xoshiro256PlusPlus::seed_from_u64(word),
-            spare: None,
+            bits: Bits(Xoshiro256PlusPlus::seed_from_u64(word)),
+            ziggurat: Ziggurat::get(),
         }
     }
 
     /// 64 random bits.
     #[inline]
     pub fn word(&mut self) -> u64 {
-        self.bits.next_u64()
+        self.bits.word()
     }
 
     /// Uniform in [0, 1), a multiple of 2⁻⁵³.
     #[inline]
     pub fn unit(&mut self) -> f64 {
-        (self.word() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
+        self.bits.unit()
     }
 
     /// Uniform in [a, b).
@@ -60,20 +83,9 @@ impl Random {
         ((u128::from(self.word()) * u128::from(n)) >> 64) as u64
     }
 
-    /// Standard Gaussian, by the polar method (Marsaglia and Bray 1964).
+    /// Standard Gaussian, by the ziggurat (Marsaglia and Tsang 2000; in the form of Doornik 2005).
+    #[inline]
     pub fn gaussian(&mut self) -> f64 {
-        if let Some(spare) = self.spare.take() {
-            return spare;
-        }
-        loop {
-            let x = 2.0 * self.unit() - 1.0;
-            let y = 2.0 * self.unit() - 1.0;
-            let s = x * x + y * y;
-            if s > 0.0 && s < 1.0 {
-                let scale = (-2.0 * math::ln(s) / s).sqrt();
-                self.spare = Some(y * scale);
-                return x * scale;
-            }
-        }
+        self.ziggurat.draw(&mut self.bits)
     }
 }

@@ -1,0 +1,248 @@
+//! Laws of the printer, on programs that are made up and on the examples with comments strewn in.
+
+use btc::source::FileId;
+use btc::syntax::{ast, parse, print};
+use proptest::prelude::*;
+
+const EXAMPLES: [&str; 2] = [
+    include_str!("../../examples/delivery_small.bt"),
+    include_str!("../../examples/delivery_large.bt"),
+];
+
+/// The items of a text that parses, without their places.
+fn items(text: &str) -> Option<String> {
+    let (file, diagnostics) = parse(FileId(0), text);
+    diagnostics.is_empty().then(|| without_places(&file))
+}
+
+fn without_places(file: &ast::File) -> String {
+    let shown = format!("{:#?}", file.items);
+    let is_place = |word: &str| {
+        word.split_once("..")
+            .is_some_and(|(start, end)| [start, end].iter().all(|part| part.parse::<u32>().is_ok()))
+    };
+    shown
+        .lines()
+        .filter(|line| {
+            !is_place(
+                line.trim()
+                    .trim_start_matches("span: ")
+                    .trim_end_matches(','),
+            )
+        })
+        .collect::<Vec<_>>()
+        .join("\n")
+}
+
+/// The comments of a text, without their slashes, in the order of the alphabet.
+fn comments(text: &str) -> Vec<String> {
+    let (file, _) = parse(FileId(0), text);
+    let mut texts: Vec<String> = file
+        .comments
+        .iter()
+        .map(|comment| {
+            comment
+                .text
+                .trim_start_matches(['/', '!'])
+                .trim()
+                .to_owned()
+        })
+        .collect();
+    texts.sort();
+    texts
+}
+
+/// Checks the laws on a text that parses.
+fn check(text: &str) -> Result<(), TestCaseError> {
+    let Some(tree) = items(text) else {
+        return Ok(());
+    };
+    let once = print::format(text).unwrap();
+    let again = items(&once);
+    let changed = first_difference(&tree, &again.unwrap_or_default());
+    prop_assert!(
+        changed.is_empty(),
+        "the tree changed:\n{}\n{}",
+        changed,
+        first_difference(text, &once)
+    );
+    prop_assert_eq!(comments(text), comments(&once));
+    let twice = print::format(&once).unwrap();
+    prop_assert!(
+        once == twice,
+        "not a fixed point:\n{}",
+        first_difference(&once, &twice)
+    );
+    let (file, _) = parse(FileId(0), text);
+    let bare = print::file(&file, None);
+    let changed = first_difference(&tree, &items(&bare).unwrap_or_default());
+    prop_assert!(
+        changed.is_empty(),
+        "the bare tree changed:\n{}\n{}",
+        changed,
+        bare
+    );
+    Ok(())
+}
+
+/// The first lines in which two texts differ, with those before them.
+fn first_difference(left: &str, right: &str) -> String {
+    if left == right {
+        return String::new();
+    }
+    let (left, right): (Vec<&str>, Vec<&str>) = (left.lines().collect(), right.lines().collect());
+    let at = left.iter().zip(&right).take_while(|(a, b)| a == b).count();
+    let part = |lines: &[&str]| lines[at.saturating_sub(3)..lines.len().min(at + 3)].join("\n");
+    format!("{}\n--- became\n{}", part(&left), part(&right))
+}
+
+fn name() -> impl Strategy<Value = String> {
+    prop_oneof![
+        8 => prop::sample::select(vec![
+            "a", "b", "battery", "goto", "carrying_package", "s", "m", "start", "memory", "selector", "per", "of",
+            "facing", "when", "place", "sensor", "end", "otherwise", "tick", "x1",
+        ]).prop_map(str::to_owned),
+        1 => prop::sample::select(vec!["`goto-A`", "`state`", "`ein Name`", "`True`", "`//`"]).prop_map(str::to_owned),
+    ]
+}
+
+fn number() -> impl Strategy<Value = String> {
+    let digits = prop::sample::select(vec!["0", "1", "5_000", "0.25", "1e-3", "12.5e+2"]);
+    let unit = prop::sample::select(vec![
+        "", "%", " m", " m/s", " rad/m", " deg", " ticks", " m^2/s^2", " Hz",
+    ]);
+    (digits, unit).prop_map(|(digits, unit)| format!("{digits}{unit}"))
+}
+
+fn expr() -> impl Strategy<Value = String> {
+    let leaf = prop_oneof![name(), number(), Just("true".to_owned())];
+    leaf.prop_recursive(4, 24, 4, |inner| {
+        let op = prop::sample::select(vec!["or", "and", "+", "-", "*", "/"]);
+        prop_oneof![
+            3 => (inner.clone(), op, inner.clone()).prop_map(|(a, op, b)| format!("{a} {op} {b}")),
+            1 => (inner.clone(), inner.clone()).prop_map(|(a, b)| format!("({a}) <= ({b})")),
+            1 => (inner.clone(), inner.clone()).prop_map(|(a, b)| format!("({a})^({b})")),
+            1 => inner.clone().prop_map(|a| format!("-({a})")),
+            1 => inner.clone().prop_map(|a| format!("(not {a})")),
+            1 => (inner.clone(), inner.clone()).prop_map(|(a, b)| format!("({a}, {b})")),
+            3 => (name(), prop::collection::vec(inner.clone(), 0..4)).prop_map(|(f, args)| format!("{f}({})", args.join(", "))),
+            1 => (name(), name(), inner.clone()).prop_map(|(f, n, a)| format!("{f}({n} = {a})")),
+            1 => (name(), name(), inner.clone()).prop_map(|(b, d, a)| format!("any({b} in {d}: {a})")),
+            1 => (inner.clone(), inner.clone(), inner.clone())
+                .prop_map(|(c, a, b)| format!("if {c} {{ {a} }} else {{ {b} }}")),
+            1 => (inner.clone(), name(), inner.clone(), inner)
+                .prop_map(|(c, n, a, b)| format!("if {c} {{ let {n} = {a}\n ({b}) }} else if {c} {{ {a} }} else {{ {b} }}")),
+        ]
+    })
+}
+
+fn stmt() -> impl Strategy<Value = String> {
+    let simple = prop_oneof![
+        (name(), expr()).prop_map(|(n, e)| format!("{n} = {e}")),
+        (name(), expr()).prop_map(|(n, e)| format!("{n}({e}) += {e}")),
+        (name(), expr()).prop_map(|(n, e)| format!("{n}({e})")),
+        (name(), expr()).prop_map(|(n, e)| format!("let {n} = {e}")),
+    ];
+    simple.prop_recursive(3, 8, 3, |inner| {
+        prop_oneof![
+            (expr(), inner.clone()).prop_map(|(c, s)| format!("if {c} {{ {s} }}")),
+            (expr(), inner.clone(), inner.clone()).prop_map(|(c, a, b)| format!(
+                "if {c} {{\n{a}\n\n{b} }} else if {c} {{ {b} }} else {{ {a}\n}}"
+            )),
+            (name(), name(), inner).prop_map(|(b, d, s)| format!("for {b} in {d} {{ {s} }}")),
+        ]
+    })
+}
+
+fn node() -> impl Strategy<Value = String> {
+    let leaf = prop_oneof![name(), expr().prop_map(|e| format!("done({e})"))];
+    leaf.prop_recursive(4, 12, 3, |inner| {
+        let word = prop::sample::select(vec![
+            "selector",
+            "sequence",
+            "memory selector",
+            "memory sequence",
+            "parallel(2)",
+            "invert",
+            "succeed",
+            "fail",
+            "retry(3)",
+            "timeout(5 s)",
+        ]);
+        prop_oneof![
+            (word, prop::collection::vec(inner.clone(), 0..4))
+                .prop_map(|(w, c)| format!("{w} {{ {} }}", c.join(", "))),
+            (expr(), inner).prop_map(|(g, n)| format!("{g} => {n}")),
+        ]
+    })
+}
+
+fn item() -> impl Strategy<Value = String> {
+    prop_oneof![
+        Just("use std".to_owned()),
+        (name(), expr()).prop_map(|(n, e)| format!("state {n}: bool = {e}")),
+        (name(), expr()).prop_map(|(n, e)| format!("state {n}(t: tree_kind) = {e}")),
+        (name(), expr()).prop_map(|(n, e)| format!("event {n} = {e}")),
+        stmt().prop_map(|s| format!("each tick {{ {s} }}")),
+        (name(), stmt()).prop_map(|(n, s)| format!("on {n} {{\n{s}\n}}")),
+        (name(), stmt()).prop_map(|(n, s)| format!("on {n}(b: bush) {{ {s} }}")),
+        (name(), expr()).prop_map(|(n, e)| format!("let {n}(x: length/time*mass = {e}, y: angle): speed = {e}")),
+        (name(), expr(), expr()).prop_map(|(n, e, f)| format!("let {n} = {{ let {n} = {e}\n({f}) }}")),
+        name().prop_map(|n| format!("predicate {n}")),
+        (name(), expr()).prop_map(|(n, e)| format!("/// documented\npredicate {n}(p: place) = {e}")),
+        name().prop_map(|n| format!("behavior {n}")),
+        (name(), name(), expr()).prop_map(|(n, m, e)| format!("behavior {n} = {m}({e})")),
+        (name(), expr(), stmt()).prop_map(|(n, e, s)| format!(
+            "behavior {n}(a: place) {{ local {n}: angle = {e}\nrequires {e}\nsucceed when {e}\nfail when {e}\ncontrol {{ {s} }} }}"
+        )),
+        (name(), expr(), expr()).prop_map(|(n, e, f)| format!(
+            "world {n} {{ tick = {e}\nplace {n}: kind = {e} facing {f}\nwall {n} = {e} when {f}\n\
+             robot {n} {{ body = {e}\nsensor a = scanner(from = {e}, to = {f})\nsensor bb = scanner(from = {f}, to = {e}) }} }}"
+        )),
+        (name(), expr(), expr()).prop_map(|(n, e, f)| format!(
+            "task {n} {{ observe `start`, g({e}), f({f})\nchoose f({f}), {n}({e})\nhistory last 2 success, failure\npatience {e}\n\
+             start {{ pose = {e}\n f({e}) = {f} }}\nend on {e}\nend after {f}\nreward {{ on {e}: {f}\notherwise: {e} }} }}"
+        )),
+        (name(), expr(), expr()).prop_map(|(n, e, f)| format!(
+            "learn {n} for {n} {{ rate = {e}\nepisodes = {e} of {f}\nper = {e} per {f}\nexplore = {e} -> {f}\nstart {{ a = {e} }} }}"
+        )),
+        (name(), node()).prop_map(|(n, t)| format!("tree {n}(p: place) for {n} = {t}")),
+        (name(), expr()).prop_map(|(n, e)| format!("claim {n} never {e} within {e} with probability >= 95%")),
+        Just("enum kind { one, two }".to_owned()),
+    ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn printing_keeps_what_is_made_up(items in prop::collection::vec(item(), 1..4)) {
+        let text = items.join("\n");
+        let diagnostics = parse(FileId(0), &text).1;
+        let expected = diagnostics.iter().all(|mistake| mistake.code.name() == "E0115");
+        prop_assert!(expected, "does not parse: {:?}\n{}", diagnostics, text);
+        check(&text)?;
+    }
+
+    #[test]
+    fn comments_survive_wherever_they_stand(
+        example in 0..2_usize,
+        places in prop::collection::vec((any::<prop::sample::Index>(), 0..5_usize), 1..6),
+    ) {
+        let mut text = EXAMPLES[example].to_owned();
+        let blanks: Vec<usize> = text.match_indices([' ', '\n']).map(|(at, _)| at).collect();
+        let mut cuts: Vec<(usize, usize)> = places.iter().map(|(index, kind)| (*index.get(&blanks), *kind)).collect();
+        cuts.sort_unstable();
+        for (number, (at, kind)) in cuts.into_iter().enumerate().rev() {
+            let comment = match kind {
+                0 => format!(" // remark {number}\n"),
+                1 => format!("\n/// remark {number}\n"),
+                2 => format!("\n\n\n// remark {number}\n\n\n"),
+                3 => format!(" //! remark {number}\n"),
+                _ => format!(" /// remark {number}\n"),
+            };
+            text.insert_str(at, &comment);
+        }
+        check(&text)?;
+    }
+}

@@ -1,0 +1,211 @@
+//! No text makes the parser panic, run long, or stay silent about what it does not understand.
+
+use btc::source::FileId;
+use btc::syntax::ast::{ItemKind, WorldEntryKind};
+use btc::syntax::{parse, print};
+use proptest::prelude::*;
+
+const EXAMPLES: [&str; 2] = [
+    include_str!("../../examples/delivery_small.bt"),
+    include_str!("../../examples/delivery_large.bt"),
+];
+
+/// Parses, and formats what parses.
+fn swallow(text: &str) {
+    let (file, diagnostics) = parse(FileId(0), text);
+    for diagnostic in &diagnostics {
+        for label in &diagnostic.labels {
+            assert!(
+                text.get(label.span.range()).is_some(),
+                "{:?} of {text:?}",
+                label.span
+            );
+        }
+        for (span, _) in diagnostic.fixes.iter().flat_map(|fix| &fix.edits) {
+            assert!(text.get(span.range()).is_some(), "{span:?} of {text:?}");
+        }
+    }
+    if diagnostics.is_empty() {
+        let has_error = file.items.iter().any(|item| match &item.kind {
+            ItemKind::Error => true,
+            ItemKind::World(world) => world
+                .entries
+                .iter()
+                .any(|entry| entry.kind == WorldEntryKind::Error),
+            _ => false,
+        });
+        assert!(!has_error, "a silent error in {text:?}");
+        print::format(text).unwrap();
+    }
+}
+
+/// Texts in the alphabet of the language, which reach deeper than arbitrary ones.
+fn near_miss() -> impl Strategy<Value = String> {
+    let token = prop::sample::select(vec![
+        "world",
+        "robot",
+        "state",
+        "event",
+        "on",
+        "each tick",
+        "let",
+        "predicate",
+        "behavior",
+        "task",
+        "learn",
+        "tree",
+        "claim",
+        "use",
+        "if",
+        "else",
+        "for",
+        "in",
+        "not",
+        "and",
+        "or",
+        "memory",
+        "selector",
+        "x",
+        "f(",
+        "`n`",
+        "`",
+        "\"",
+        "{",
+        "}",
+        "(",
+        ")",
+        "=",
+        "==",
+        "=>",
+        "->",
+        ",",
+        ":",
+        "+",
+        "-",
+        "*",
+        "/",
+        "^",
+        "<",
+        ">=",
+        "%",
+        "5",
+        "5 m/s",
+        "1.",
+        ".",
+        "//",
+        "///",
+        "\n",
+        "\n",
+        "start",
+        "reward",
+        "observe",
+        "control",
+        "requires",
+        "end",
+        "otherwise",
+        "λ",
+        "–",
+    ]);
+    prop::collection::vec(token, 0..60).prop_map(|tokens| tokens.join(" "))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn arbitrary_texts_are_swallowed(text in any::<String>()) {
+        swallow(&text);
+    }
+
+    #[test]
+    fn near_misses_are_swallowed(text in near_miss()) {
+        swallow(&text);
+    }
+
+    #[test]
+    fn mutations_are_swallowed(
+        example in 0..2_usize,
+        cuts in prop::collection::vec((any::<prop::sample::Index>(), any::<prop::sample::Index>(), 0..4_usize), 1..4),
+    ) {
+        let mut text = EXAMPLES[example].to_owned();
+        for (place, other, kind) in cuts {
+            let tokens: Vec<(usize, usize)> = tokens(&text);
+            if tokens.is_empty() {
+                break;
+            }
+            let (start, end) = *place.get(&tokens);
+            let token = text[start..end].to_owned();
+            match kind {
+                0 => text.replace_range(start..end, ""),
+                1 => text.insert_str(end, &format!(" {token}")),
+                2 => {
+                    let (at, _) = *other.get(&tokens);
+                    text.insert_str(at, &format!("{token} "));
+                }
+                _ => text.truncate(start),
+            }
+        }
+        swallow(&text);
+    }
+}
+
+/// The places of words, numbers and marks.
+fn tokens(text: &str) -> Vec<(usize, usize)> {
+    let mut places = Vec::new();
+    let mut start = 0;
+    for (at, letter) in text.char_indices() {
+        let ends = !(letter.is_alphanumeric() || letter == '_');
+        if ends && at > start {
+            places.push((start, at));
+        }
+        if ends {
+            if !letter.is_whitespace() {
+                places.push((at, at + letter.len_utf8()));
+            }
+            start = at + letter.len_utf8();
+        }
+    }
+    places
+}
+
+/// Deep nests of every kind are refused with a message, or parse, on the small stack of a test's thread.
+#[test]
+fn deep_nests_end_in_a_message() {
+    let nests = [
+        ("let x = ", "(", "1", ")"),
+        ("let x = ", "f(", "1", ")"),
+        ("let x = ", "not ", "a", ""),
+        ("let x = ", "-", "1", ""),
+        ("let x = ", "2^", "2", ""),
+        ("let x = ", "1 + ", "2", ""),
+        ("let x = ", "a and ", "b", ""),
+        ("let x = ", "if a { ", "1", " } else { 2 }"),
+        ("let x = ", "if a { 1 } else ", "{ 2 }", ""),
+        ("tree t = ", "selector { ", "a", " }"),
+        ("tree t = ", "retry(3) { ", "a", " }"),
+        ("tree t = ", "g => ", "a", ""),
+        ("on a { ", "if a { ", "b = 1", " }"),
+        ("on a { ", "if a { b = 1 } else ", "{ b = 2 }", ""),
+        ("on a { ", "{ ", "", ""),
+        ("", "{", "", ""),
+        ("", "(", "", ""),
+        ("let x = ", "f(a (", "", ""),
+        ("let x = ", "f(g, ", "", ""),
+        ("tree t = ", "selector { ", "", ""),
+    ];
+    for (head, open, middle, close) in nests {
+        for depth in [10, 60, 63, 64, 65, 100, 990, 5_000, 100_000] {
+            let text = format!(
+                "{head}{}{middle}{}",
+                open.repeat(depth),
+                close.repeat(depth)
+            );
+            let (_, diagnostics) = parse(FileId(0), &text);
+            if let Ok(formatted) = print::format(&text) {
+                assert!(depth <= 1_000 && parse(FileId(0), &formatted).1.is_empty());
+            } else {
+                assert!(!diagnostics.is_empty());
+            }
+        }
+    }
+}
