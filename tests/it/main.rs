@@ -8,6 +8,7 @@
 )]
 
 mod house;
+mod learn;
 mod naive;
 mod snapshot;
 mod syntax;
