@@ -88,6 +88,12 @@ impl<'a> Checker<'a> {
                 LearnEntry::Error(_) => {}
             }
         }
+        if let (Method::Model, Some(rate)) = (built.method, seen.get("rate")) {
+            self.report(
+                Diagnostic::new(Code::W0501, *rate, "the method `model` takes no steps")
+                    .label("this says nothing here"),
+            );
+        }
         if !seen.contains_key("episodes") {
             self.report(
                 Diagnostic::new(

@@ -122,6 +122,8 @@ codes! {
     E0701 "not built yet",
 
     W0301 "a plain number for a ratio",
+
+    W0501 "a setting without effect",
 }
 
 impl Code {
