@@ -7,11 +7,12 @@ use crate::ir::law::Behavior;
 use crate::ir::task::Task;
 use crate::ir::tree::{Atom, Node, Tree};
 use crate::ir::{Id, Program};
+use crate::learn::binomial::upper95;
 use crate::learn::episode::{Controller, Episode, Greedy, play_all};
 use crate::learn::extract;
 use crate::learn::process::Key;
 use crate::learn::simulated::Purpose;
-use crate::learn::statistics::{Summary, upper95};
+use crate::learn::statistics::Summary;
 use crate::policy::Policy;
 use crate::tree::Runner;
 use crate::world::{Simulation, Simulator, Start};
@@ -167,7 +168,8 @@ fn can_run(loaded: &Loaded, root: &Node) -> Result<(), Diagnostic> {
     }
 }
 
-fn internal(loaded: &Loaded, atom: &str) -> Diagnostic {
+/// The world lacks an atom that it was built for.
+pub(super) fn internal(loaded: &Loaded, atom: &str) -> Diagnostic {
     Diagnostic::new(
         Code::E0409,
         target::world_span(loaded),

@@ -4,7 +4,7 @@ use crate::program::{self, NoFiles};
 use btc::diagnostic::{Code, Diagnostic};
 use btc::driver::load::{Loaded, Reader, load};
 use btc::driver::{compile, learn, run, target, verify};
-use btc::tree::decanonicalise::Method;
+use btc::tree::decanonicalise::{Care, Method};
 
 /// The example of an explanation that follows a heading.
 fn example(code: Code, heading: &str) -> &'static str {
@@ -149,9 +149,13 @@ fn learned(loaded: &Loaded, episodes: Option<u64>) -> Result<learn::Learned, Dia
     let options = learn::Options {
         learner: None,
         seed: None,
+        seeds: 1,
         episodes,
+        evidence: 1,
         method: Method::Search,
+        care: Care::Seen,
         roll_outs: 10,
+        tests: 0,
         source: "program.bt",
     };
     learn::learn(loaded, &options, &|_| {})

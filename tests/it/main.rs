@@ -12,6 +12,7 @@ mod cli;
 mod examples;
 mod explain;
 mod house;
+mod learn;
 mod learning;
 mod naive;
 mod program;
