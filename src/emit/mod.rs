@@ -4,3 +4,4 @@ pub mod bt;
 pub mod dot;
 pub mod ir;
 pub mod json;
+pub mod svg;

@@ -1,0 +1,117 @@
+//! What a robot did in an episode, and how its way is drawn.
+
+use super::page::{self, Page};
+use super::paint::HUES;
+use super::view::View;
+use crate::ir::Id;
+use crate::ir::law::Behavior;
+use crate::ir::program::Event;
+use crate::ir::world::Point;
+use std::collections::BTreeSet;
+
+/// Where a robot stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stand {
+    /// Its centre in metres.
+    pub position: Point,
+    /// Its heading in radians.
+    pub heading: f64,
+}
+
+/// A tick.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Step {
+    /// The behaviour that drove the robot or, where none did, was ticked last.
+    pub behavior: Option<Id<Behavior>>,
+    /// Where the robot stood after it.
+    pub stand: Stand,
+    /// What happened in it.
+    pub events: Vec<Id<Event>>,
+}
+
+/// An episode, or its beginning.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Track {
+    /// Where the robot stood before the first tick.
+    pub start: Stand,
+    /// The ticks.
+    pub steps: Vec<Step>,
+}
+
+/// Points nearer than this are drawn as one, in px.
+const NEAR: f64 = 0.75;
+
+impl Track {
+    /// The behaviours of the ticks, in the order of the program.
+    pub(super) fn behaviors(&self) -> Vec<Id<Behavior>> {
+        let behaviors: BTreeSet<_> = self.steps.iter().filter_map(|step| step.behavior).collect();
+        behaviors.into_iter().collect()
+    }
+
+    /// The events that happened and how often, in the order of the program.
+    pub(super) fn events(&self) -> Vec<(Id<Event>, usize)> {
+        let all = || {
+            self.steps
+                .iter()
+                .flat_map(|step| step.events.iter().copied())
+        };
+        let kinds: BTreeSet<_> = all().collect();
+        kinds
+            .into_iter()
+            .map(|kind| (kind, all().filter(|event| *event == kind).count()))
+            .collect()
+    }
+
+    /// Where the robot stood last.
+    pub(super) fn end(&self) -> Stand {
+        self.steps.last().map_or(self.start, |step| step.stand)
+    }
+
+    /// Draws the way: a line for each stretch under one behaviour, a dot where the robot did not leave its place.
+    pub(super) fn draw(&self, view: &View, page: &mut Page) {
+        let behaviors = self.behaviors();
+        let mut from = self.start;
+        for stretch in self.steps.chunk_by(|a, b| a.behavior == b.behavior) {
+            let class = stretch
+                .first()
+                .and_then(|step| step.behavior)
+                .and_then(|behavior| behaviors.iter().position(|b| *b == behavior))
+                .map_or("way".to_owned(), |i| format!("way {}", hue(i)));
+            let stands = stretch.iter().map(|step| step.stand);
+            let points = thinned(
+                std::iter::once(from)
+                    .chain(stands)
+                    .map(|s| view.at(s.position)),
+            );
+            page.path(&class, page::chain(points));
+            from = stretch.last().map_or(from, |step| step.stand);
+        }
+    }
+}
+
+/// The classes of the `i`-th colour; the colours come round again with dashes.
+pub(super) fn hue(i: usize) -> String {
+    let dashes = if (i / HUES).is_multiple_of(2) {
+        ""
+    } else {
+        " dashed"
+    };
+    format!("line{}{dashes}", i % HUES)
+}
+
+/// The first point, the last, and those between that are not too near one another.
+fn thinned(points: impl Iterator<Item = Point>) -> Vec<Point> {
+    let mut kept: Vec<Point> = Vec::new();
+    let mut last = None;
+    for point in points {
+        last = Some(point);
+        let far = |[x, y]: &Point| (point[0] - x).abs().max((point[1] - y).abs()) >= NEAR;
+        if kept.last().is_none_or(far) {
+            kept.push(point);
+        }
+    }
+    if kept.last() != last.as_ref() || kept.len() == 1 {
+        kept.extend(last);
+    }
+    kept
+}
