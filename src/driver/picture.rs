@@ -25,19 +25,19 @@ pub fn draw(
     ticks: u64,
 ) -> Result<String, Diagnostic> {
     let program = &loaded.program;
-    let start = |task: Id<Task>| Start {
+    let begin = |task: Id<Task>| Start {
         seed,
         stream: Purpose::Run as u64,
         limit: program.tasks[task].end_after,
         ..Start::default()
     };
-    let (name, task, (track, end)) = match subject {
+    let (name, task, (start, steps, end)) = match subject {
         Subject::Tree(id) => {
             let tree = &program.trees[id];
             let task = target::task_of(loaded, Some(id))?;
             let (simulator, mut runner) = run::ready(loaded, task, &tree.root)?;
             let mut simulation = simulator.simulation();
-            simulation.start(start(task));
+            simulation.start(begin(task));
             let recorded = record(&mut simulation, ticks, |simulation| {
                 let (mut driver, mut drives) = (None, false);
                 let words = run::words(simulation);
@@ -58,7 +58,7 @@ pub fn draw(
             let choices = run::choices(policy);
             let unseen = run::unseen(program, task);
             let mut simulation = simulator.simulation();
-            simulation.start(start(task));
+            simulation.start(begin(task));
             let recorded = record(&mut simulation, ticks, |simulation| {
                 let behavior = choices.get(&simulation.key()).copied().unwrap_or(unseen);
                 simulation.act(behavior);
@@ -68,6 +68,11 @@ pub fn draw(
         }
     };
     let task = &program.tasks[task];
+    let track = Track {
+        choices: task.choose.clone(),
+        start,
+        steps,
+    };
     let mut caption = format!("{name}, seed {seed}, {} ticks", track.steps.len());
     if let Some(End::On(line)) = end
         && let Some(name) = run::end_names(program, task).get(line)
@@ -86,25 +91,23 @@ fn record(
     simulation: &mut Simulation,
     ticks: u64,
     mut tick: impl FnMut(&mut Simulation) -> Option<Id<Behavior>>,
-) -> (Track, Option<End>) {
-    let mut track = Track {
-        start: stand(simulation),
-        steps: Vec::new(),
-    };
+) -> (Stand, Vec<Step>, Option<End>) {
+    let start = stand(simulation);
+    let mut steps = Vec::new();
     for _ in 0..ticks {
         simulation.begin_tick();
         let behavior = tick(simulation);
         let outcome = simulation.end_tick();
-        track.steps.push(Step {
+        steps.push(Step {
             behavior,
             stand: stand(simulation),
             events: simulation.fired().collect(),
         });
         if outcome.end.is_some() {
-            return (track, outcome.end);
+            return (start, steps, outcome.end);
         }
     }
-    (track, None)
+    (start, steps, None)
 }
 
 fn stand(simulation: &Simulation) -> Stand {

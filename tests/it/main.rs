@@ -10,6 +10,7 @@
 mod house;
 mod naive;
 mod snapshot;
+mod svg;
 mod syntax;
 mod syntax_print;
 mod syntax_total;

@@ -37,6 +37,9 @@ pub struct Placed {
 const SIBLINGS: f64 = 14.0;
 /// Between neighbours under different parents.
 const COUSINS: f64 = 26.0;
+/// A child that is this near to the middle of its parent is put there, since a line with so small a bend looks wrong.
+/// Less than half of any gap, for two neighbours can both be moved.
+const SNAP: f64 = 4.0;
 /// Between layers.
 const LAYERS: f64 = 30.0;
 
@@ -154,9 +157,14 @@ fn put(
         below: top + height + LAYERS / 2.0,
     });
     for child in &laid.children {
+        let offset = if child.offset.abs() <= SNAP {
+            0.0
+        } else {
+            child.offset
+        };
         put(
             child,
-            x + child.offset,
+            x + offset,
             top + height + LAYERS,
             lower,
             Some(own),

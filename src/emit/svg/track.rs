@@ -7,7 +7,7 @@ use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::program::Event;
 use crate::ir::world::Point;
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 /// Where a robot stands.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,8 +30,13 @@ pub struct Step {
 }
 
 /// An episode, or its beginning.
+///
+/// A behaviour has its colour by its place among the choices, an event its mark by its place in the program, so that all
+/// pictures of a task have the same legend.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Track {
+    /// The behaviours that there are to choose.
+    pub choices: Vec<Id<Behavior>>,
     /// Where the robot stood before the first tick.
     pub start: Stand,
     /// The ticks.
@@ -42,24 +47,27 @@ pub struct Track {
 const NEAR: f64 = 0.75;
 
 impl Track {
-    /// The behaviours of the ticks, in the order of the program.
-    pub(super) fn behaviors(&self) -> Vec<Id<Behavior>> {
-        let behaviors: BTreeSet<_> = self.steps.iter().filter_map(|step| step.behavior).collect();
-        behaviors.into_iter().collect()
+    /// The behaviours of the ticks with the numbers of their colours, in that order.
+    pub(super) fn behaviors(&self) -> BTreeMap<usize, Id<Behavior>> {
+        let behaviors = self.steps.iter().filter_map(|step| step.behavior);
+        behaviors
+            .map(|behavior| (self.color(behavior), behavior))
+            .collect()
     }
 
-    /// The events that happened and how often, in the order of the program.
-    pub(super) fn events(&self) -> Vec<(Id<Event>, usize)> {
-        let all = || {
-            self.steps
-                .iter()
-                .flat_map(|step| step.events.iter().copied())
-        };
-        let kinds: BTreeSet<_> = all().collect();
-        kinds
-            .into_iter()
-            .map(|kind| (kind, all().filter(|event| *event == kind).count()))
-            .collect()
+    /// The number of a behaviour's colour.
+    fn color(&self, behavior: Id<Behavior>) -> usize {
+        let chosen = self.choices.iter().position(|choice| *choice == behavior);
+        chosen.unwrap_or(self.choices.len() + behavior.index())
+    }
+
+    /// How often each event happened, of those that did, in the order of the program.
+    pub(super) fn events(&self) -> BTreeMap<Id<Event>, usize> {
+        let mut counts = BTreeMap::new();
+        for event in self.steps.iter().flat_map(|step| &step.events) {
+            *counts.entry(*event).or_default() += 1;
+        }
+        counts
     }
 
     /// Where the robot stood last.
@@ -69,14 +77,12 @@ impl Track {
 
     /// Draws the way: a line for each stretch under one behaviour, a dot where the robot did not leave its place.
     pub(super) fn draw(&self, view: &View, page: &mut Page) {
-        let behaviors = self.behaviors();
         let mut from = self.start;
         for stretch in self.steps.chunk_by(|a, b| a.behavior == b.behavior) {
-            let class = stretch
-                .first()
-                .and_then(|step| step.behavior)
-                .and_then(|behavior| behaviors.iter().position(|b| *b == behavior))
-                .map_or("way".to_owned(), |i| format!("way {}", hue(i)));
+            let behavior = stretch.first().and_then(|step| step.behavior);
+            let class = behavior.map_or("way".to_owned(), |behavior| {
+                format!("way {}", hue(self.color(behavior)))
+            });
             let stands = stretch.iter().map(|step| step.stand);
             let points = thinned(
                 std::iter::once(from)

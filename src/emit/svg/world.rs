@@ -16,7 +16,7 @@ const LARGEST: Point = [600.0, 480.0];
 /// Between the arena and the legend.
 const GUTTER: f64 = 26.0;
 /// Below the arena: the scale and the caption.
-const FOOT: f64 = 30.0;
+const FOOT: f64 = 22.0;
 
 const RULES: &[Rule] = &[
     rule(
@@ -52,7 +52,7 @@ const RULES: &[Rule] = &[
     ),
     rule(
         "sector",
-        "fill:#56b4e9;fill-opacity:.1;stroke:#56b4e9;stroke-opacity:.6;stroke-dasharray:3 3",
+        "fill:#56b4e9;fill-opacity:.06;stroke:#56b4e9;stroke-opacity:.5;stroke-dasharray:3 3",
         "",
     ),
     rule(
@@ -68,12 +68,12 @@ const RULES: &[Rule] = &[
     rule("dashed", "stroke-dasharray:5 4", ""),
     rule(
         "start",
-        "fill:#ffffff;fill-opacity:.7;stroke:#37474f;stroke-dasharray:3 2",
+        "fill:#ffffff;fill-opacity:.4;stroke:#37474f;stroke-dasharray:3 2",
         "fill:#0d1117;stroke:#c3d0d9",
     ),
     rule(
         "last",
-        "fill:#ffffff;fill-opacity:.7;stroke:#1f2933;stroke-width:1.5",
+        "fill:#ffffff;fill-opacity:.4;stroke:#1f2933;stroke-width:1.5",
         "fill:#0d1117;stroke:#e6edf3",
     ),
     rule(
@@ -130,12 +130,9 @@ pub fn world(program: &Program, world: &World, caption: &str, track: Option<&Tra
             let ahead = view::along(stand.heading);
             legend::robot(class, view.at(stand.position), ahead, radius, &mut page);
         }
-        let kinds = track.events();
         for step in &track.steps {
             for event in &step.events {
-                let kind = kinds.iter().position(|(kind, _)| kind == event);
-                let at = view.at(step.stand.position);
-                legend::mark(kind.unwrap_or_default(), at, &mut page);
+                legend::mark(event.index(), view.at(step.stand.position), &mut page);
             }
         }
     }
@@ -165,8 +162,8 @@ fn legend(program: &Program, world: &World, track: Option<&Track>) -> Legend {
         return Legend(Vec::new());
     };
     let entry = |sign: Sign, name: String| Entry { sign, name };
-    let behaviors = track.behaviors().into_iter().enumerate();
-    let events = track.events().into_iter().enumerate();
+    let behaviors = track.behaviors().into_iter();
+    let events = track.events().into_iter();
     let sensors: Vec<&str> = world
         .robot
         .sensors
@@ -195,9 +192,9 @@ fn legend(program: &Program, world: &World, track: Option<&Track>) -> Legend {
         (
             "event",
             events
-                .map(|(i, (id, count))| {
+                .map(|(id, count)| {
                     let name = &program.events[id].name;
-                    entry(Sign::Mark(i), format!("{name} × {count}"))
+                    entry(Sign::Mark(id.index()), format!("{name} × {count}"))
                 })
                 .collect(),
         ),
