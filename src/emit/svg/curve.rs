@@ -78,12 +78,21 @@ pub fn curve(points: &[Point], caption: &str, interval: &str) -> String {
             .map(|(ticks, value)| [x.at(ticks), y.at(value)])
     };
     let band = at(|point| point.interval[1]).chain(at(|point| point.interval[0]).rev());
-    page.path("band", page::chain(band) + "Z");
+    if !points.is_empty() {
+        page.path("band", page::chain(band) + "Z");
+    }
     page.path("mean", page::chain(at(|point| point.mean)));
     for point in at(|point| point.mean) {
         page.circle("dot", point, 2.5);
     }
-    page.text("remark", LEFT, top - 16.0, &format!("return, {interval}"));
+    page.path("band", swatch(top - 20.0, 5.0) + "Z");
+    page.path("mean", swatch(top - 20.0, 0.0));
+    page.text(
+        "remark",
+        LEFT + 26.0,
+        top - 16.0,
+        &format!("return, {interval}"),
+    );
     page.text("remark end", RIGHT, top - 16.0, caption);
 
     let [top, foot] = MINTERMS;
@@ -93,12 +102,23 @@ pub fn curve(points: &[Point], caption: &str, interval: &str) -> String {
         .iter()
         .map(|point| [x.at(point.ticks as f64), y.at(point.minterms as f64)]);
     page.path("seen", page::chain(seen));
-    page.text("remark", LEFT, top - 12.0, "minterms seen");
+    page.path("seen", swatch(top - 16.0, 0.0));
+    page.text("remark", LEFT + 26.0, top - 12.0, "minterms seen");
     for (at, label) in x.marks() {
         page.text("remark middle", at, foot + 18.0, &label);
     }
     page.text("remark middle", (LEFT + RIGHT) / 2.0, foot + 36.0, "ticks");
     page.finish()
+}
+
+/// A piece of a line or of a band, in front of its name.
+fn swatch(y: f64, half: f64) -> String {
+    let [left, right] = [LEFT, LEFT + 18.0];
+    if half == 0.0 {
+        return page::chain([[left, y], [right, y]]);
+    }
+    let [top, foot] = [y - half, y + half];
+    page::chain([[left, top], [right, top], [right, foot], [left, foot]])
 }
 
 /// The picture in words: where the curve begins and where it ends.

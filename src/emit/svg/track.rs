@@ -45,6 +45,8 @@ pub struct Track {
 
 /// Points nearer than this are drawn as one, in px.
 const NEAR: f64 = 0.75;
+/// From one arrowhead on the way to the next, in px.
+const ARROWS: f64 = 110.0;
 
 impl Track {
     /// The behaviours of the ticks with the numbers of their colours, in that order.
@@ -75,9 +77,11 @@ impl Track {
         self.steps.last().map_or(self.start, |step| step.stand)
     }
 
-    /// Draws the way: a line for each stretch under one behaviour, a dot where the robot did not leave its place.
+    /// Draws the way: a line for each stretch under one behaviour, with arrowheads; a dot where the robot did not
+    /// leave its place.
     pub(super) fn draw(&self, view: &View, page: &mut Page) {
         let mut from = self.start;
+        let mut left = ARROWS / 2.0;
         for stretch in self.steps.chunk_by(|a, b| a.behavior == b.behavior) {
             let behavior = stretch.first().and_then(|step| step.behavior);
             let class = behavior.map_or("way".to_owned(), |behavior| {
@@ -89,10 +93,29 @@ impl Track {
                     .chain(stands)
                     .map(|s| view.at(s.position)),
             );
-            page.path(&class, page::chain(points));
+            let arrows = arrowheads(&points, &mut left);
+            page.path(&class, page::chain(points) + &arrows);
             from = stretch.last().map_or(from, |step| step.stand);
         }
     }
+}
+
+/// Arrowheads along a line; `left` is how far it is to the next one.
+fn arrowheads(points: &[Point], left: &mut f64) -> String {
+    let mut d = String::new();
+    for ([x0, y0], [x1, y1]) in points.iter().zip(points.iter().skip(1)) {
+        let [dx, dy] = [x1 - x0, y1 - y0];
+        let length = (dx * dx + dy * dy).sqrt();
+        *left -= length;
+        if *left > 0.0 || length == 0.0 {
+            continue;
+        }
+        *left = ARROWS;
+        let [dx, dy] = [dx / length, dy / length];
+        let wing = |side: f64| [x1 - 5.0 * dx - side * dy, y1 - 5.0 * dy + side * dx];
+        d += &page::chain([wing(3.5), [*x1, *y1], wing(-3.5)]);
+    }
+    d
 }
 
 /// The classes of the `i`-th colour; the colours come round again with dashes.

@@ -191,7 +191,7 @@ fn draw(shape: Shape, place: &Placed, program: &Program, page: &mut Page) {
                 Composite::Selector => page.text("name middle sign", x, y + 6.0, "?"),
             }
             if memory {
-                page.path("symbol", star(x + 11.5, y - 5.0));
+                page.path("symbol", star(x + 10.5, y - 5.0));
             }
         }
         Shape::Parallel(_) => {

@@ -97,11 +97,13 @@ pub fn world(program: &Program, world: &World, caption: &str, track: Option<&Tra
         0.0 => 0.0,
         width => GUTTER + width,
     };
+    let foot = Foot::new(&view, caption);
+    let wide = (view.size[0] + beside).max(foot.right - MARGIN);
     let high = (view.size[1] + FOOT).max(legend.height());
     let rules: Vec<Rule> = RULES.iter().chain(&LINES).copied().collect();
     let mut page = Page::new(&Head {
         class: "btc-world",
-        width: 2.0 * MARGIN + view.size[0] + beside,
+        width: (2.0 * MARGIN + wide).ceil(),
         height: 2.0 * MARGIN + high,
         title: &format!("world {}", world.name),
         description: &description(program, world, caption, track),
@@ -140,7 +142,7 @@ pub fn world(program: &Program, world: &World, caption: &str, track: Option<&Tra
         let [x, y] = view.at(place.shape.center());
         page.text("name label middle", x, y + 4.0, &place.name);
     }
-    measure(&view, caption, &mut page);
+    foot.draw(MARGIN + view.size[1] + 17.5, caption, &mut page);
     legend.draw([MARGIN + view.size[0] + GUTTER, MARGIN], &mut page);
     page.finish()
 }
@@ -281,17 +283,36 @@ fn sensors(robot: &Robot, stand: &Stand, view: &View, page: &mut Page) {
     page.close();
 }
 
-/// The scale and the caption, below the arena.
-fn measure(view: &View, caption: &str, page: &mut Page) {
-    let (metres, places) = scale::round_up(60.0 / view.scale);
-    let length = (metres * view.scale).round();
-    let right = MARGIN + view.size[0] - 0.5;
-    let [left, y] = [right - length, MARGIN + view.size[1] + 17.5];
-    let ends = page::chain([[left, y - 4.0], [left, y + 4.0]])
-        + &page::chain([[left, y], [right, y]])
-        + &page::chain([[right, y - 4.0], [right, y + 4.0]]);
-    page.path("measure", ends);
-    let label = format!("{metres:.places$} m");
-    page.text("remark end", left - 7.0, y + 4.0, &label);
-    page.text("remark", MARGIN, y + 4.0, caption);
+/// What stands below the arena: the scale on the left, the caption up to the right.
+struct Foot {
+    /// The length of the scale in px.
+    length: f64,
+    /// What the scale measures.
+    label: String,
+    /// Where the caption ends.
+    right: f64,
+}
+
+impl Foot {
+    fn new(view: &View, caption: &str) -> Self {
+        let (metres, places) = scale::round_up(60.0 / view.scale);
+        let length = (metres * view.scale).round();
+        let label = format!("{metres:.places$} m");
+        let text = length + page::width(&label) + GUTTER + page::width(caption);
+        Self {
+            length,
+            label,
+            right: MARGIN + text.max(view.size[0]),
+        }
+    }
+
+    fn draw(&self, y: f64, caption: &str, page: &mut Page) {
+        let [left, right] = [MARGIN + 0.5, MARGIN + 0.5 + self.length];
+        let ends = page::chain([[left, y - 4.0], [left, y + 4.0]])
+            + &page::chain([[left, y], [right, y]])
+            + &page::chain([[right, y - 4.0], [right, y + 4.0]]);
+        page.path("measure", ends);
+        page.text("remark", right + 7.0, y + 4.0, &self.label);
+        page.text("remark end", self.right, y + 4.0, caption);
+    }
 }
