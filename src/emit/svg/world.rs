@@ -110,11 +110,11 @@ pub fn world(program: &Program, world: &World, caption: &str, track: Option<&Tra
         rules: &rules,
     });
     page.path("arena", view.outline(&world.arena));
-    for place in world.places.values() {
-        draw_place(place, &view, &mut page);
-    }
     if let Some(track) = track {
         sensors(&world.robot, &track.start, &view, &mut page);
+    }
+    for place in world.places.values() {
+        draw_place(place, &view, &mut page);
     }
     for wall in world.walls.values() {
         let thin = matches!(wall.shape, Shape::Polyline(_));
@@ -139,8 +139,7 @@ pub fn world(program: &Program, world: &World, caption: &str, track: Option<&Tra
         }
     }
     for place in world.places.values() {
-        let [x, y] = view.at(place.shape.center());
-        page.text("name label middle", x, y + 4.0, &place.name);
+        name_place(place, &view, wide + 2.0 * MARGIN, &mut page);
     }
     foot.draw(MARGIN + view.size[1] + 17.5, caption, &mut page);
     legend.draw([MARGIN + view.size[0] + GUTTER, MARGIN], &mut page);
@@ -238,6 +237,26 @@ fn draw_place(place: &Place, view: &View, page: &mut Page) {
     ];
     let shaft = [ahead(reach - 3.0, 0.0), ahead(tip, 0.0)];
     page.path("facing", page::chain(shaft) + &page::chain(head));
+}
+
+/// The name of a place: in it where it is wide enough, else beside it, away from where a robot should look.
+fn name_place(place: &Place, view: &View, wide: f64, page: &mut Page) {
+    let text = page::width(&place.name);
+    let (low, high) = view::bounds(&place.shape);
+    let [[left, foot], [right, top]] = [view.at(low), view.at(high)];
+    let [x, y] = view.at(place.shape.center());
+    let down = place
+        .facing
+        .is_some_and(|facing| view::along(facing)[1] > 0.5);
+    let baseline = if text + 4.0 <= right - left && foot - top >= 14.0 {
+        y + 4.0
+    } else if down {
+        top - 6.0
+    } else {
+        foot + 15.0
+    };
+    let x = x.min(wide - text / 2.0 - 4.0).max(text / 2.0 + 4.0);
+    page.text("name label middle", x, baseline, &place.name);
 }
 
 /// What the sensors of a robot cover from where it stands, within the arena.
