@@ -39,7 +39,8 @@ const SHARED: &[Rule] = &[
 pub(super) const HUES: usize = 8;
 
 /// The colours of Okabe and Ito (2008), which people with any colour vision tell apart; the eighth is the ink of the
-/// page. Those that read well on both schemes come first.
+/// page. Those that read well on both schemes come first; yellow is darker on white, and blue lighter on black, than
+/// theirs.
 pub(super) const LINES: [Rule; HUES] = [
     rule("line0", "stroke:#0072b2", "stroke:#2b9be0"),
     rule("line1", "stroke:#d55e00", ""),
