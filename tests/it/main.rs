@@ -18,6 +18,7 @@ mod naive;
 mod program;
 mod robust;
 mod snapshot;
+mod svg;
 mod syntax;
 mod syntax_print;
 mod syntax_total;
