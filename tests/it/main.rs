@@ -7,9 +7,9 @@
     reason = "a test that meets the unexpected has failed"
 )]
 
+mod check;
 mod cli;
 mod examples;
-mod check;
 mod explain;
 mod house;
 mod learning;
