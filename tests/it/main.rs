@@ -15,6 +15,7 @@ mod house;
 mod learning;
 mod naive;
 mod program;
+mod reference;
 mod robust;
 mod snapshot;
 mod syntax;
