@@ -56,10 +56,7 @@ impl<'a> Checker<'a> {
                 block,
             } => {
                 let ty = self.named_type(domain);
-                let known = ty != Type::Error;
-                if known {
-                    self.has_members(&ty, domain);
-                }
+                let known = ty != Type::Error && self.has_members(&ty, domain);
                 self.context.scope.push(Binding {
                     name: name.name.clone(),
                     ty,

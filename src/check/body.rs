@@ -2,9 +2,9 @@
 
 use super::Checker;
 use super::context::{Binding, Context, Region};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Code, Diagnostic, Label};
 use crate::source::Span;
-use crate::syntax::ast::Ref;
+use crate::syntax::ast::{Ident, Ref};
 
 /// How many bodies may be checked within one another.
 const DEEP: usize = 48;
@@ -27,7 +27,7 @@ impl<'a> Checker<'a> {
     /// Checks a body with its parameters known by type only, and remembers whether it is free of mistakes.
     pub(super) fn body_for_itself(
         &mut self,
-        body: &'a crate::syntax::ast::Ident,
+        body: &'a Ident,
         region: Region,
         scope: Vec<Binding>,
         pass: impl FnOnce(&mut Self),
@@ -140,7 +140,7 @@ fn used_so(mut inner: Diagnostic, reference: &Ref, library: bool) -> Diagnostic 
         // These are mistakes of the text that they stand in, whoever uses it.
         Code::E0205 | Code::E0209 if !library => inner,
         _ => {
-            let label = crate::diagnostic::Label {
+            let label = Label {
                 span: reference.span,
                 message: format!("in this use of `{name}`"),
             };

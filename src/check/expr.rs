@@ -4,13 +4,13 @@ use super::Checker;
 use super::context::Binding;
 use super::types::{Type, Typed, Value};
 use super::units::{self, Dim};
-use crate::diagnostic::{Applicability, Code, Diagnostic};
+use crate::diagnostic::{Applicability, Code, Diagnostic, Label};
 use crate::ir::expr::{Binary, ExprId, Unary};
 use crate::source::Span;
 use crate::syntax::ast::{self, BinaryOp, Expr, ExprKind, Otherwise, UnaryOp};
 
 /// How many expressions may be checked within one another, those of unrolled bodies included.
-const DEEP: usize = 2_500;
+const DEEP: usize = 700;
 
 impl<'a> Checker<'a> {
     /// Checks an expression.
@@ -87,7 +87,7 @@ impl<'a> Checker<'a> {
             && self.diagnostics.len() > before
             && let Some(said) = self.diagnostics.last_mut()
         {
-            said.labels.push(crate::diagnostic::Label {
+            said.labels.push(Label {
                 span: first.span,
                 message: format!("this is {ty}"),
             });

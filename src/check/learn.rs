@@ -17,6 +17,13 @@ const SETTINGS: [&str; 9] = [
     "method", "episodes", "rate", "initial", "discount", "explore", "unseen", "dwell", "seed",
 ];
 
+/// The methods, by name.
+const METHODS: [(&str, Method); 3] = [
+    ("q_learning", Method::QLearning),
+    ("double_q", Method::DoubleQ),
+    ("model", Method::Model),
+];
+
 impl<'a> Checker<'a> {
     /// `learn name for task { … }`
     pub(super) fn learn(&mut self, learn: &'a ast::Learn) {
@@ -82,6 +89,12 @@ impl<'a> Checker<'a> {
                 LearnEntry::Error(_) => {}
             }
         }
+        if let (Method::Model, Some(rate)) = (built.method, seen.get("rate")) {
+            self.report(
+                Diagnostic::new(Code::W0501, *rate, "the method `model` takes no steps")
+                    .label("this says nothing here"),
+            );
+        }
         if !seen.contains_key("episodes") {
             self.report(
                 Diagnostic::new(
@@ -127,7 +140,11 @@ impl<'a> Checker<'a> {
         }
         let tail = setting.tail.as_ref().map(|(_, tail)| tail);
         match name {
-            "method" => self.method(&setting.value),
+            "method" => {
+                if let Some(method) = self.method(&setting.value) {
+                    learner.method = method;
+                }
+            }
             "episodes" => {
                 if let Some(n) = self.whole(&setting.value, "`episodes`", 1.0) {
                     learner.episodes = n;
@@ -194,27 +211,27 @@ impl<'a> Checker<'a> {
         ));
     }
 
-    fn method(&mut self, value: &'a ast::Expr) {
+    fn method(&mut self, value: &'a ast::Expr) -> Option<Method> {
         let word = match &value.kind {
             ExprKind::Ref(Ref {
                 name, args: None, ..
             }) => name.name.as_str(),
-            ExprKind::Error => return,
+            ExprKind::Error => return None,
             _ => "",
         };
-        match word {
-            "q_learning" => {}
-            "double_q" => self.not_yet(value.span, "learners by double Q-learning"),
-            "model" => self.not_yet(value.span, "learners of a model"),
-            _ => self.report(
+        let found = METHODS.iter().find(|(name, _)| *name == word);
+        if found.is_none() {
+            self.report(
                 Diagnostic::new(
                     Code::E0501,
                     value.span,
                     "no method of learning has this name",
                 )
-                .label("`q_learning` is one"),
-            ),
+                .label("unknown")
+                .help("there are: q_learning, double_q, model"),
+            );
         }
+        found.map(|(_, method)| *method)
     }
 
     /// A whole number that is not less than `least`.

@@ -111,12 +111,14 @@ impl<'a> Checker<'a> {
     pub(super) fn conditions_of_walls(&mut self, world: &'a ast::World) {
         for entry in &world.entries {
             if let WorldEntryKind::Wall {
-                when: Some(when), ..
+                name,
+                when: Some(when),
+                ..
             } = &entry.kind
             {
                 self.context = Context::new(Region::Predicate);
                 self.expect(when, &Type::Bool, "the condition of a wall");
-                self.not_yet(when.span, "walls that stand under a condition");
+                self.not_yet(name.span, "walls that stand under a condition");
             }
         }
     }

@@ -6,7 +6,7 @@ use super::progress::Progress;
 use super::report::Reporter;
 use crate::driver::learn::{self, Options};
 use crate::driver::verify;
-use crate::tree::decanonicalise::Method;
+use crate::tree::decanonicalise::{Care, Method};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
@@ -23,15 +23,27 @@ pub(super) struct Arguments {
     /// The seed, in the place of the program's.
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
+    /// The number of runs, with this seed and those that follow it; the best by validation is taken.
+    #[arg(long, value_name = "K", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1000))]
+    seeds: u64,
     /// The number of episodes, in the place of the program's.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     episodes: Option<u64>,
     /// How the tree is found.
     #[arg(long, value_name = "METHOD", default_value = "search")]
     method: TreeMethod,
+    /// In which minterms the tree takes the policy's decisions.
+    #[arg(long, value_name = "SET", default_value = "reachable")]
+    care: CareSet,
+    /// The fewest decisions by which a minterm counts as learned; below, it is a don't-care.
+    #[arg(long, value_name = "N", default_value_t = 10)]
+    evidence: u64,
     /// How many greedy episodes show the transitions of the policy.
     #[arg(long, value_name = "N", default_value_t = 2000, value_parser = clap::value_parser!(u64).range(1..))]
     roll_outs: u64,
+    /// How many episodes test the tree: 1000 with several seeds, else none.
+    #[arg(long, value_name = "N")]
+    tests: Option<u64>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -40,6 +52,14 @@ enum TreeMethod {
     Paper,
     /// The smallest tree that a search finds from there.
     Search,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum CareSet {
+    /// In all that were learned, as in the paper.
+    Seen,
+    /// In those that the greedy policy reaches.
+    Reachable,
 }
 
 pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {
@@ -61,12 +81,21 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     let options = Options {
         learner: arguments.learner.as_deref(),
         seed: arguments.seed,
+        seeds: arguments.seeds,
         episodes: arguments.episodes,
+        evidence: arguments.evidence,
         method: match arguments.method {
             TreeMethod::Paper => Method::Paper,
             TreeMethod::Search => Method::Search,
         },
+        care: match arguments.care {
+            CareSet::Seen => Care::Seen,
+            CareSet::Reachable => Care::Reachable,
+        },
         roll_outs: arguments.roll_outs,
+        tests: arguments
+            .tests
+            .unwrap_or(if arguments.seeds > 1 { 1000 } else { 0 }),
         source: &source,
     };
     let bar = Progress::new();

@@ -36,8 +36,10 @@ impl Progress {
                     self.0.set_position(done);
                 }
             }
+            Stage::Validating => self.0.set_message("validating"),
             Stage::RollingOut => self.0.set_message("rolling out"),
             Stage::Proving => self.0.set_message("proving"),
+            Stage::Testing => self.0.set_message("testing"),
         }
     }
 

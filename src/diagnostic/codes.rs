@@ -124,6 +124,8 @@ codes! {
 
     W0201 "a name that nothing reads",
     W0301 "a plain number for a ratio",
+
+    W0501 "a setting without effect",
 }
 
 impl Code {

@@ -22,6 +22,8 @@ pub enum Form {
     Dot,
     /// JSON.
     Json,
+    /// A picture of a tree.
+    Svg,
 }
 
 /// Writes a program, or one of its trees, in a form.
@@ -46,6 +48,10 @@ pub fn emit(loaded: &Loaded, form: Form, tree: Option<&str>) -> Result<String, D
         (Form::Dot, named) => {
             let tree = &program.trees[one_tree(loaded, named)?];
             emit::dot::tree(&tree.name, &tree.root, program)
+        }
+        (Form::Svg, named) => {
+            let tree = &program.trees[one_tree(loaded, named)?];
+            emit::svg::tree::tree(&tree.name, &tree.root, program)
         }
         (Form::Json, named) => emit::json::program(program, named),
     })

@@ -5,6 +5,7 @@ pub mod explain;
 pub mod format;
 pub mod learn;
 pub mod load;
+pub mod picture;
 pub mod run;
 pub mod table;
 pub mod target;

@@ -96,15 +96,15 @@ pub struct Learner {
     pub episodes: u64,
     /// Their greatest length in ticks.
     pub episode_ticks: u64,
-    /// The step size, a function of `visits` and `progress`.
+    /// The step size, a function of `visits` and `progress`; [`Method::Model`] has none.
     pub rate: ExprId,
     /// The probability of a random choice, a function of `visits` and `progress`.
     pub explore: ExprId,
     /// How future reward counts.
     pub discount: Discount,
-    /// The value of a pair that was never tried.
+    /// The value of a pair that was never tried; of a minterm that was never acted in, to [`Method::Model`].
     pub initial: f64,
-    /// What the policy does in an unseen minterm; the first choice if not said.
+    /// What the policy does in a minterm that it has not learned; the first choice if not said.
     pub unseen: Option<Id<Behavior>>,
     /// The seed.
     pub seed: u64,
@@ -119,6 +119,10 @@ pub struct Learner {
 pub enum Method {
     /// Tabular Q-learning (Watkins 1989; the paper's).
     QLearning,
+    /// Double Q-learning (van Hasselt 2010).
+    DoubleQ,
+    /// Counts of the seen transitions, solved exactly.
+    Model,
 }
 
 /// How future reward counts.

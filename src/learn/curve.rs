@@ -1,5 +1,6 @@
 //! The learning curve: the greedy policy evaluated while it is learned.
 
+use super::bootstrap::{interquartile_mean, interval95};
 use super::statistics::Mean;
 
 /// One point of the curve.
@@ -32,8 +33,16 @@ pub fn due(episode: u64, episodes: u64) -> bool {
     passed(episode + 1) > passed(episode)
 }
 
-/// The curve as CSV.
-pub fn csv(points: &[Point]) -> String {
+/// The curves of several seeds as CSV: point by point where there is one, else the interquartile mean over the seeds with
+/// its bootstrap interval, and the return of each.
+pub fn csv(curves: &[(u64, Vec<Point>)]) -> String {
+    match curves {
+        [(_, points)] => single(points),
+        _ => several(curves),
+    }
+}
+
+fn single(points: &[Point]) -> String {
     let mut text =
         String::from("episodes,decisions,ticks,minterms,return,return_low,return_high,ended\n");
     for point in points {
@@ -49,6 +58,33 @@ pub fn csv(points: &[Point]) -> String {
             high,
             point.ended,
         ));
+    }
+    text
+}
+
+fn several(curves: &[(u64, Vec<Point>)]) -> String {
+    let mut text = String::from("episodes,return,return_low,return_high");
+    for (seed, _) in curves {
+        text.push_str(&format!(",seed_{seed}"));
+    }
+    text.push('\n');
+    let points = curves.iter().map(|(_, points)| points.len()).min();
+    for at in 0..points.unwrap_or(0) {
+        let of: Vec<&Point> = curves
+            .iter()
+            .filter_map(|(_, points)| points.get(at))
+            .collect();
+        let totals: Vec<f64> = of.iter().map(|point| point.total.mean).collect();
+        let episodes = of.first().map_or(0, |point| point.episodes);
+        let [low, high] = interval95(&totals);
+        text.push_str(&format!(
+            "{episodes},{},{low},{high}",
+            interquartile_mean(&totals)
+        ));
+        for total in totals {
+            text.push_str(&format!(",{total}"));
+        }
+        text.push('\n');
     }
     text
 }

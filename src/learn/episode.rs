@@ -14,6 +14,11 @@ pub trait Controller {
 
     /// Ticks behaviours of the simulation, between its `begin_tick` and its `end_tick`.
     fn tick(&mut self, simulation: &mut Simulation);
+
+    /// In how many ticks since the last [`Controller::reset`] the controller had no decision of its own to follow.
+    fn outside(&self) -> u64 {
+        0
+    }
 }
 
 /// What an episode came to.
@@ -27,7 +32,7 @@ pub struct Episode {
     pub events: Vec<u64>,
     /// Why it ended.
     pub end: End,
-    /// Ticks of decisions that were taken in minterms never learned; counted in roll-outs.
+    /// Ticks in minterms for which the controller was not made.
     pub outside: u64,
 }
 
@@ -59,7 +64,7 @@ pub fn play(
                 total,
                 events: simulation.counts().to_vec(),
                 end,
-                outside: 0,
+                outside: controller.outside(),
             };
         }
     }

@@ -3,19 +3,40 @@
 use super::process::Key;
 use super::rollout::RollOut;
 use super::table::Table;
-use crate::ir::Id;
-use crate::ir::law::Behavior;
 use crate::ir::task::Task;
 use crate::ir::tree::Atom;
 use crate::policy::{Minterm, Policy, Row, Transition, Value};
 use rustc_hash::FxHashMap;
 
-/// What the greedy policy of a table does in each minterm in which a decision was completed.
-pub fn greedy(table: &Table, choices: &[Id<Behavior>]) -> FxHashMap<Key, Id<Behavior>> {
-    table
-        .sorted()
-        .into_iter()
-        .filter_map(|(key, row)| Some((key, *choices.get(table.greedy(row)?)?)))
+/// What is decided in a minterm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Decided {
+    /// The number of the behaviour among those of the task.
+    pub choice: usize,
+    /// What it is worth, as far as is known.
+    pub value: f64,
+}
+
+/// A policy by key.
+pub type Decisions = FxHashMap<Key, Decided>;
+
+/// What the greedy policy of a table does in each minterm in which at least so many decisions were completed, and one
+/// at least.
+pub fn greedy(table: &Table, evidence: u64) -> Decisions {
+    let decided = |(key, row): (Key, usize)| {
+        let choice = table.greedy(row)?;
+        let value = table.cells(row).get(choice)?.q;
+        (table.visits(row) >= evidence).then_some((key, Decided { choice, value }))
+    };
+    table.sorted().into_iter().filter_map(decided).collect()
+}
+
+/// The minterms in which decisions were completed, but fewer than so many; with how many.
+pub fn thin(table: &Table, evidence: u64) -> Vec<(Key, u64)> {
+    let rows = table.sorted().into_iter();
+    let visits = rows.map(|(key, row)| (key, table.visits(row)));
+    visits
+        .filter(|(_, visits)| (1..evidence).contains(visits))
         .collect()
 }
 
@@ -32,28 +53,32 @@ pub fn key(minterm: &Minterm) -> Key {
         .fold(0, |key, (i, value)| key | Key::from(value) << i)
 }
 
-/// The policy of a table with its evidence, and with what was met under it.
-pub fn policy(table: &Table, met: &RollOut, task: &Task, atoms: Vec<Atom>) -> Policy {
+/// A policy with the evidence of its table, and with what was met under it.
+pub fn policy(
+    decisions: &Decisions,
+    table: &Table,
+    met: &RollOut,
+    task: &Task,
+    atoms: Vec<Atom>,
+) -> Policy {
     let n = atoms.len();
     let mut rows: Vec<Row> = table
         .sorted()
         .into_iter()
         .filter_map(|(key, row)| {
-            let cells = table.cells(row);
+            let behavior = *task.choose.get(decisions.get(&key)?.choice)?;
+            let values = table.cells(row).iter().map(|cell| {
+                (cell.visits > 0).then_some(Value {
+                    visits: cell.visits,
+                    q: cell.q,
+                    squares: cell.squares,
+                })
+            });
             Some(Row {
                 minterm: minterm(key, n),
-                behavior: *task.choose.get(table.greedy(row)?)?,
-                visits: cells.iter().map(|cell| cell.visits).sum(),
-                values: cells
-                    .iter()
-                    .map(|cell| {
-                        (cell.visits > 0).then_some(Value {
-                            visits: cell.visits,
-                            q: cell.q,
-                            squares: cell.squares,
-                        })
-                    })
-                    .collect(),
+                behavior,
+                visits: table.visits(row),
+                values: values.collect(),
             })
         })
         .collect();

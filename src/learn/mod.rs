@@ -1,15 +1,24 @@
 //! From a decision process to a policy: tabular learning, roll-outs, evaluation.
 //!
 //! What learns knows the world through [`process::Process`] alone; [`simulated`] is its one implementation over the
-//! simulator.
+//! simulator. [`train`] goes through the episodes, a [`method::Method`] learns from them.
 
+pub mod agreement;
+pub mod binomial;
+pub mod bootstrap;
 pub mod curve;
+pub mod discount;
+pub mod double_q;
 pub mod episode;
 pub mod extract;
+pub mod method;
+pub mod model;
 pub mod process;
 pub mod q_learning;
 pub mod rollout;
 pub mod schedule;
 pub mod simulated;
+pub mod solve;
 pub mod statistics;
 pub mod table;
+pub mod train;

@@ -1,103 +1,43 @@
 //! Tabular Q-learning (Watkins 1989; paper, section II-B) over options.
 
-use super::process::{End, Process};
+use super::method::{Decision, Method, Settings};
+use super::process::Key;
 use super::schedule::Schedule;
 use super::table::Table;
-use crate::ir::task::Discount;
-use crate::random::Random;
 
-/// How it learns.
-#[derive(Clone, Copy, Debug)]
-pub struct Settings<'a> {
-    /// How many behaviours there are to choose from.
-    pub choices: usize,
-    /// How many episodes.
-    pub episodes: u64,
-    /// The step size.
-    pub rate: Schedule<'a>,
-    /// The probability of a random choice.
-    pub explore: Schedule<'a>,
-    /// How future reward counts.
-    pub discount: Discount,
-    /// The length of a tick in seconds.
-    pub tick: f64,
-    /// The value of a pair that was never tried.
-    pub initial: f64,
-    /// Ticks for which a choice is kept.
-    pub dwell: u64,
-    /// The seed of the exploration.
-    pub seed: u64,
+/// Q(s, a) ← Q(s, a) + α [r + γ max Q(s′, ·) − Q(s, a)]
+#[derive(Clone, Debug)]
+pub struct QLearning<'a> {
+    table: Table,
+    rate: Schedule<'a>,
 }
 
-/// What a learner has counted.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Counts {
-    /// Episodes begun.
-    pub episodes: u64,
-    /// Decisions completed.
-    pub decisions: u64,
-    /// Ticks simulated.
-    pub ticks: u64,
-}
-
-/// Learns a table. `after` sees it after every episode, with the number of the episode, and stops the learning by
-/// returning false.
-pub fn learn(
-    process: &mut impl Process,
-    settings: &Settings,
-    mut after: impl FnMut(u64, &Table, &Counts) -> bool,
-) -> (Table, Counts) {
-    let mut table = Table::new(settings.choices, settings.initial);
-    let mut counts = Counts::default();
-    let mut random = Random::new(settings.seed, EXPLORATION, 0);
-    for episode in 0..settings.episodes {
-        let progress = episode as f64 / settings.episodes as f64;
-        counts.episodes += 1;
-        process.start(episode);
-        let mut row = table.row(process.key());
-        loop {
-            let visits: u64 = table.cells(row).iter().map(|cell| cell.visits).sum();
-            let epsilon = settings.explore.at(visits as f64, progress);
-            let choice = match table.greedy(row) {
-                Some(best) if random.unit() >= epsilon => best,
-                _ => random.below(settings.choices as u64) as usize,
-            };
-            let step = process.decide(choice, settings.dwell);
-            counts.decisions += 1;
-            counts.ticks += step.ticks;
-            let next = table.row(step.to);
-            let future = if matches!(step.end, End::Terminal(_)) {
-                0.0
-            } else {
-                discount(settings, step.ticks) * table.best_value(next)
-            };
-            let target = step.reward + future;
-            if let Some(cell) = table.cell_mut(row, choice) {
-                cell.visits += 1;
-                let rate = settings.rate.at(cell.visits as f64, progress);
-                cell.q += rate * (target - cell.q);
-                cell.squares += target * target;
-            }
-            if step.end != End::Not {
-                break;
-            }
-            row = next;
-        }
-        if !after(episode, &table, &counts) {
-            break;
+impl<'a> QLearning<'a> {
+    /// One that knows nothing yet.
+    pub fn new(settings: &Settings<'a>) -> Self {
+        Self {
+            table: Table::new(settings.choices, settings.initial),
+            rate: settings.rate,
         }
     }
-    (table, counts)
 }
 
-/// The stream of the exploration's random numbers, apart from those of the world.
-const EXPLORATION: u64 = u64::MAX;
+impl Method for QLearning<'_> {
+    fn table(&self) -> &Table {
+        &self.table
+    }
 
-fn discount(settings: &Settings, ticks: u64) -> f64 {
-    match settings.discount {
-        Discount::PerDecision(factor) => factor,
-        Discount::PerTime(factor, span) => {
-            crate::math::pow(factor, ticks as f64 * settings.tick / span)
+    fn row(&mut self, key: Key) -> usize {
+        self.table.row(key)
+    }
+
+    fn learn(&mut self, decision: &Decision) {
+        let target = decision.step.reward + decision.factor * self.table.best_value(decision.next);
+        if let Some(cell) = self.table.cell_mut(decision.row, decision.choice) {
+            cell.visits += 1;
+            let rate = self.rate.at(cell.visits as f64, decision.progress);
+            cell.q += rate * (target - cell.q);
+            cell.squares += target * target;
         }
     }
 }

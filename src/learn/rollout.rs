@@ -1,16 +1,38 @@
-//! The frozen greedy policy at work: where its episodes start, and what its decisions lead to.
+//! A frozen policy at work: where its episodes start, what its decisions lead to, and what they are worth.
 
+use super::discount::Discounting;
 use super::episode::Episode;
+use super::extract::{Decided, Decisions};
 use super::process::{End, Key, Process};
 use crate::ir::tree::Status;
 use crate::world;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
+/// A policy that is rolled out.
+#[derive(Clone, Copy, Debug)]
+pub struct Frozen<'p> {
+    /// What it does.
+    pub decisions: &'p Decisions,
+    /// What it does elsewhere, with the value of such minterms.
+    pub unseen: Decided,
+    /// How its future reward counts.
+    pub discounting: Discounting,
+}
+
 /// A decision with its outcome: minterm, choice, how the behaviour stood, the minterm found if the episode went on.
 pub type Taken = (Key, usize, Status, Option<Key>);
 
-/// What the greedy policy met, with how often.
+/// What an episode was worth where it started.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Worth {
+    /// What the policy's values said.
+    pub predicted: f64,
+    /// The discounted sum of its rewards. What follows the limit, where that cut it, is taken as predicted.
+    pub simulated: f64,
+}
+
+/// What a policy met, with how often.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RollOut {
     /// The minterms in which episodes started.
@@ -19,6 +41,8 @@ pub struct RollOut {
     pub taken: BTreeMap<Taken, u64>,
     /// What the episodes came to, in their order.
     pub episodes: Vec<Episode>,
+    /// What they were worth, in the same order.
+    pub worth: Vec<Worth>,
 }
 
 impl RollOut {
@@ -30,17 +54,27 @@ impl RollOut {
             *self.taken.entry(taken).or_default() += count;
         }
         self.episodes.extend(other.episodes);
+        self.worth.extend(other.worth);
         self
+    }
+
+    /// How many decisions were taken in each minterm.
+    pub fn decisions(&self) -> BTreeMap<Key, u64> {
+        let mut counts = BTreeMap::new();
+        for (&(from, ..), count) in &self.taken {
+            *counts.entry(from).or_default() += count;
+        }
+        counts
     }
 }
 
 /// Episodes that one thread plays in a row; a fixed number, so that the work is cut alike on any number of threads.
-const CHUNK: u64 = 50;
+const CHUNK: u64 = 10;
 
-/// Plays episodes on all threads. `choice` says what is done in a minterm, and whether it was seen in learning.
+/// Plays episodes on all threads.
 pub fn roll_out<P: Process>(
     episodes: u64,
-    choice: &(impl Fn(Key) -> (usize, bool) + Sync),
+    policy: &Frozen,
     make: impl Fn() -> P + Sync,
 ) -> RollOut {
     let chunks: Vec<RollOut> = (0..episodes.div_ceil(CHUNK))
@@ -50,8 +84,7 @@ pub fn roll_out<P: Process>(
             let mut met = RollOut::default();
             for episode in chunk * CHUNK..((chunk + 1) * CHUNK).min(episodes) {
                 process.start(episode);
-                let played = play(&mut process, choice, &mut met);
-                met.episodes.push(played);
+                play(&mut process, policy, &mut met);
             }
             met
         })
@@ -60,19 +93,23 @@ pub fn roll_out<P: Process>(
 }
 
 /// Plays the episode that was started, and notes what it meets.
-fn play(
-    process: &mut impl Process,
-    choice: &impl Fn(Key) -> (usize, bool),
-    met: &mut RollOut,
-) -> Episode {
+fn play(process: &mut impl Process, policy: &Frozen, met: &mut RollOut) {
+    let look = |key: &Key| match policy.decisions.get(key) {
+        Some(decided) => (*decided, true),
+        None => (policy.unseen, false),
+    };
     let mut key = process.key();
     *met.starts.entry(key).or_default() += 1;
+    let predicted = look(&key).0.value;
     let (mut ticks, mut total, mut outside) = (0, 0.0, 0);
-    loop {
-        let (chosen, seen) = choice(key);
-        let step = process.decide(chosen, 0);
+    let (mut simulated, mut weight) = (0.0, 1.0);
+    let end = loop {
+        let (Decided { choice, .. }, seen) = look(&key);
+        let step = process.decide(choice, 0);
         ticks += step.ticks;
         total += step.reward;
+        simulated += weight * step.reward;
+        weight *= policy.discounting.factor(step.ticks);
         if !seen {
             outside += step.ticks;
         }
@@ -82,17 +119,25 @@ fn play(
             End::Cut => (None, Some(world::End::Cut)),
         };
         if step.end != End::Cut {
-            *met.taken.entry((key, chosen, step.status, to)).or_default() += 1;
-        }
-        if let Some(end) = end {
-            return Episode {
-                ticks,
-                total,
-                events: process.events().to_vec(),
-                end,
-                outside,
-            };
+            *met.taken.entry((key, choice, step.status, to)).or_default() += 1;
         }
         key = step.to;
+        if let Some(end) = end {
+            break end;
+        }
+    };
+    if end == world::End::Cut {
+        simulated += weight * look(&key).0.value;
     }
+    met.worth.push(Worth {
+        predicted,
+        simulated,
+    });
+    met.episodes.push(Episode {
+        ticks,
+        total,
+        events: process.events().to_vec(),
+        end,
+        outside,
+    });
 }

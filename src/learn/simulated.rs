@@ -19,6 +19,12 @@ pub enum Purpose {
     Run = 3,
     /// Testing what is claimed of events.
     Claim = 4,
+    /// Which of several runs of learning is the best.
+    Validate = 5,
+    /// What the tree that was taken is worth, on episodes that nothing was chosen by.
+    Test = 6,
+    /// Which of a run's proposals is the best.
+    Propose = 7,
 }
 
 /// A simulation that is decided over.

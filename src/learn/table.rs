@@ -83,6 +83,25 @@ impl Table {
             .unwrap_or(0.0)
     }
 
+    /// The choice of the greatest value over all, tried or not, the first of equals.
+    pub fn best(&self, row: usize) -> usize {
+        let cells = self.cells(row).iter().enumerate();
+        let first = (0, f64::NEG_INFINITY);
+        let better = |best: (usize, f64), (choice, cell): (usize, &Cell)| {
+            if cell.q > best.1 {
+                (choice, cell.q)
+            } else {
+                best
+            }
+        };
+        cells.fold(first, better).0
+    }
+
+    /// How many decisions were completed in a row.
+    pub fn visits(&self, row: usize) -> u64 {
+        self.cells(row).iter().map(|cell| cell.visits).sum()
+    }
+
     /// The best of the choices that were tried in a row, the first of equals; `None` if none was.
     pub fn greedy(&self, row: usize) -> Option<usize> {
         let mut best: Option<(usize, f64)> = None;

@@ -7,16 +7,20 @@ use btc::driver::load::{Loaded, Reader, load};
 use btc::driver::run::{self, Subject};
 use btc::driver::{table, target, verify};
 use btc::policy::Policy;
-use btc::tree::decanonicalise::Method;
+use btc::tree::decanonicalise::{Care, Method};
 
 /// Learns small delivery in a moment: a tenth of its episodes show the same policy.
 fn learned(loaded: &Loaded, seed: u64, method: Method) -> Learned {
     let options = Options {
         learner: None,
         seed: Some(seed),
+        seeds: 1,
         episodes: Some(400),
+        evidence: 1,
         method,
+        care: Care::Reachable,
         roll_outs: 50,
+        tests: 0,
         source: "delivery_small.bt",
     };
     learn(loaded, &options, &|_| {}).unwrap()

@@ -1,0 +1,258 @@
+//! What a person wants to know of what was learned.
+
+use super::agreed::Agreement;
+use super::bench::Bench;
+use super::minterm_text;
+use super::results::Results;
+use crate::driver::run;
+use crate::learn::binomial::upper95;
+use crate::learn::bootstrap::{interquartile_mean, interval95, quantile};
+use crate::learn::statistics::Summary;
+use crate::policy::Minterm;
+use crate::tree::decanonicalise::{Care, Decanonicalised};
+
+/// How many minterms a line lists at most.
+const LISTED: usize = 10;
+
+/// The report in lines.
+pub(super) fn lines(bench: &Bench, results: &Results) -> Vec<String> {
+    let mut report = Report {
+        bench,
+        results,
+        lines: Vec::new(),
+    };
+    report.seeds();
+    report.learned();
+    report.evidence();
+    report.tree();
+    report.worth();
+    report.figures(&results.summary, "greedy episodes");
+    report.outside(&results.summary, "in minterms never learned");
+    if let Some(tested) = &results.tested {
+        report.line(
+            "test",
+            "the tree on episodes that nothing was chosen by".to_owned(),
+        );
+        report.figures(tested, "test episodes");
+        report.outside(tested, "outside of the care set");
+    }
+    report.failing();
+    report.lines
+}
+
+struct Report<'a> {
+    bench: &'a Bench<'a>,
+    results: &'a Results,
+    lines: Vec<String>,
+}
+
+impl Report<'_> {
+    fn line(&mut self, title: &str, text: String) {
+        self.lines.push(format!("{title:<12} {text}"));
+    }
+
+    fn minterm(&self, minterm: &Minterm) -> String {
+        minterm_text(self.bench.program, &self.results.policy, minterm)
+    }
+
+    /// How the runs compare; nothing for a single one.
+    fn seeds(&mut self) {
+        let results = self.results;
+        if results.runs.len() < 2 {
+            return;
+        }
+        let points = results.runs.iter().map(|run| run.points.len()).min();
+        let points = points.unwrap_or(0);
+        let quarters = (1..=4).filter_map(|i| (points * i / 4).checked_sub(1));
+        for at in quarters {
+            let of: Vec<_> = results
+                .runs
+                .iter()
+                .filter_map(|run| run.points.get(at))
+                .collect();
+            let totals: Vec<f64> = of.iter().map(|point| point.total.mean).collect();
+            let [low, high] = interval95(&totals);
+            let episodes = of.first().map_or(0, |point| point.episodes);
+            let text = format!(
+                "{:.3}, 95 % [{low:.3}, {high:.3}], after {episodes} episodes: interquartile mean of {} seeds",
+                interquartile_mean(&totals),
+                of.len()
+            );
+            self.line("curve", text);
+        }
+        let runs = results.runs.iter().zip(&results.validated).enumerate();
+        for (at, (run, validated)) in runs {
+            let [low, high] = validated.total.ci95;
+            let ended: u64 = validated.ended.iter().sum();
+            let taken = if at == results.best { "; taken" } else { "" };
+            let text = format!(
+                "{:.3}, 95 % [{low:.3}, {high:.3}], {ended} of {} ended, {} minterms{taken}",
+                validated.total.mean,
+                validated.episodes,
+                run.decisions.len(),
+            );
+            self.line(&format!("seed {}", run.seed), text);
+        }
+        self.agreement();
+    }
+
+    fn agreement(&mut self) {
+        let Some(agreement) = Agreement::of(self.bench, self.results) else {
+            return;
+        };
+        let text = format!(
+            "{:.1} % of the seeds, decision by decision; all in {} of {} reached minterms",
+            100.0 * agreement.share,
+            agreement.unanimous,
+            agreement.reached
+        );
+        self.line("agreement", text);
+        for disputed in agreement.disputed.iter().take(LISTED) {
+            let votes = disputed.votes.iter();
+            let votes: Vec<String> = votes.map(|(name, n)| format!("{name} {n}")).collect();
+            let text = format!(
+                "{} in {}",
+                votes.join(", "),
+                self.minterm(&disputed.minterm)
+            );
+            self.line("disputed", text);
+        }
+    }
+
+    fn learned(&mut self) {
+        let Some(run) = self.results.run() else {
+            return;
+        };
+        let text = format!(
+            "{} minterms in {} decisions, {} ticks, {} episodes",
+            self.results.policy.rows.len(),
+            run.counts.decisions,
+            run.counts.ticks,
+            run.counts.episodes
+        );
+        self.line("learned", text);
+    }
+
+    /// What stands behind the policy.
+    fn evidence(&mut self) {
+        let rows = &self.results.policy.rows;
+        let of = |mut values: Vec<f64>| {
+            values.sort_by(f64::total_cmp);
+            [0.0, 0.5, 1.0].map(|share| quantile(&values, share))
+        };
+        let [least, median, most] = of(rows.iter().map(|row| row.visits as f64).collect());
+        let [small, middle, large] = of(rows.iter().filter_map(|row| row.q_gap()).collect());
+        let text = format!(
+            "{least:.0} to {most:.0} decisions a minterm, median {median:.0}; Q-gap {small:.3} to {large:.3}, median \
+             {middle:.3}"
+        );
+        self.line("evidence", text);
+        let thin = &self.results.thin;
+        for (minterm, visits) in thin.iter().take(LISTED) {
+            let text = format!(
+                "{visits} of {} decisions in {}: a don't-care",
+                self.bench.evidence,
+                self.minterm(minterm)
+            );
+            self.line("thin", text);
+        }
+        if thin.len() > LISTED {
+            let text = format!("and {} more, see metrics.json", thin.len() - LISTED);
+            self.line("thin", text);
+        }
+    }
+
+    fn tree(&mut self) {
+        let trees = &self.results.trees;
+        let found = trees.chosen();
+        let text = format!(
+            "{} nodes, {} literals, depth {} (Algorithm 1 alone: {} nodes)",
+            found.size.nodes, found.size.literals, found.size.depth, found.paper_size.nodes
+        );
+        self.line("tree", text);
+        let of = |found: &Decanonicalised| {
+            let (minterms, size) = (found.proof.minterms, &found.size);
+            format!(
+                "{minterms} minterms, {} nodes (Algorithm 1 alone: {})",
+                size.nodes, found.paper_size.nodes
+            )
+        };
+        let (own, other) = match trees.care {
+            Care::Seen => ("seen", ("reachable", &trees.reachable)),
+            Care::Reachable => ("reachable", ("seen", &trees.seen)),
+        };
+        let text = format!("{own}: {}; {}: {}", of(found), other.0, of(other.1));
+        self.line("care", text);
+        self.line("proved", format!("on {}", self.results.proved()));
+    }
+
+    /// What the values say against what came.
+    fn worth(&mut self) {
+        let [predicted, simulated] = self.results.worth();
+        let [low, high] = simulated.ci95;
+        let text = format!(
+            "{:.3} predicted, {:.3} simulated, 95 % [{low:.3}, {high:.3}], discounted from the start",
+            predicted.mean, simulated.mean
+        );
+        self.line("value", text);
+    }
+
+    fn figures(&mut self, summary: &Summary, what: &str) {
+        let [low, high] = summary.total.ci95;
+        let text = format!(
+            "{:.3}, 95 % [{low:.3}, {high:.3}], in {} {what}",
+            summary.total.mean, summary.episodes
+        );
+        self.line("return", text);
+        let program = self.bench.program;
+        for (event, (_, rate)) in program.events.values().zip(&summary.events) {
+            let [low, high] = rate.ci95;
+            let text = format!(
+                "{:.3}, 95 % [{low:.3}, {high:.3}], in 1000 ticks",
+                rate.mean
+            );
+            self.line(&event.name, text);
+        }
+        let ends = run::end_names(program, self.bench.task);
+        for (end, count) in ends.iter().zip(&summary.ended) {
+            let upper = 100.0 * upper95(*count, summary.episodes);
+            let text = format!(
+                "{count} of {} by {end}, at most {upper:.2} % (95 %)",
+                summary.episodes
+            );
+            self.line("ended", text);
+        }
+    }
+
+    fn outside(&mut self, summary: &Summary, what: &str) {
+        if summary.outside > 0 {
+            let upper = 100.0 * upper95(summary.outside, summary.ticks);
+            let text = format!(
+                "{} of {} ticks {what}, at most {upper:.3} % (95 %)",
+                summary.outside, summary.ticks
+            );
+            self.line("outside", text);
+        }
+    }
+
+    /// Where the policy was seen to fail outright.
+    fn failing(&mut self) {
+        let program = self.bench.program;
+        for failing in &self.results.trees.chosen().failing {
+            let then = failing.then.iter().map(|next| match next {
+                Some(id) => program.behaviors[*id].name.as_str(),
+                None => "nothing",
+            });
+            let then: Vec<&str> = then.collect();
+            let text = format!(
+                "{} failed outright {} times ({} with no change) in {}; the tree goes on to {}",
+                program.behaviors[failing.behavior].name,
+                failing.count,
+                failing.repeated,
+                self.minterm(&failing.minterm),
+                then.join(" or "),
+            );
+            self.line("fails", text);
+        }
+    }
+}

@@ -1,0 +1,25 @@
+//! How much the future counts when a decision has taken its time.
+
+use crate::ir::task::Discount;
+
+/// A discount in a world of a given tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Discounting {
+    /// How future reward counts.
+    pub discount: Discount,
+    /// The length of a tick in seconds.
+    pub tick: f64,
+}
+
+impl Discounting {
+    /// The factor on all that follows a decision that took so many ticks: γ, or γ^(t/T) in a semi-Markov process whose
+    /// time counts (Sutton, Precup and Singh 1999).
+    pub fn factor(&self, ticks: u64) -> f64 {
+        match self.discount {
+            Discount::PerDecision(factor) => factor,
+            Discount::PerTime(factor, span) => {
+                crate::math::pow(factor, ticks as f64 * self.tick / span)
+            }
+        }
+    }
+}

@@ -1,0 +1,86 @@
+//! What every method of learning has in common.
+
+use super::double_q::DoubleQ;
+use super::model::Model;
+use super::process::{End, Step};
+use super::q_learning::QLearning;
+use super::table::Table;
+use crate::ir::task;
+
+/// A method of learning: it is told of every decision, and keeps a table of action values.
+///
+/// Rows are those of [`Method::table`]: a method that keeps more tables than one numbers their rows alike.
+pub trait Method {
+    /// The action values as they are known now, with their evidence.
+    fn table(&self) -> &Table;
+
+    /// The row of a minterm, made if there is none.
+    fn row(&mut self, key: super::process::Key) -> usize;
+
+    /// What is done in a row while learning, exploration aside; `None` where nothing is known yet.
+    fn greedy(&self, row: usize) -> Option<usize> {
+        self.table().greedy(row)
+    }
+
+    /// Learns from one decision.
+    fn learn(&mut self, decision: &Decision);
+
+    /// A round of episodes is over: what was only collected is learned from now.
+    fn refit(&mut self) {}
+
+    /// Whether the policy of each round is a proposal of its own, of which the best by validation is taken; else the
+    /// last is what was learned.
+    fn proposes(&self) -> bool {
+        false
+    }
+}
+
+/// A decision with what came of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Decision {
+    /// The row in which it was taken.
+    pub row: usize,
+    /// What was chosen.
+    pub choice: usize,
+    /// What came of it.
+    pub step: Step,
+    /// The row that was found after it.
+    pub next: usize,
+    /// The factor on what follows. Zero if nothing does: the episode was ended by an event, not cut by the limit.
+    pub factor: f64,
+    /// The share of the episodes that is over.
+    pub progress: f64,
+}
+
+impl Decision {
+    /// The factor on what follows a step: a cut episode would have gone on (truncation), one that an event ended
+    /// would not (termination).
+    pub fn factor(step: &Step, discounting: &super::discount::Discounting) -> f64 {
+        match step.end {
+            End::Terminal(_) => 0.0,
+            End::Not | End::Cut => discounting.factor(step.ticks),
+        }
+    }
+}
+
+/// What the methods are set by; each takes what it has a use for.
+#[derive(Clone, Copy, Debug)]
+pub struct Settings<'a> {
+    /// How many behaviours there are to choose from.
+    pub choices: usize,
+    /// The value of a pair that was never tried.
+    pub initial: f64,
+    /// The step size; `model` has none.
+    pub rate: super::schedule::Schedule<'a>,
+    /// The seed of a method's own random numbers.
+    pub seed: u64,
+}
+
+/// The method of that kind.
+pub fn of<'a>(kind: task::Method, settings: &Settings<'a>) -> Box<dyn Method + 'a> {
+    match kind {
+        task::Method::QLearning => Box::new(QLearning::new(settings)),
+        task::Method::DoubleQ => Box::new(DoubleQ::new(settings)),
+        task::Method::Model => Box::new(Model::new(settings)),
+    }
+}

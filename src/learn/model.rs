@@ -1,0 +1,135 @@
+//! Learning a model: the transitions that were seen are counted, and the semi-Markov decision problem of their
+//! frequencies is solved exactly (certainty equivalence: Kumar and Varaiya 1986).
+//!
+//! A minterm stands for many states of the world, so what follows it depends on how it was come by. Counts are therefore
+//! collected under the policy of the round before, with exploration, and older ones fade: the model is of the process as
+//! the policy meets it.
+
+use super::method::{Decision, Method, Settings};
+use super::process::Key;
+use super::solve::{Outlook, Problem};
+use super::table::Table;
+
+/// The transitions seen of one choice in one minterm; the counts are real because they fade.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Seen {
+    count: f64,
+    /// The sum of the rewards.
+    reward: f64,
+    /// The sum of the factors on what follows, by the row that was found.
+    next: Vec<(usize, f64)>,
+}
+
+/// A model with its solution.
+#[derive(Clone, Debug)]
+pub struct Model {
+    table: Table,
+    choices: usize,
+    initial: f64,
+    /// For each row and choice.
+    seen: Vec<Seen>,
+    /// What the last solution does in each row.
+    policy: Vec<Option<usize>>,
+}
+
+/// What remains of a count from one round to the next. Large delivery, explored by 100 % -> 20 %: with 1, policies
+/// settle early on what the first rounds happened to meet; with 0.5, they no longer settle.
+const FADE: f64 = 0.9;
+
+impl Model {
+    /// One that knows nothing yet.
+    pub fn new(settings: &Settings) -> Self {
+        Self {
+            table: Table::new(settings.choices, settings.initial),
+            choices: settings.choices,
+            initial: settings.initial,
+            seen: Vec::new(),
+            policy: Vec::new(),
+        }
+    }
+
+    /// The problem of the frequencies that were seen.
+    fn problem(&self) -> Problem {
+        let outlook = |seen: &Seen| Outlook {
+            reward: seen.reward / seen.count,
+            next: seen
+                .next
+                .iter()
+                .map(|&(row, factors)| (row, factors / seen.count))
+                .collect(),
+        };
+        let known = |row: &[Seen]| {
+            let choices = row.iter().enumerate();
+            choices
+                .filter(|(_, seen)| seen.count > 0.0)
+                .map(|(choice, seen)| (choice, outlook(seen)))
+                .collect()
+        };
+        Problem {
+            states: self.seen.chunks(self.choices.max(1)).map(known).collect(),
+            unknown: self.initial,
+        }
+    }
+}
+
+impl Method for Model {
+    fn table(&self) -> &Table {
+        &self.table
+    }
+
+    fn row(&mut self, key: Key) -> usize {
+        let row = self.table.row(key);
+        let rows = self.seen.len().max((row + 1) * self.choices);
+        self.seen.resize(rows, Seen::default());
+        row
+    }
+
+    /// Greedy in the last solution. What was met since then is explored.
+    fn greedy(&self, row: usize) -> Option<usize> {
+        self.policy.get(row).copied().flatten()
+    }
+
+    fn learn(&mut self, decision: &Decision) {
+        let Decision {
+            row, choice, step, ..
+        } = *decision;
+        let target = step.reward + decision.factor * self.table.best_value(decision.next);
+        if let Some(cell) = self.table.cell_mut(row, choice) {
+            cell.visits += 1;
+            cell.squares += target * target;
+        }
+        if let Some(seen) = self.seen.get_mut(row * self.choices + choice) {
+            seen.count += 1.0;
+            seen.reward += step.reward;
+            match seen.next.iter_mut().find(|(to, _)| *to == decision.next) {
+                Some((_, factors)) => *factors += decision.factor,
+                None => seen.next.push((decision.next, decision.factor)),
+            }
+        }
+    }
+
+    fn refit(&mut self) {
+        let problem = self.problem();
+        let solution = problem.solve();
+        for (row, choices) in problem.states.iter().enumerate() {
+            for (choice, outlook) in choices {
+                if let Some(cell) = self.table.cell_mut(row, *choice) {
+                    cell.q = problem.worth(outlook, &solution.values);
+                }
+            }
+        }
+        let rows = 0..problem.states.len();
+        self.policy = rows.map(|row| self.table.greedy(row)).collect();
+        for seen in &mut self.seen {
+            seen.count *= FADE;
+            seen.reward *= FADE;
+            for (_, factors) in &mut seen.next {
+                *factors *= FADE;
+            }
+        }
+    }
+
+    fn proposes(&self) -> bool {
+        true
+    }
+}

@@ -1,0 +1,147 @@
+//! Finite semi-Markov decision problems, solved exactly (Howard 1960; Puterman 1994, chapters 6 and 11).
+
+use nalgebra::{DMatrix, DVector};
+
+/// What a choice is expected to bring.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Outlook {
+    /// The expected reward.
+    pub reward: f64,
+    /// The states that may follow, each with its probability times the expected discount on the way to it. A part that
+    /// is missing from the sum of a probability distribution is the end, or discounted away.
+    pub next: Vec<(usize, f64)>,
+}
+
+/// A problem: for each state, the choices that are known there, by their numbers.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Problem {
+    /// The choices of each state. A state without any has the value `unknown`.
+    pub states: Vec<Vec<(usize, Outlook)>>,
+    /// The value of a state without choices.
+    pub unknown: f64,
+}
+
+/// A policy that no single other choice improves, with its value in each state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solution {
+    /// The place in its state's list of the choice that is taken; `None` where there is none.
+    pub policy: Vec<Option<usize>>,
+    /// The values.
+    pub values: Vec<f64>,
+}
+
+/// Above so many states a policy is evaluated by sweeps and not by elimination, whose cost is cubic.
+const ELIMINATED: usize = 600;
+
+/// The most improvements of a policy; far fewer are ever needed.
+const IMPROVEMENTS: usize = 200;
+
+/// What counts as better: above the noise of the elimination.
+const BETTER: f64 = 1e-9;
+
+/// The most sweeps, and the change below which they end.
+const SWEEPS: usize = 20_000;
+const SETTLED: f64 = 1e-12;
+
+impl Problem {
+    /// What a choice is worth under the values of the states that follow it.
+    pub fn worth(&self, outlook: &Outlook, values: &[f64]) -> f64 {
+        let value = |state: usize| values.get(state).copied().unwrap_or(self.unknown);
+        let next = outlook.next.iter();
+        outlook.reward + next.map(|&(to, weight)| weight * value(to)).sum::<f64>()
+    }
+
+    /// Policy iteration: evaluates exactly, takes what is better, until nothing is.
+    pub fn solve(&self) -> Solution {
+        let mut policy: Vec<Option<usize>> = self
+            .states
+            .iter()
+            .map(|choices| (!choices.is_empty()).then_some(0))
+            .collect();
+        let mut values = self.evaluate(&policy);
+        for _ in 0..IMPROVEMENTS {
+            if !self.improve(&mut policy, &values) {
+                break;
+            }
+            values = self.evaluate(&policy);
+        }
+        Solution { policy, values }
+    }
+
+    /// Takes the best choice wherever it is better than the one that is taken; whether there was any.
+    fn improve(&self, policy: &mut [Option<usize>], values: &[f64]) -> bool {
+        let mut improved = false;
+        for (choices, taken) in self.states.iter().zip(policy) {
+            let Some(now) = taken else { continue };
+            let worth = |at: usize| {
+                let found = choices.get(at);
+                found.map_or(f64::NEG_INFINITY, |(_, o)| self.worth(o, values))
+            };
+            let mut best = worth(*now) + BETTER;
+            for at in 0..choices.len() {
+                if worth(at) > best {
+                    (best, *now) = (worth(at) + BETTER, at);
+                    improved = true;
+                }
+            }
+        }
+        improved
+    }
+
+    /// The value of every state under a policy, v = r + P v: by elimination, or by sweeps where there are too many
+    /// states for it or the equations have no single solution, as without a discount and without an end.
+    pub fn evaluate(&self, policy: &[Option<usize>]) -> Vec<f64> {
+        let solved = if self.states.len() <= ELIMINATED {
+            self.eliminate(policy)
+        } else {
+            None
+        };
+        solved.unwrap_or_else(|| self.sweep(|state| policy.get(state).copied().flatten()))
+    }
+
+    /// The outlook of a policy in a state.
+    fn outlook(&self, state: usize, taken: Option<usize>) -> Option<&Outlook> {
+        let (_, outlook) = self.states.get(state)?.get(taken?)?;
+        Some(outlook)
+    }
+
+    /// (I − P) v = r, by LU decomposition with partial pivoting.
+    fn eliminate(&self, policy: &[Option<usize>]) -> Option<Vec<f64>> {
+        let n = self.states.len();
+        let mut matrix = DMatrix::<f64>::identity(n, n);
+        let mut rewards = DVector::from_element(n, self.unknown);
+        for (state, taken) in policy.iter().enumerate() {
+            let Some(outlook) = self.outlook(state, *taken) else {
+                continue;
+            };
+            *rewards.get_mut(state)? = outlook.reward;
+            for &(to, weight) in &outlook.next {
+                *matrix.get_mut((state, to))? -= weight;
+            }
+        }
+        let values = matrix.lu().solve(&rewards)?;
+        let finite = values.iter().all(|value| value.is_finite());
+        finite.then(|| values.iter().copied().collect())
+    }
+
+    /// Values by sweeps in place (Gauss and Seidel) under a policy.
+    fn sweep(&self, taken: impl Fn(usize) -> Option<usize>) -> Vec<f64> {
+        let mut values = vec![self.unknown; self.states.len()];
+        for _ in 0..SWEEPS {
+            let mut change: f64 = 0.0;
+            for state in 0..self.states.len() {
+                if let Some(outlook) = self.outlook(state, taken(state)) {
+                    let worth = self.worth(outlook, &values);
+                    if let Some(value) = values.get_mut(state) {
+                        change = change.max((worth - *value).abs());
+                        *value = worth;
+                    }
+                }
+            }
+            if change < SETTLED {
+                break;
+            }
+        }
+        values
+    }
+}

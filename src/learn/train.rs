@@ -1,0 +1,101 @@
+//! Learning by doing: episodes under the method's own greedy choices, with exploration.
+
+use super::curve;
+use super::discount::Discounting;
+use super::method::{Decision, Method};
+use super::process::{End, Process};
+use super::schedule::Schedule;
+use super::table::Table;
+use crate::random::Random;
+
+/// How it is gone about, whatever the method.
+#[derive(Clone, Copy, Debug)]
+pub struct Course<'a> {
+    /// How many behaviours there are to choose from.
+    pub choices: usize,
+    /// How many episodes.
+    pub episodes: u64,
+    /// The probability of a random choice; of a minterm's visits and of progress.
+    pub explore: Schedule<'a>,
+    /// How future reward counts.
+    pub discounting: Discounting,
+    /// Ticks for which a choice is kept.
+    pub dwell: u64,
+    /// The seed of the exploration.
+    pub seed: u64,
+}
+
+/// What was gone through so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Episodes begun.
+    pub episodes: u64,
+    /// Decisions completed.
+    pub decisions: u64,
+    /// Ticks simulated.
+    pub ticks: u64,
+}
+
+/// The stream of the exploration's random numbers, apart from those of the world.
+const EXPLORATION: u64 = u64::MAX;
+
+/// Learns. The episodes are cut into rounds, see [`curve::due`]; after each the method refits, and `round` sees what it
+/// has come to. `progress` hears of every episode.
+pub fn train(
+    process: &mut impl Process,
+    method: &mut dyn Method,
+    course: &Course,
+    mut round: impl FnMut(&Table, &Counts),
+    mut progress: impl FnMut(),
+) -> Counts {
+    let mut counts = Counts::default();
+    let mut random = Random::new(course.seed, EXPLORATION, 0);
+    for episode in 0..course.episodes {
+        let share = episode as f64 / course.episodes as f64;
+        process.start(episode);
+        counts.episodes += 1;
+        play(process, method, course, share, &mut random, &mut counts);
+        if curve::due(episode, course.episodes) {
+            method.refit();
+            round(method.table(), &counts);
+        }
+        progress();
+    }
+    counts
+}
+
+/// Plays the episode that was started.
+fn play(
+    process: &mut impl Process,
+    method: &mut dyn Method,
+    course: &Course,
+    progress: f64,
+    random: &mut Random,
+    counts: &mut Counts,
+) {
+    let mut row = method.row(process.key());
+    loop {
+        let visits = method.table().visits(row);
+        let epsilon = course.explore.at(visits as f64, progress);
+        let choice = match method.greedy(row) {
+            Some(best) if random.unit() >= epsilon => best,
+            _ => random.below(course.choices as u64) as usize,
+        };
+        let step = process.decide(choice, course.dwell);
+        counts.decisions += 1;
+        counts.ticks += step.ticks;
+        let next = method.row(step.to);
+        method.learn(&Decision {
+            row,
+            choice,
+            step,
+            next,
+            factor: Decision::factor(&step, &course.discounting),
+            progress,
+        });
+        if step.end != End::Not {
+            return;
+        }
+        row = next;
+    }
+}

@@ -1,0 +1,146 @@
+//! The methods on processes whose values are known.
+
+use super::toys;
+use btc::ir::expr::Binary;
+use btc::ir::task::{Discount, Method as Kind};
+use btc::ir::{Expr, Pool};
+use btc::learn::discount::Discounting;
+use btc::learn::method::{self, Settings};
+use btc::learn::process::{End, Key, Process};
+use btc::learn::schedule::Schedule;
+use btc::learn::table::Table;
+use btc::learn::train::{Course, train};
+
+const ALL: [Kind; 3] = [Kind::QLearning, Kind::DoubleQ, Kind::Model];
+
+const PER_DECISION: Discount = Discount::PerDecision(0.9);
+
+/// The table that a method learns, with a step size of 1/visits^`power` and half of the choices random.
+fn learned(
+    kind: Kind,
+    process: &mut impl Process,
+    choices: usize,
+    discount: Discount,
+    (episodes, power): (u64, f64),
+) -> Table {
+    let mut pool = Pool::default();
+    let visits = pool.leaf(Expr::Visits);
+    let power = pool.num(-power);
+    let rate = pool.binary(Binary::Pow, visits, power);
+    let explore = pool.num(0.5);
+    let mut method = method::of(
+        kind,
+        &Settings {
+            choices,
+            initial: 0.0,
+            rate: Schedule::new(&pool, rate),
+            seed: 3,
+        },
+    );
+    let course = Course {
+        choices,
+        episodes,
+        explore: Schedule::new(&pool, explore),
+        discounting: Discounting {
+            discount,
+            tick: 0.1,
+        },
+        dwell: 0,
+        seed: 3,
+    };
+    train(process, method.as_mut(), &course, |_, _| {}, || {});
+    method.table().clone()
+}
+
+fn q(table: &Table, key: Key, choice: usize) -> f64 {
+    table.cells(table.find(key).unwrap())[choice].q
+}
+
+fn close(a: f64, b: f64, within: f64, what: Kind) {
+    assert!((a - b).abs() <= within, "{what:?}: {a} is not {b}");
+}
+
+#[test]
+fn a_corridor_is_worth_what_arithmetic_says() {
+    for kind in ALL {
+        let table = learned(kind, &mut toys::corridor(), 3, PER_DECISION, (4000, 0.5));
+        let mut value = 10.0;
+        for cell in (0..5).rev() {
+            assert_eq!(table.greedy(table.find(cell).unwrap()), Some(0));
+            close(q(&table, cell, 0), value, 0.02, kind);
+            // What fails leaves the robot where it is: a step for nothing.
+            close(q(&table, cell, 2), -1.0 + 0.9 * value, 0.05, kind);
+            value = -1.0 + 0.9 * value;
+        }
+    }
+}
+
+#[test]
+fn an_arm_is_worth_its_mean() {
+    for kind in ALL {
+        let table = learned(kind, &mut toys::arms(), 2, PER_DECISION, (20_000, 1.0));
+        close(q(&table, 0, 0), 1.0, 0.05, kind);
+        close(q(&table, 0, 1), 0.5, 1e-9, kind);
+        let cells = table.cells(table.find(0).unwrap());
+        assert_eq!(cells.iter().map(|cell| cell.visits).sum::<u64>(), 20_000);
+        // The squares of the targets: half of them 4, half 0.
+        close(cells[0].squares / cells[0].visits as f64, 2.0, 0.1, kind);
+    }
+}
+
+#[test]
+fn a_cut_episode_would_have_gone_on_and_an_ended_one_not() {
+    for kind in ALL {
+        let of = |end| learned(kind, &mut toys::single(end), 1, PER_DECISION, (4000, 0.5));
+        close(q(&of(End::Terminal(0)), 0, 0), 1.0, 1e-9, kind);
+        close(q(&of(End::Cut), 0, 0), 10.0, 0.01, kind);
+    }
+}
+
+#[test]
+fn time_discounts_by_how_long_a_decision_took() {
+    // 20 ticks of 0.1 s at 0.9 a second: 0.81 a decision.
+    for kind in ALL {
+        let mut process = toys::single(End::Cut);
+        let table = learned(
+            kind,
+            &mut process,
+            1,
+            Discount::PerTime(0.9, 1.0),
+            (4000, 0.5),
+        );
+        close(q(&table, 0, 0), 1.0 / (1.0 - 0.81), 0.01, kind);
+    }
+}
+
+#[test]
+fn two_tables_do_not_take_noise_for_value() {
+    // The best of ten noisy estimates looks good; judged by the other table it is worth −0.1 at most.
+    let value = |kind| {
+        let table = learned(
+            kind,
+            &mut toys::biased(),
+            10,
+            Discount::PerDecision(1.0),
+            (2000, 0.1),
+        );
+        q(&table, 0, 1)
+    };
+    let (single, double) = (value(Kind::QLearning), value(Kind::DoubleQ));
+    assert!(single > 0.1, "{single}");
+    assert!(double < 0.0, "{double}");
+}
+
+#[test]
+fn greedy_is_over_what_was_tried() {
+    let mut table = Table::new(3, 100.0);
+    let row = table.row(5);
+    assert_eq!(table.greedy(row), None);
+    for (choice, q) in [(1, -2.0), (2, -2.0)] {
+        let cell = table.cell_mut(row, choice).unwrap();
+        (cell.visits, cell.q) = (1, q);
+    }
+    assert_eq!(table.greedy(row), Some(1), "the first of equals");
+    assert_eq!(table.best(row), 0, "what is not known yet may be better");
+    assert_eq!(table.best_value(row), 100.0);
+}

@@ -1,0 +1,88 @@
+//! Statistics against printed values and an independent library.
+
+use btc::learn::binomial::{lower95, upper95};
+use btc::learn::bootstrap::{interquartile_mean, interval95, quantile};
+use btc::learn::curve::{self, Point};
+use btc::learn::statistics::Mean;
+use btc::random::Random;
+use statrs::distribution::{Beta, ContinuousCDF};
+
+#[test]
+fn the_interquartile_mean_cuts_a_quarter_at_either_end() {
+    assert_eq!(
+        interquartile_mean(&[5.0, 8.0, 4.0, 38.0, 8.0, 6.0, 9.0, 7.0, 7.0, 3.0, 1.0, 6.0]),
+        6.5
+    );
+    // Nine values: 2¼ are cut at either end, so the third and the seventh count three quarters.
+    let odd: Vec<f64> = (0..9).map(|i| f64::from(2 * i + 1)).collect();
+    assert_eq!(interquartile_mean(&odd), 9.0);
+    assert_eq!(
+        interquartile_mean(&[1.0, 2.0, 6.0]),
+        (0.25 + 2.0 + 1.5) / 1.5 - 0.0
+    );
+    assert_eq!(interquartile_mean(&[4.0]), 4.0);
+    assert_eq!(interquartile_mean(&[]), 0.0);
+}
+
+#[test]
+fn quantiles_lie_between_neighbours() {
+    let values = [1.0, 2.0, 4.0];
+    let found = [0.0, 0.25, 0.5, 0.75, 1.0].map(|share| quantile(&values, share));
+    assert_eq!(found, [1.0, 1.5, 2.0, 3.0, 4.0]);
+}
+
+#[test]
+fn the_bootstrap_interval_is_that_of_theory_and_always_the_same() {
+    let mut random = Random::new(5, 0, 0);
+    let sample: Vec<f64> = (0..400).map(|_| random.gaussian()).collect();
+    let [low, high] = interval95(&sample);
+    assert_eq!(interval95(&sample), [low, high]);
+    assert!(low < interquartile_mean(&sample) && interquartile_mean(&sample) < high);
+    // The variance of the mean of the middle half of a Gaussian sample is 1.19/n (Tukey 1960).
+    let theory = 2.0 * 1.96 * (1.19_f64 / 400.0).sqrt();
+    assert!(((high - low) / theory - 1.0).abs() < 0.15, "{low} {high}");
+    assert_eq!(interval95(&[3.0]), [3.0, 3.0]);
+    assert_eq!(interval95(&[2.0; 5]), [2.0, 2.0]);
+}
+
+#[test]
+fn bounds_on_a_rate_are_those_of_the_beta_distribution() {
+    for (count, n) in [(0, 1), (0, 1000), (1, 20), (3, 1000), (40, 100), (99, 100)] {
+        let beta = Beta::new(count as f64 + 1.0, (n - count) as f64).unwrap();
+        let expected = beta.inverse_cdf(0.95);
+        let found = upper95(count, n);
+        assert!(
+            (found - expected).abs() < 1e-6,
+            "{count} of {n}: {found}, {expected}"
+        );
+    }
+    // None in n: 1 − 0.05^(1/n), the "rule of three".
+    assert!((upper95(0, 1000) - 0.002_991_2).abs() < 1e-6);
+    assert_eq!(upper95(5, 5), 1.0);
+    assert_eq!(lower95(0, 5), 0.0);
+    assert!((lower95(5, 5) - 0.05_f64.powf(0.2)).abs() < 1e-9);
+}
+
+#[test]
+fn a_curve_of_several_seeds_has_a_column_for_each() {
+    let point = |mean| Point {
+        episodes: 10,
+        decisions: 20,
+        ticks: 30,
+        minterms: 4,
+        total: Mean {
+            mean,
+            ci95: [mean, mean],
+        },
+        ended: 0,
+    };
+    let curves = [(1, vec![point(2.0)]), (2, vec![point(2.0)])];
+    assert_eq!(
+        curve::csv(&curves),
+        "episodes,return,return_low,return_high,seed_1,seed_2\n10,2,2,2,2,2\n"
+    );
+    assert_eq!(
+        curve::csv(&curves[..1]),
+        "episodes,decisions,ticks,minterms,return,return_low,return_high,ended\n10,20,30,4,2,2,2,0\n"
+    );
+}
