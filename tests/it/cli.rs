@@ -252,6 +252,49 @@ fn what_a_missing_file_may_declare_is_not_missed_as_well() {
     assert!(err(&table).ends_with("\n2 errors\n"), "{}", err(&table));
 }
 
+#[test]
+fn a_world_that_cannot_be_built_is_a_mistake_of_the_program() {
+    let text = fs::read_to_string(SMALL).unwrap();
+    let vast = text.replace("disc(17 cm)", "disc(17 m)");
+    let output = piped(&["check", "-"], vast.as_bytes());
+    assert_eq!(output.status.code(), Some(1));
+    assert!(err(&output).contains("fits nowhere"), "{}", err(&output));
+    let declared = text.replace(
+        "predicate battery_low      = battery <= 25%",
+        "predicate battery_low",
+    );
+    let output = piped(&["check", "-"], declared.as_bytes());
+    assert_eq!(out(&output), "ok\n", "{}", err(&output));
+}
+
+#[test]
+fn a_program_is_not_overwritten_by_what_it_learns() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("learned.bt");
+    fs::copy(SMALL, &file).unwrap();
+    let place = folder.path().to_str().unwrap();
+    let output = btc(&["learn", file.to_str().unwrap(), "-o", place]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(err(&output).contains("overwritten"), "{}", err(&output));
+    assert_eq!(fs::read(&file).unwrap(), fs::read(SMALL).unwrap());
+}
+
+#[test]
+fn a_long_trace_is_told_in_short() {
+    let trees =
+        "tree a for delivery = goto(A)\ntree b for delivery = timeout(20 ticks) { goto(A) }\n";
+    let text = fs::read_to_string(SMALL).unwrap() + trees;
+    let output = piped(&["verify", "-", "a", "b"], text.as_bytes());
+    let said = out(&output);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(said.contains("part after 20 ticks"), "{said}");
+    assert!(
+        said.contains("  ticks 1 to 20 {}: both select goto(A), which answers running\n"),
+        "{said}"
+    );
+    assert_eq!(said.lines().count(), 3, "{said}");
+}
+
 #[cfg(unix)]
 #[test]
 fn writing_changes_the_text_of_a_file_and_nothing_else() {
