@@ -75,7 +75,10 @@ fn one_tree(loaded: &Loaded, named: Option<Id<Tree>>) -> Result<Id<Tree>, Diagno
                     names => format!("the program has several trees: {}", names.join(", ")),
                 },
             )
-            .label("say which one with `--tree NAME`"))
+            .label(match names.as_slice() {
+                [] => "`tree NAME = …` is missing",
+                _ => "say which one with `--tree NAME`",
+            }))
         }
     }
 }
@@ -124,7 +127,10 @@ pub fn summary(loaded: &Loaded) -> String {
             ),
         );
     }
-    let list = |names: Vec<&str>| format!("{}: {}", names.len(), names.join(", "));
+    let list = |names: Vec<&str>| match names.len() {
+        0 => "none".to_owned(),
+        n => format!("{n}: {}", names.join(", ")),
+    };
     line(
         "predicates",
         list(

@@ -1,5 +1,6 @@
 //! What each command does, as functions from text to results: nothing is printed, no file is touched.
 
+pub mod check;
 pub mod compile;
 pub mod explain;
 pub mod format;

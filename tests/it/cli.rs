@@ -204,3 +204,124 @@ fn every_code_is_explained() {
     let output = btc(&["explain", "e0301"]);
     assert!(out(&output).starts_with("# E0301"));
 }
+
+#[test]
+fn nobody_need_read_standard_error() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("wrong.bt");
+    fs::write(&file, "state a: bool = 3 m\n").unwrap();
+    for arguments in [&["check"][..], &["fmt", "--check"], &["verify"]] {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_btc"))
+            .args(arguments)
+            .args([file.to_str().unwrap(), "/no/such/file.bt"])
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        drop(child.stderr.take());
+        let code = child.wait().unwrap().code();
+        assert!(matches!(code, Some(1 | 2)), "{arguments:?}: {code:?}");
+    }
+}
+
+#[test]
+fn a_program_is_one_file_by_whatever_path() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| format!("{}/{name}", folder.path().display());
+    fs::create_dir(path("sub")).unwrap();
+    fs::write(path("a.bt"), "use \"b.bt\"\nstate a: bool = true\n").unwrap();
+    fs::write(
+        path("b.bt"),
+        "use \"./sub/../a.bt\"\nstate b: bool = true\n",
+    )
+    .unwrap();
+    for name in ["a.bt", "sub/../a.bt", "./b.bt"] {
+        let output = btc(&["check", &path(name)]);
+        assert_eq!(out(&output), "ok\n", "{name}: {}", err(&output));
+    }
+}
+
+#[test]
+fn what_a_missing_file_may_declare_is_not_missed_as_well() {
+    let moved = "use \"gone.bt\"\ntree t for delivery = low => goto(A)\nstate a: bool = 3 m\n";
+    let output = piped(&["check", "-"], moved.as_bytes());
+    let said = err(&output);
+    assert!(said.contains("E0208") && said.contains("E0302"), "{said}");
+    assert!(said.ends_with("\n2 errors\n"), "{said}");
+    let table = piped(&["check", "-"], b"use \"gone.csv\"\nstate a: bool = b\n");
+    assert!(err(&table).ends_with("\n2 errors\n"), "{}", err(&table));
+}
+
+#[test]
+fn a_world_that_cannot_be_built_is_a_mistake_of_the_program() {
+    let text = fs::read_to_string(SMALL).unwrap();
+    let vast = text.replace("disc(17 cm)", "disc(17 m)");
+    let output = piped(&["check", "-"], vast.as_bytes());
+    assert_eq!(output.status.code(), Some(1));
+    assert!(err(&output).contains("fits nowhere"), "{}", err(&output));
+    let declared = text.replace(
+        "predicate battery_low      = battery <= 25%",
+        "predicate battery_low",
+    );
+    let output = piped(&["check", "-"], declared.as_bytes());
+    assert_eq!(out(&output), "ok\n", "{}", err(&output));
+}
+
+#[test]
+fn a_program_is_not_overwritten_by_what_it_learns() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("learned.bt");
+    fs::copy(SMALL, &file).unwrap();
+    let place = folder.path().to_str().unwrap();
+    let output = btc(&["learn", file.to_str().unwrap(), "-o", place]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(err(&output).contains("overwritten"), "{}", err(&output));
+    assert_eq!(fs::read(&file).unwrap(), fs::read(SMALL).unwrap());
+}
+
+#[test]
+fn a_long_trace_is_told_in_short() {
+    let trees =
+        "tree a for delivery = goto(A)\ntree b for delivery = timeout(20 ticks) { goto(A) }\n";
+    let text = fs::read_to_string(SMALL).unwrap() + trees;
+    let output = piped(&["verify", "-", "a", "b"], text.as_bytes());
+    let said = out(&output);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(said.contains("part after 20 ticks"), "{said}");
+    assert!(
+        said.contains("  ticks 1 to 20 {}: both select goto(A), which answers running\n"),
+        "{said}"
+    );
+    assert_eq!(said.lines().count(), 3, "{said}");
+}
+
+#[cfg(unix)]
+#[test]
+fn writing_changes_the_text_of_a_file_and_nothing_else() {
+    use std::os::unix::fs::{FileTypeExt, PermissionsExt, symlink};
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| format!("{}/{name}", folder.path().display());
+    fs::write(path("file.bt"), "state   a:bool=true\n").unwrap();
+    fs::set_permissions(path("file.bt"), fs::Permissions::from_mode(0o600)).unwrap();
+    symlink("file.bt", path("link.bt")).unwrap();
+    assert_eq!(btc(&["fmt", &path("link.bt")]).status.code(), Some(0));
+    assert!(fs::symlink_metadata(path("link.bt")).unwrap().is_symlink());
+    let text = fs::read_to_string(path("file.bt")).unwrap();
+    assert_eq!(text, "state a: bool = true\n");
+    let mode = fs::metadata(path("file.bt")).unwrap().permissions().mode();
+    assert_eq!(mode & 0o777, 0o600);
+
+    // A device of the system may be the one that a careless root would replace: a pipe stands for it.
+    let made = Command::new("mkfifo").arg(path("pipe")).status();
+    if made.is_ok_and(|status| status.success()) {
+        let reader = std::thread::spawn({
+            let pipe = path("pipe");
+            move || fs::read_to_string(pipe).unwrap()
+        });
+        let output = btc(&["compile", SMALL, "--emit", "ir", "-o", &path("pipe")]);
+        assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+        assert!(reader.join().unwrap().starts_with("world warehouse"));
+        let kind = fs::metadata(path("pipe")).unwrap().file_type();
+        assert!(kind.is_fifo());
+    }
+}

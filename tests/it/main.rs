@@ -16,6 +16,7 @@ mod learn;
 mod learning;
 mod naive;
 mod program;
+mod reference;
 mod robust;
 mod snapshot;
 mod svg;
