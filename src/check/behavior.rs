@@ -10,6 +10,7 @@ use crate::ir::Id;
 use crate::ir::expr::{Expr, ExprId, Local};
 use crate::ir::law::{Behavior, Block, Law};
 use crate::ir::table::Table;
+use crate::source::Span;
 use crate::syntax::ast::{self, ArgKind, BehaviorBody, Clause, ClauseKind, Ref};
 use crate::syntax::print;
 
@@ -24,7 +25,7 @@ impl<'a> Checker<'a> {
         }
         let scope = self.unknown_parameters(behavior.params.as_ref());
         self.body_for_itself(
-            behavior.name.span,
+            &behavior.name,
             Region::Clause,
             scope,
             |checker| match &behavior.body {
@@ -138,7 +139,7 @@ impl<'a> Checker<'a> {
         let pool = &mut self.program.pool;
         let (yes, no) = (pool.bool(true), pool.bool(false));
         let (mut requires, mut succeed, mut fail) = (yes, no, no);
-        let mut control: Option<(&'a ast::Block, Option<Block>)> = None;
+        let mut control: Option<(Span, Option<Block>)> = None;
         for clause in clauses {
             self.context.region = Region::Clause;
             let mut region =
@@ -162,18 +163,18 @@ impl<'a> Checker<'a> {
                         self.report(
                             Diagnostic::new(
                                 Code::E0503,
-                                clause.span,
+                                keyword(clause),
                                 "a behaviour has one control law",
                             )
                             .label("a second `control`")
-                            .also(first.span, "the first is here"),
+                            .also(*first, "the first is here"),
                         );
                         continue;
                     }
                     self.context.region = Region::Control;
                     let lowered = self.block(block, &Home::Control);
                     self.drives_once(block, None);
-                    control = Some((block, lowered));
+                    control = Some((keyword(clause), lowered));
                 }
                 ClauseKind::Error => known = false,
             }
@@ -223,11 +224,13 @@ impl<'a> Checker<'a> {
             _ => Value::Unknown,
         };
         let known = value != Value::Unknown;
+        self.binds_anew(name, "local", 0);
         self.context.scope.push(Binding {
             name: name.name.clone(),
             ty: typed.ty,
             value,
             locals: ids,
+            settable: true,
             span: name.span,
         });
         known
@@ -310,5 +313,13 @@ impl<'a> Checker<'a> {
             }
             _ => false,
         }
+    }
+}
+
+/// The word `control` of a clause.
+fn keyword(clause: &Clause) -> Span {
+    Span {
+        end: clause.span.start + 7,
+        ..clause.span
     }
 }

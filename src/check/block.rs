@@ -1,8 +1,9 @@
 //! Statements of control laws and effects.
 
 use super::Checker;
+use super::argument::no_binder;
 use super::context::{Binding, Region};
-use super::names::{Decl, unknown};
+use super::names::{Decl, stranger, unknown};
 use super::types::{Type, Typed, Value};
 use super::units::Dim;
 use crate::diagnostic::{Code, Diagnostic};
@@ -35,7 +36,7 @@ impl<'a> Checker<'a> {
         let depth = self.context.scope.len();
         let mut stmts = Some(Vec::new());
         for stmt in &block.stmts {
-            let lowered = self.stmt(stmt, home);
+            let lowered = self.stmt(stmt, home, depth);
             match (lowered, &mut stmts) {
                 (Some(lowered), Some(stmts)) => stmts.extend(lowered),
                 _ => stmts = None,
@@ -45,36 +46,41 @@ impl<'a> Checker<'a> {
         stmts.map(Block)
     }
 
-    fn stmt(&mut self, stmt: &'a ast::Stmt, home: &Home) -> Option<Vec<Stmt>> {
+    /// A statement of a block whose own names start at `depth` of the scope.
+    fn stmt(&mut self, stmt: &'a ast::Stmt, home: &Home, depth: usize) -> Option<Vec<Stmt>> {
         match &stmt.kind {
-            StmtKind::Let(binding) => self.let_stmt(binding),
+            StmtKind::Let(binding) => self.let_stmt(binding, depth),
             StmtKind::For {
                 name,
                 domain,
                 block,
             } => {
                 let ty = self.named_type(domain);
+                let known = ty != Type::Error && self.has_members(&ty, domain);
                 self.context.scope.push(Binding {
                     name: name.name.clone(),
                     ty,
                     value: Value::Unknown,
                     locals: Vec::new(),
+                    settable: false,
                     span: name.span,
                 });
                 self.block(block, home);
                 self.context.scope.pop();
-                self.not_yet(domain.span, "loops over kinds");
+                if known {
+                    self.not_yet(domain.span, "loops over kinds");
+                }
                 None
             }
             StmtKind::Branch(branch) => self.branch(branch, home).map(|stmt| vec![stmt]),
-            StmtKind::Assign { target, op, value } => self.assign(target, *op, value, stmt.span),
+            StmtKind::Assign { target, op, value } => self.assign(target, *op, value),
             StmtKind::Call(call) => self.call_stmt(call, home).map(|stmt| vec![stmt]),
             StmtKind::Error => None,
         }
     }
 
     /// A `let` holds the value of its moment; a constant or a target needs no variable for that.
-    fn let_stmt(&mut self, binding: &'a ast::Binding) -> Option<Vec<Stmt>> {
+    fn let_stmt(&mut self, binding: &'a ast::Binding, depth: usize) -> Option<Vec<Stmt>> {
         let typed = self.binding_value(binding);
         let mut stmts = Vec::new();
         let mut hold = |checker: &mut Self, id: ExprId| {
@@ -96,11 +102,13 @@ impl<'a> Checker<'a> {
             }
             other => other,
         };
+        self.binds_anew(&binding.name, "value", depth);
         self.context.scope.push(Binding {
             name: binding.name.name.clone(),
             ty: typed.ty,
             value,
             locals: Vec::new(),
+            settable: false,
             span: binding.name.span,
         });
         known.then_some(stmts)
@@ -122,7 +130,6 @@ impl<'a> Checker<'a> {
         target: &'a Ref,
         op: ast::Spanned<AssignOp>,
         value: &'a ast::Expr,
-        span: Span,
     ) -> Option<Vec<Stmt>> {
         let found = self.assignable(target);
         let Some((ty, slots)) = found else {
@@ -130,6 +137,18 @@ impl<'a> Checker<'a> {
             return None;
         };
         let role = format!("`{}`", target.name.name);
+        if op.node != AssignOp::Set && ty.dim().is_none() && ty != Type::Error {
+            self.report(
+                Diagnostic::new(
+                    Code::E0302,
+                    op.span,
+                    format!("{role} is {ty}, which is no number"),
+                )
+                .label("only numbers are reckoned with; `=` sets it"),
+            );
+            self.expr(value);
+            return None;
+        }
         let value = match op.node {
             AssignOp::Set | AssignOp::Add | AssignOp::Sub => self.expect(value, &ty, &role),
             AssignOp::Mul | AssignOp::Div => {
@@ -141,7 +160,7 @@ impl<'a> Checker<'a> {
                             Diagnostic::new(
                                 Code::E0301,
                                 typed.span,
-                                format!("{role} would change its unit"),
+                                format!("{role} would change its unit, and it is {ty}"),
                             )
                             .label(format!("this is {}", typed.ty)),
                         );
@@ -152,17 +171,6 @@ impl<'a> Checker<'a> {
                 typed
             }
         };
-        if op.node != AssignOp::Set && ty.dim().is_none() && ty != Type::Error {
-            self.report(
-                Diagnostic::new(
-                    Code::E0302,
-                    span,
-                    format!("{role} is {ty}, which has no sum"),
-                )
-                .label("only numbers are added to"),
-            );
-            return None;
-        }
         let parts = match value.value {
             Value::Scalar(id) => vec![id],
             Value::Point(x, y) => vec![x, y],
@@ -198,12 +206,12 @@ impl<'a> Checker<'a> {
             && let Some(binding) = self.context.lookup(name)
         {
             let (ty, locals, at) = (binding.ty.clone(), binding.locals.clone(), binding.span);
-            if locals.is_empty() && binding.value != Value::Unknown {
+            if !binding.settable {
                 self.report(
                     Diagnostic::new(Code::E0310, target.span, format!("`{name}` cannot be set"))
                         .label("it keeps the value that it was given")
                         .also(at, "bound here")
-                        .help("declare it as a `local` if it is to change"),
+                        .help("what changes is a `local` of the behaviour"),
                 );
                 return None;
             }
@@ -250,7 +258,7 @@ impl<'a> Checker<'a> {
                 let mut candidates: Vec<&str> = Vec::new();
                 candidates.extend(
                     scope
-                        .filter(|binding| !binding.locals.is_empty())
+                        .filter(|binding| binding.settable)
                         .map(|binding| binding.name.as_str()),
                 );
                 candidates.extend(self.names.values(|decl| matches!(decl, Decl::State(_))));
@@ -272,12 +280,15 @@ impl<'a> Checker<'a> {
                 .label(format!("this is {}", decl.what())),
                 None => unknown(&call.name, "statement", ["drive"]),
             };
+            for arg in call.args.iter().flatten() {
+                self.stray_argument(arg);
+            }
             self.report(diagnostic);
             return None;
         }
         if *home == Home::Effect {
             self.report(
-                Diagnostic::new(Code::E0307, call.span, "an effect does not drive")
+                Diagnostic::new(Code::E0307, call.name.span, "an effect does not drive")
                     .label("only a control law does"),
             );
             return None;
@@ -305,14 +316,17 @@ impl<'a> Checker<'a> {
                 ArgKind::Named(name, value) => {
                     let slot = parts.iter().position(|(known, _)| *known == name.name);
                     if slot.is_none() {
-                        let diagnostic =
-                            unknown(name, "parameter", parts.iter().map(|(name, _)| *name));
-                        self.report(diagnostic);
+                        let known = ["speed", "turn", "strafe"];
+                        self.report(stranger(Code::E0305, name, "`drive`", "parameter", &known));
                         fine = false;
                     }
                     (slot, value)
                 }
-                ArgKind::Binder { .. } => continue,
+                ArgKind::Binder { .. } => {
+                    self.report(no_binder("drive", arg.span));
+                    fine = false;
+                    continue;
+                }
             };
             let Some(slot) = slot else { continue };
             let (Some((name, ty)), Some(place)) = (parts.get(slot), given.get_mut(slot)) else {
@@ -350,12 +364,23 @@ impl<'a> Checker<'a> {
             *place = Some(self.expect(value, ty, &format!("`{name}`")));
         }
         let [speed, turn, strafe] = given;
-        for (name, part, unit) in [("speed", &speed, "m/s"), ("turn", &turn, "rad/s")] {
+        for (name, part, still) in [
+            (
+                "speed",
+                &speed,
+                "to turn on the spot, write `speed = 0 m/s`",
+            ),
+            ("turn", &turn, "to go straight on, write `turn = 0 rad/s`"),
+        ] {
             if part.is_none() && fine {
                 self.report(
-                    Diagnostic::new(Code::E0305, call.span, format!("`drive` needs `{name}`"))
-                        .label(format!("`{name}` is not given"))
-                        .help(format!("to keep still, write `{name} = 0 {unit}`")),
+                    Diagnostic::new(
+                        Code::E0305,
+                        call.name.span,
+                        format!("`drive` needs its `{name}`"),
+                    )
+                    .label(format!("`{name}` is not given"))
+                    .help(still),
                 );
             }
         }

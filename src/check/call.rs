@@ -2,13 +2,14 @@
 
 use super::Checker;
 use super::builtin;
-use super::context::{Binding, Context, Region};
+use super::context::Region;
 use super::names::{Decl, unknown};
 use super::types::{Type, Typed, Value};
+use super::world::spelled;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::expr::Expr;
 use crate::source::Span;
-use crate::syntax::ast::{self, Arg, ArgKind, LetBody, Param, Params, Ref};
+use crate::syntax::ast::{self, LetBody, Ref};
 
 impl<'a> Checker<'a> {
     /// A name, or a call.
@@ -17,11 +18,16 @@ impl<'a> Checker<'a> {
         let span = reference.span;
         if reference.args.is_none() {
             if let Some(binding) = self.context.lookup(name) {
-                return Typed {
-                    ty: binding.ty.clone(),
-                    value: binding.value.clone(),
-                    span,
-                };
+                let (at, typed) = (
+                    binding.span,
+                    Typed {
+                        ty: binding.ty.clone(),
+                        value: binding.value.clone(),
+                        span,
+                    },
+                );
+                self.reads(at);
+                return typed;
             }
             if let Some(value) = builtin::Constant::named(name) {
                 return self.built_in_value(value, span);
@@ -41,14 +47,28 @@ impl<'a> Checker<'a> {
 
     fn unknown_value(&mut self, reference: &Ref) {
         let called = reference.args.is_some();
+        let span = reference.span;
         let mut candidates: Vec<&str> = Vec::new();
         candidates.extend(self.context.scope.iter().map(|bound| bound.name.as_str()));
         candidates.extend(self.names.values(|decl| !matches!(decl, Decl::Tree(_))));
         for name in builtin::names() {
             candidates.push(name);
         }
-        let what = if called { "function" } else { "value" };
-        let diagnostic = unknown(&reference.name, what, candidates);
+        // Only a sensor of the acting robot can be missing from a body of the library.
+        let user = self.open_bodies.iter().find(|open| open.library);
+        let diagnostic = match user {
+            Some(open) if self.context.library => {
+                let missing = &reference.name.name;
+                let message = format!("`{}` needs a sensor `{missing}`", open.name);
+                Diagnostic::new(Code::E0406, span, message)
+                    .label("read here, and the robot has none")
+                    .help(format!(
+                        "add it to the robot: `sensor {missing} = scanner(from = …, to = …, range = …)`"
+                    ))
+            }
+            _ if called => unknown(&reference.name, "function, predicate or `let`", candidates),
+            _ => unknown(&reference.name, "state, event, place or `let`", candidates),
+        };
         self.report(diagnostic);
     }
 
@@ -101,19 +121,24 @@ impl<'a> Checker<'a> {
             Decl::Place(name, kind) => known(
                 Type::Place(kind.map(|kind| kind.name.clone())),
                 world
-                    .and_then(|world| world.places.find(|place| place.name == name.name))
+                    .and_then(|world| world.places.find(|place| place.name == spelled(&name.name)))
                     .map(Value::Place),
             ),
             Decl::Wall(name, kind) => known(
                 Type::Wall(kind.map(|kind| kind.name.clone())),
                 world
-                    .and_then(|world| world.walls.find(|wall| wall.name == name.name))
+                    .and_then(|world| world.walls.find(|wall| wall.name == spelled(&name.name)))
                     .map(Value::Wall),
             ),
             Decl::Sensor(name) => known(
                 Type::Sensor,
                 world
-                    .and_then(|world| world.robot.sensors.find(|sensor| sensor.name == name.name))
+                    .and_then(|world| {
+                        world
+                            .robot
+                            .sensors
+                            .find(|sensor| sensor.name == spelled(&name.name))
+                    })
                     .map(Value::Sensor),
             ),
             Decl::Robot(_) => known(Type::Robot, Some(Value::Robot)),
@@ -131,23 +156,13 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Checks an argument whose function is not known, for its own mistakes.
-    pub(super) fn stray_argument(&mut self, arg: &'a Arg) {
-        match &arg.kind {
-            ArgKind::Positional(value) | ArgKind::Named(_, value) => {
-                self.expr(value);
-            }
-            ArgKind::Binder { .. } => {}
-        }
-    }
-
     /// Checks a `let` for itself.
     pub(super) fn shared(&mut self, shared: &'a ast::Let) {
         if self.clean_bodies.contains_key(&shared.name.span) {
             return;
         }
         let bindings = self.unknown_parameters(shared.params.as_ref());
-        self.body_for_itself(shared.name.span, Region::Let, bindings, |checker| {
+        self.body_for_itself(&shared.name, Region::Let, bindings, |checker| {
             checker.shared_body(shared);
         });
     }
@@ -187,263 +202,6 @@ impl<'a> Checker<'a> {
         typed
     }
 
-    /// Checks a body with its parameters known by type only, and remembers whether it is free of mistakes.
-    pub(super) fn body_for_itself(
-        &mut self,
-        body: Span,
-        region: Region,
-        scope: Vec<Binding>,
-        pass: impl FnOnce(&mut Self),
-    ) {
-        self.clean_bodies.insert(body, true);
-        let outer = std::mem::replace(
-            &mut self.context,
-            Context {
-                region,
-                library: false,
-                scope,
-            },
-        );
-        self.open_bodies.push(body);
-        let ((), found) = self.captured(pass);
-        self.open_bodies.pop();
-        self.context = outer;
-        let clean = !found.iter().any(Diagnostic::is_error);
-        self.clean_bodies.insert(body, clean);
-        self.diagnostics.extend(found);
-    }
-
-    /// Checks a body again under arguments. Mistakes that only these make are reported where they are given; `None`
-    /// where there were any.
-    pub(super) fn unrolled<T>(
-        &mut self,
-        body: Span,
-        reference: &Ref,
-        library: bool,
-        region: Region,
-        scope: Vec<Binding>,
-        pass: impl FnOnce(&mut Self) -> T,
-    ) -> Option<T> {
-        let name = &reference.name.name;
-        if self.open_bodies.contains(&body) {
-            self.report(
-                Diagnostic::new(
-                    Code::E0205,
-                    reference.name.span,
-                    format!("`{name}` is defined by itself"),
-                )
-                .label("this use closes the circle"),
-            );
-            return None;
-        }
-        if self.clean_bodies.get(&body) == Some(&false) {
-            return None;
-        }
-        let outer = std::mem::replace(
-            &mut self.context,
-            Context {
-                region,
-                library,
-                scope,
-            },
-        );
-        self.open_bodies.push(body);
-        let (result, found) = self.captured(pass);
-        self.open_bodies.pop();
-        self.context = outer;
-        let Some(inner) = found.iter().find(|diagnostic| diagnostic.is_error()) else {
-            return Some(result);
-        };
-        let within = inner.code == Code::E0205 || inner.code == Code::E0406;
-        let diagnostic = if within {
-            let mut diagnostic = inner.clone();
-            if library && let Some(primary) = diagnostic.labels.first_mut() {
-                primary.span = reference.span;
-            }
-            diagnostic
-        } else if library && inner.code == Code::E0202 {
-            // Only a sensor of the acting robot can be missing from a body of the library.
-            let missing = inner
-                .message
-                .split('`')
-                .nth(1)
-                .unwrap_or_default()
-                .to_owned();
-            Diagnostic::new(
-                Code::E0406,
-                reference.span,
-                format!("`{name}` needs a sensor `{missing}`"),
-            )
-            .label("the robot has no such sensor")
-            .also(inner.span(), "it is read here")
-            .help(format!(
-                "add it to the robot: `sensor {missing} = scanner(from = …, to = …, range = …)`"
-            ))
-        } else {
-            let label = inner
-                .labels
-                .first()
-                .map(|label| label.message.clone())
-                .unwrap_or_default();
-            Diagnostic::new(
-                inner.code,
-                reference.span,
-                format!("`{name}` cannot be used so: {}", inner.message),
-            )
-            .label("with these arguments, or here")
-            .also(inner.span(), label)
-        };
-        self.report(diagnostic);
-        None
-    }
-
-    /// Parameters that are known by their type only.
-    pub(super) fn unknown_parameters(&mut self, params: Option<&'a Params>) -> Vec<Binding> {
-        let mut bindings: Vec<Binding> = Vec::new();
-        for param in params.map_or(&[][..], |params| &params.params) {
-            let ty = self.type_expr(&param.ty);
-            if let Some(default) = &param.default {
-                let role = format!("`{}`", param.name.name);
-                self.expect(default, &ty, &role);
-            }
-            if let Some(first) = bindings.iter().find(|b| b.name == param.name.name) {
-                let first = first.span;
-                self.report(
-                    Diagnostic::new(
-                        Code::E0201,
-                        param.name.span,
-                        format!("two parameters are called `{}`", param.name.name),
-                    )
-                    .label("declared again here")
-                    .also(first, "first declared here"),
-                );
-            }
-            bindings.push(Binding {
-                name: param.name.name.clone(),
-                ty,
-                value: Value::Unknown,
-                locals: Vec::new(),
-                span: param.name.span,
-            });
-        }
-        bindings
-    }
-
-    /// Matches arguments to parameters: by position, by name, by default. Every mistake is reported; `None` if there
-    /// were any.
-    pub(super) fn bind_arguments(
-        &mut self,
-        params: Option<&'a Params>,
-        library: bool,
-        reference: &'a Ref,
-        default_region: Region,
-    ) -> Option<Vec<Binding>> {
-        let params: &'a [Param] = params.map_or(&[], |params| &params.params);
-        let args: &'a [Arg] = reference.args.as_deref().unwrap_or_default();
-        let mut given: Vec<Option<&'a ast::Expr>> = vec![None; params.len()];
-        let mut fine = true;
-        let mut position = 0;
-        for arg in args {
-            let (slot, value) = match &arg.kind {
-                ArgKind::Positional(value) => {
-                    position += 1;
-                    (Some(position - 1), value)
-                }
-                ArgKind::Named(name, value) => {
-                    let slot = params.iter().position(|p| p.name.name == name.name);
-                    if slot.is_none() {
-                        let known = params.iter().map(|param| param.name.name.as_str());
-                        let diagnostic = unknown(name, "parameter", known);
-                        self.report(diagnostic);
-                        fine = false;
-                        continue;
-                    }
-                    (slot, value)
-                }
-                ArgKind::Binder { .. } => {
-                    self.report(
-                        Diagnostic::new(
-                            Code::E0305,
-                            arg.span,
-                            format!("`{}` takes no `in`", reference.name.name),
-                        )
-                        .label("only any, all, count and nearest range over a kind"),
-                    );
-                    fine = false;
-                    continue;
-                }
-            };
-            match slot.and_then(|slot| given.get_mut(slot)) {
-                Some(place @ None) => *place = Some(value),
-                Some(Some(_)) => {
-                    self.report(
-                        Diagnostic::new(Code::E0305, arg.span, "this argument is given twice")
-                            .label("given a second time"),
-                    );
-                    fine = false;
-                }
-                None => {
-                    self.report(too_many(&reference.name.name, params, arg.span));
-                    self.expr(value);
-                    fine = false;
-                }
-            }
-        }
-        let mut bindings: Vec<Binding> = Vec::new();
-        for (param, given) in params.iter().zip(given) {
-            let role = format!("`{}` of `{}`", param.name.name, reference.name.name);
-            let ty = self.in_library(library, |checker| checker.type_expr(&param.ty));
-            let value = match (given, &param.default) {
-                (Some(value), _) => self.expect(value, &ty, &role),
-                (None, Some(default)) => {
-                    let outer = std::mem::replace(
-                        &mut self.context,
-                        Context {
-                            region: default_region,
-                            library,
-                            scope: bindings.clone(),
-                        },
-                    );
-                    let (value, _) = self.captured(|checker| checker.expect(default, &ty, &role));
-                    self.context = outer;
-                    value
-                }
-                (None, None) => {
-                    self.report(
-                        Diagnostic::new(
-                            Code::E0305,
-                            reference.span,
-                            format!(
-                                "`{}` needs its argument `{}`",
-                                reference.name.name, param.name.name
-                            ),
-                        )
-                        .label(format!("`{}` is not given", param.name.name))
-                        .also(param.span, "declared here"),
-                    );
-                    fine = false;
-                    continue;
-                }
-            };
-            fine &= value.ty != Type::Error;
-            bindings.push(Binding {
-                name: param.name.name.clone(),
-                ty: if ty == Type::Error { value.ty } else { ty },
-                value: value.value,
-                locals: Vec::new(),
-                span: param.name.span,
-            });
-        }
-        fine.then_some(bindings)
-    }
-
-    fn in_library<T>(&mut self, library: bool, pass: impl FnOnce(&mut Self) -> T) -> T {
-        let outer = std::mem::replace(&mut self.context.library, library);
-        let result = pass(self);
-        self.context.library = outer;
-        result
-    }
-
     /// A leaf of the pool with its type.
     pub(super) fn leaf(&mut self, expr: Expr, ty: Type, span: Span) -> Typed {
         let id = self.program.pool.leaf(expr);
@@ -453,13 +211,4 @@ impl<'a> Checker<'a> {
             span,
         }
     }
-}
-
-fn too_many(name: &str, params: &[Param], span: Span) -> Diagnostic {
-    let message = match params.len() {
-        0 => format!("`{name}` takes no arguments"),
-        1 => format!("`{name}` takes one argument"),
-        n => format!("`{name}` takes {n} arguments"),
-    };
-    Diagnostic::new(Code::E0305, span, message).label("one too many")
 }

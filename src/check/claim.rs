@@ -100,7 +100,14 @@ impl<'a> Checker<'a> {
             if (0.0..=1.0).contains(&value) {
                 Some(value)
             } else {
-                self.out_of_range(p.span, "a probability goes from 0% to 100%");
+                // That it is no `%` has been said, and is the lesser mistake.
+                self.diagnostics
+                    .retain(|said| said.code != Code::W0301 || said.span() != p.span);
+                self.out_of_range(
+                    p.span,
+                    "a probability goes from 0% to 100%",
+                    &format!("this is {} %", value * 100.0),
+                );
                 None
             }
         });
@@ -123,9 +130,12 @@ impl<'a> Checker<'a> {
             ExprKind::Error => return None,
             _ => {
                 self.report(
-                    Diagnostic::new(Code::E0203, event.span, "a claim names an event")
-                        .label("this is an expression")
-                        .help("declare it: `event NAME = …`"),
+                    Diagnostic::new(Code::E0203, event.span, "an event is needed here")
+                        .label("this is an expression without a name")
+                        .help(format!(
+                            "declare one: `event NAME = {}`",
+                            print::expr(event)
+                        )),
                 );
                 return None;
             }

@@ -91,8 +91,10 @@ pub struct Binding {
     pub ty: Type,
     /// Its value.
     pub value: Value,
-    /// The variables behind a local, which may be assigned to; two for a point.
+    /// The variables behind a local; two for a point, none where they are not known.
     pub locals: Vec<Id<Local>>,
+    /// Whether it is a local, which may be assigned to.
+    pub settable: bool,
     /// Where it is bound.
     pub span: Span,
 }

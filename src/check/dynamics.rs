@@ -3,13 +3,14 @@
 use super::Checker;
 use super::block::Home;
 use super::context::{Binding, Context, Region};
+use super::names::{Decl, TypeDecl, unknown};
 use super::types::{Type, Typed, Value};
 use super::world::spelled;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::Id;
 use crate::ir::expr::Expr;
 use crate::ir::program::{Effect, Event, State, ValueKind};
-use crate::syntax::ast::{self, Ref, Trigger};
+use crate::syntax::ast::{self, Ident, Ref, Trigger};
 
 /// The id of an event.
 pub(super) type EventId = Id<Event>;
@@ -97,9 +98,7 @@ impl<'a> Checker<'a> {
 
     fn variants(&self, name: &str) -> Vec<String> {
         match self.names.types.get(name) {
-            Some(super::names::TypeDecl::Enum(decl)) => {
-                decl.variants.iter().map(|v| spelled(&v.name)).collect()
-            }
+            Some(TypeDecl::Enum(decl)) => decl.variants.iter().map(|v| spelled(&v.name)).collect(),
             _ => Vec::new(),
         }
     }
@@ -107,9 +106,22 @@ impl<'a> Checker<'a> {
     /// A state variable as it is now.
     pub(super) fn state_value(&mut self, state: &'a ast::State, reference: &'a Ref) -> Typed {
         let span = reference.span;
+        if self.context.region == Region::World {
+            self.report(
+                Diagnostic::new(
+                    Code::E0303,
+                    span,
+                    format!("the state `{}` is no constant", reference.name.name),
+                )
+                .label("this changes as the program runs"),
+            );
+            return Typed::error(span);
+        }
         if state.params.is_some() {
-            for arg in reference.args.iter().flatten() {
-                self.stray_argument(arg);
+            let params = state.params.as_ref();
+            let bound = self.bind_arguments(params, false, reference, Region::Let);
+            if bound.is_none() {
+                return Typed::error(span);
             }
             let ty = state
                 .ty
@@ -153,7 +165,7 @@ impl<'a> Checker<'a> {
     pub(super) fn event(&mut self, event: &'a ast::Event) {
         let scope = self.unknown_parameters(event.params.as_ref());
         let mut when = None;
-        self.body_for_itself(event.name.span, Region::Event, scope, |checker| {
+        self.body_for_itself(&event.name, Region::Event, scope, |checker| {
             let role = format!("the event `{}`", event.name.name);
             when = checker.expect(&event.value, &Type::Bool, &role).scalar();
         });
@@ -172,10 +184,12 @@ impl<'a> Checker<'a> {
     /// Whether an event happens in this tick.
     pub(super) fn event_value(&mut self, event: &'a ast::Event, reference: &'a Ref) -> Typed {
         let span = reference.span;
-        for arg in reference.args.iter().flatten() {
-            self.stray_argument(arg);
-        }
         if event.params.is_some() {
+            let params = event.params.as_ref();
+            let bound = self.bind_arguments(params, false, reference, Region::Let);
+            if bound.is_none() {
+                return Typed::error(span);
+            }
             return Typed {
                 ty: Type::Bool,
                 value: Value::Unknown,
@@ -209,6 +223,22 @@ impl<'a> Checker<'a> {
             );
             return Typed::error(span);
         }
+        if self
+            .open_bodies
+            .iter()
+            .any(|open| open.at == event.name.span)
+        {
+            self.report(
+                Diagnostic::new(
+                    Code::E0205,
+                    span,
+                    format!("the event `{}` is defined by itself", reference.name.name),
+                )
+                .label("an event that waits for itself")
+                .also(event.name.span, "its definition starts here"),
+            );
+            return Typed::error(span);
+        }
         match self.events.get(event.name.name.as_str()) {
             Some(id) => self.leaf(Expr::Event(*id), Type::Bool, span),
             None => {
@@ -234,6 +264,30 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// The family behind `on name(params)`; that families are not built yet is said where it is declared.
+    fn family_of_events(&mut self, name: &Ident) {
+        let diagnostic = match self.names.value(&name.name, false) {
+            Some((Decl::Event(event), _)) if event.params.is_some() => return,
+            Some((decl, _)) => {
+                let found = match decl {
+                    Decl::Event(_) => "a single event",
+                    other => other.what(),
+                };
+                Diagnostic::new(
+                    Code::E0203,
+                    name.span,
+                    format!("`{}` is no family of events", name.name),
+                )
+                .label(format!("this is {found}"))
+            }
+            None => {
+                let events = self.names.values(|decl| matches!(decl, Decl::Event(_)));
+                unknown(name, "event", events)
+            }
+        };
+        self.report(diagnostic);
+    }
+
     /// `on event { … }`
     pub(super) fn on(&mut self, on: &'a ast::On) {
         self.context = Context::new(Region::Event);
@@ -247,19 +301,11 @@ impl<'a> Checker<'a> {
                 }
             }
             Trigger::Family { name, params } => {
-                let known = self.names.value(&name.name, false);
-                if !matches!(known, Some((super::names::Decl::Event(_), _))) {
-                    let events = self
-                        .names
-                        .values(|decl| matches!(decl, super::names::Decl::Event(_)));
-                    let diagnostic = super::names::unknown(name, "event", events);
-                    self.report(diagnostic);
-                }
+                self.family_of_events(name);
                 let scope: Vec<Binding> = self.unknown_parameters(Some(params));
                 self.context = Context::new(Region::Effect);
                 self.context.scope = scope;
                 self.block(&on.block, &Home::Effect);
-                self.not_yet(params.span, "effects of families of events");
             }
         }
         self.context.scope.clear();

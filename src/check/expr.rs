@@ -1,17 +1,32 @@
 //! Expressions: literals, operators, choices.
 
 use super::Checker;
-use super::context::{Binding, Region};
+use super::context::Binding;
 use super::types::{Type, Typed, Value};
 use super::units::{self, Dim};
-use crate::diagnostic::{Applicability, Code, Diagnostic};
+use crate::diagnostic::{Applicability, Code, Diagnostic, Label};
 use crate::ir::expr::{Binary, ExprId, Unary};
 use crate::source::Span;
 use crate::syntax::ast::{self, BinaryOp, Expr, ExprKind, Otherwise, UnaryOp};
 
+/// How many expressions may be checked within one another, those of unrolled bodies included.
+const DEEP: usize = 700;
+
 impl<'a> Checker<'a> {
     /// Checks an expression.
     pub(super) fn expr(&mut self, expr: &'a Expr) -> Typed {
+        self.depth += 1;
+        let typed = if self.depth > DEEP {
+            self.too_much(expr.span, "this stands too deep within");
+            Typed::error(expr.span)
+        } else {
+            self.expr_within(expr)
+        };
+        self.depth -= 1;
+        typed
+    }
+
+    fn expr_within(&mut self, expr: &'a Expr) -> Typed {
         let mut typed = match &expr.kind {
             ExprKind::Number(literal) => self.literal(literal, expr.span),
             ExprKind::Bool(value) => {
@@ -61,6 +76,25 @@ impl<'a> Checker<'a> {
         Typed::error(typed.span)
     }
 
+    /// Checks an expression that has to be of the type of another one.
+    pub(super) fn expect_like(&mut self, expr: &'a Expr, first: &Typed, role: &str) -> Typed {
+        let ty = first.ty.clone();
+        let before = self.diagnostics.len();
+        let typed = self.expr(expr);
+        let fits = typed.ty.fits(&ty);
+        let typed = self.coerce(typed, expr, &ty, role);
+        if !fits
+            && self.diagnostics.len() > before
+            && let Some(said) = self.diagnostics.last_mut()
+        {
+            said.labels.push(Label {
+                span: first.span,
+                message: format!("this is {ty}"),
+            });
+        }
+        typed
+    }
+
     /// Checks an expression that has to be a constant number of a dimension.
     pub(super) fn constant(&mut self, expr: &'a Expr, wanted: &Type, role: &str) -> Option<f64> {
         let typed = self.expect(expr, wanted, role);
@@ -83,9 +117,14 @@ impl<'a> Checker<'a> {
         }
         match value {
             Some(number) if !number.is_finite() => {
+                let what = if number.is_nan() {
+                    "no number at all"
+                } else {
+                    "a number without end"
+                };
                 self.report(
                     Diagnostic::new(Code::E0309, typed.span, format!("{role} is not a number"))
-                        .label(format!("this comes to {number}")),
+                        .label(format!("this comes to {what}")),
                 );
                 None
             }
@@ -118,14 +157,17 @@ impl<'a> Checker<'a> {
             // Ticks before the world has said how long they are: the type is known all the same.
             None => match units::meaning(unit, Some(1.0)) {
                 Some(meaning) => {
-                    if !self.has_world || self.context.region == Region::World {
+                    // A world says how long a tick is before it says anything else.
+                    let saying = self.has_world && self.program.world.is_none();
+                    if !self.has_world || saying {
+                        let message = if saying {
+                            "a tick is not measured in ticks"
+                        } else {
+                            "ticks are counted by a world, and there is none"
+                        };
                         self.report(
-                            Diagnostic::new(
-                                Code::E0407,
-                                unit.span,
-                                "ticks are counted by a world, and there is none here",
-                            )
-                            .label("how long is a tick?"),
+                            Diagnostic::new(Code::E0407, unit.span, message)
+                                .label("how many seconds are these?"),
                         );
                     }
                     Typed {
@@ -271,14 +313,14 @@ impl<'a> Checker<'a> {
             };
         }
         let equality = matches!(op.node, BinaryOp::Eq | BinaryOp::Ne);
-        let alike = matches!(
-            (&a.ty, &b.ty),
-            (Type::Bool, Type::Bool) | (Type::Enum(_), Type::Enum(_))
-        ) && a.ty == b.ty;
-        let operands = if equality && alike {
+        let words = matches!(a.ty, Type::Bool | Type::Enum(_)) && a.ty == b.ty;
+        let operands = if equality && words {
             Some((a, b))
-        } else {
+        } else if a.ty.dim().is_some() && b.ty.dim().is_some() {
             self.same_dimension(op, (left, a), (right, b))
+        } else {
+            self.report(incomparable(op.span, &a, &b));
+            None
         };
         let Some((a, b)) = operands else {
             return Typed {
@@ -343,6 +385,10 @@ impl<'a> Checker<'a> {
             return Typed::error(span);
         }
         if !otherwise.ty.fits(&then.ty) {
+            let what = match (then.ty.dim(), otherwise.ty.dim()) {
+                (Some(_), Some(_)) => "unit",
+                _ => "type",
+            };
             let code = match (then.ty.dim(), otherwise.ty.dim()) {
                 (Some(_), Some(_)) => Code::E0301,
                 _ => Code::E0302,
@@ -350,7 +396,7 @@ impl<'a> Checker<'a> {
             let mut diagnostic = Diagnostic::new(
                 code,
                 otherwise.span,
-                "both sides of a choice are of one type",
+                format!("both sides of a choice are of one {what}"),
             )
             .label(format!("this is {}", otherwise.ty))
             .also(then.span, format!("this is {}", then.ty));
@@ -399,11 +445,13 @@ impl<'a> Checker<'a> {
         let depth = self.context.scope.len();
         for binding in &body.bindings {
             let value = self.binding_value(binding);
+            self.binds_anew(&binding.name, "value", depth);
             self.context.scope.push(Binding {
                 name: binding.name.name.clone(),
                 ty: value.ty,
                 value: value.value,
                 locals: Vec::new(),
+                settable: false,
                 span: binding.name.span,
             });
         }
@@ -508,7 +556,11 @@ impl<'a> Checker<'a> {
                 Diagnostic::new(
                     Code::W0301,
                     expr.span,
-                    format!("`{}` stands for {0}00 %", literal.digits),
+                    format!(
+                        "`{}` stands for {} %",
+                        literal.digits,
+                        literal.value * 100.0
+                    ),
                 )
                 .label("a ratio goes from 0 to 1, or from 0% to 100%")
                 .fix(
@@ -542,6 +594,33 @@ impl<'a> Checker<'a> {
             _ => None,
         })
     }
+}
+
+/// Why two values are not compared: they are of different types, or what they are is not compared so.
+fn incomparable(op: Span, a: &Typed, b: &Typed) -> Diagnostic {
+    if a.ty != b.ty {
+        let message = format!("{} cannot be compared with {}", a.ty, b.ty);
+        return Diagnostic::new(Code::E0302, b.span, message)
+            .label(format!("this is {}", b.ty))
+            .also(a.span, format!("this is {}", a.ty));
+    }
+    let (message, label) = match a.ty {
+        Type::Bool => (
+            "truth values have no order",
+            "only `==` and `!=` compare them",
+        ),
+        Type::Enum(_) => (
+            "the values of an enum have no order",
+            "only `==` and `!=` compare them",
+        ),
+        _ => (
+            "only numbers, truth values and enums are compared",
+            "these are none of them",
+        ),
+    };
+    Diagnostic::new(Code::E0302, op, message)
+        .label(label)
+        .also(a.span, format!("this is {}", a.ty))
 }
 
 /// Whether an expression is a literal without a unit, perhaps signed.

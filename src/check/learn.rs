@@ -2,10 +2,10 @@
 
 use super::Checker;
 use super::context::{Context, Region};
-use super::names::{learned_name, unknown};
+use super::names::{learned_name, stranger, unknown};
 use super::types::Type;
 use super::units::Dim;
-use crate::diagnostic::{Applicability, Code, Diagnostic, suggest};
+use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::expr::{Binary, Expr, ExprId};
 use crate::ir::task::{Discount, Learner, Method};
 use crate::source::Span;
@@ -57,11 +57,12 @@ impl<'a> Checker<'a> {
             dwell: 0,
             start: task.map_or(Vec::new(), |task| self.program.tasks[task].start.clone()),
         };
+        let history = task.map(|task| self.program.tasks[task].history);
         let mut seen: BTreeMap<&str, Span> = BTreeMap::new();
         for entry in &learn.entries {
             match entry {
                 LearnEntry::Start(start) => {
-                    for line in self.start(start) {
+                    for line in self.start(start, history) {
                         match built.start.iter_mut().find(|old| old.replaced_by(&line)) {
                             Some(old) => *old = line,
                             None => built.start.push(line),
@@ -201,22 +202,13 @@ impl<'a> Checker<'a> {
 
     fn unknown_setting(&mut self, setting: &Setting) {
         let name = &setting.name;
-        let diagnostic = Diagnostic::new(
+        self.report(stranger(
             Code::E0501,
-            name.span,
-            format!("a learner has no setting `{}`", name.name),
-        )
-        .label("unknown");
-        let diagnostic = match suggest::nearest(&name.name, SETTINGS) {
-            Some(likely) => diagnostic.fix(
-                format!("did you mean `{likely}`?"),
-                name.span,
-                likely,
-                Applicability::Unsafe,
-            ),
-            None => diagnostic.help(format!("it has: {}", SETTINGS.join(", "))),
-        };
-        self.report(diagnostic);
+            name,
+            "a learner",
+            "setting",
+            &SETTINGS,
+        ));
     }
 
     fn method(&mut self, value: &'a ast::Expr) -> Option<Method> {
@@ -230,9 +222,13 @@ impl<'a> Checker<'a> {
         let found = METHODS.iter().find(|(name, _)| *name == word);
         if found.is_none() {
             self.report(
-                Diagnostic::new(Code::E0501, value.span, "there is no such method")
-                    .label("unknown")
-                    .help("there are: q_learning, double_q, model"),
+                Diagnostic::new(
+                    Code::E0501,
+                    value.span,
+                    "no method of learning has this name",
+                )
+                .label("unknown")
+                .help("there are: q_learning, double_q, model"),
             );
         }
         found.map(|(_, method)| *method)
@@ -244,9 +240,17 @@ impl<'a> Checker<'a> {
         if number.fract() == 0.0 && (least..=9e15).contains(&number) {
             return Some(number as u64);
         }
+        let label = if number < least {
+            "this is too small"
+        } else if number.fract() == 0.0 {
+            "this is too large"
+        } else {
+            "this is no whole number"
+        };
         self.out_of_range(
             value.span,
             &format!("{role} is a whole number from {least} up"),
+            label,
         );
         None
     }
@@ -311,7 +315,15 @@ impl<'a> Checker<'a> {
             return;
         };
         if !(0.0..=1.0).contains(&factor) {
-            self.out_of_range(setting.value.span, "a discount goes from 0 to 1");
+            self.out_of_range(
+                setting.value.span,
+                "a discount goes from 0 to 1",
+                if factor > 1.0 {
+                    "later rewards would count for more than earlier ones"
+                } else {
+                    "later rewards would count against themselves"
+                },
+            );
             return;
         }
         let per_decision = |tail: &ast::Expr| matches!(&tail.kind, ExprKind::Ref(Ref { name, args: None, .. }) if name.name == "decision");
@@ -323,7 +335,11 @@ impl<'a> Checker<'a> {
                 match self.constant(tail, &time, "the time of a discount") {
                     Some(span) if span > 0.0 => Discount::PerTime(factor, span),
                     Some(_) => {
-                        self.out_of_range(tail.span, "the time of a discount is above zero");
+                        self.out_of_range(
+                            tail.span,
+                            "the time of a discount is above zero",
+                            "no time passes in this",
+                        );
                         return;
                     }
                     None => return,

@@ -5,7 +5,7 @@
 //! bodies see the library's names first.
 
 use super::Input;
-use crate::diagnostic::{Code, Diagnostic, suggest};
+use crate::diagnostic::{Applicability, Code, Diagnostic, suggest};
 use crate::syntax::ast::{self, Ident, ItemKind, RobotEntryKind, WorldEntryKind};
 use std::collections::BTreeMap;
 
@@ -104,6 +104,9 @@ pub struct Names<'a> {
     pub learners: BTreeMap<&'a str, &'a ast::Learn>,
 }
 
+/// The words that a `start` sets besides states.
+pub const START_WORDS: [&str; 4] = ["pose", "position", "heading", "history"];
+
 /// The name of what a learner learns.
 pub fn learned_name(learn: &ast::Learn) -> &str {
     learn.name.as_ref().map_or("learned", |name| &name.name)
@@ -152,7 +155,9 @@ impl<'a> Names<'a> {
                 &mut self.user
             };
             if let Some(name) = decl.ident() {
-                if super::world::is_built_in(&name.name) {
+                let starts =
+                    matches!(decl, Decl::State(_)) && START_WORDS.contains(&name.name.as_str());
+                if super::world::is_built_in(&name.name) || starts {
                     diagnostics.push(
                         Diagnostic::new(
                             Code::E0204,
@@ -194,7 +199,11 @@ impl<'a> Names<'a> {
                         }
                         WorldEntryKind::Robot { name, entries } => {
                             declare(Decl::Robot(name));
-                            for entry in entries {
+                            // The sensors of the acting robot are in scope by name, those of others are not.
+                            let runs = entries.iter().any(|entry| {
+                                matches!(&entry.kind, RobotEntryKind::Field(field) if field.name.name == "runs")
+                            });
+                            for entry in entries.iter().filter(|_| !runs) {
                                 if let RobotEntryKind::Sensor { name, .. } = &entry.kind {
                                     declare(Decl::Sensor(name));
                                 }
@@ -280,7 +289,7 @@ fn twice(name: &Ident, first: Option<&Ident>, what: &str) -> Diagnostic {
     }
 }
 
-/// An unknown name, with the likely one offered.
+/// An unknown name, with the likely one offered; `what` is what could stand there.
 pub fn unknown<'n>(
     name: &Ident,
     what: &str,
@@ -289,16 +298,49 @@ pub fn unknown<'n>(
     let diagnostic = Diagnostic::new(
         Code::E0202,
         name.span,
-        format!("there is no {what} `{}`", name.name),
+        format!("`{}` is not declared", name.name),
     )
-    .label("not declared");
+    .label(format!("no {what} has this name"));
+    likely(diagnostic, name, candidates)
+}
+
+/// A name that `owner` does not have among its `known` ones, with the likely one offered or else all of them.
+pub fn stranger(code: Code, name: &Ident, owner: &str, what: &str, known: &[&str]) -> Diagnostic {
+    let label = match known {
+        [] => "it has none".to_owned(),
+        known => format!("it has {}", listed(known, "and")),
+    };
+    let message = format!("{owner} has no {what} `{}`", name.name);
+    let diagnostic = Diagnostic::new(code, name.span, message).label(label);
+    likely(diagnostic, name, known.iter().copied())
+}
+
+/// Offers the name that was likely meant.
+fn likely<'n>(
+    diagnostic: Diagnostic,
+    name: &Ident,
+    candidates: impl IntoIterator<Item = &'n str>,
+) -> Diagnostic {
     match suggest::nearest(&name.name, candidates) {
-        Some(likely) => diagnostic.fix(
-            format!("did you mean `{likely}`?"),
-            name.span,
-            likely.to_owned(),
-            crate::diagnostic::Applicability::Unsafe,
-        ),
+        Some(likely) => {
+            let question = format!("did you mean `{likely}`?");
+            diagnostic.label(question.clone()).fix(
+                question,
+                name.span,
+                likely.to_owned(),
+                Applicability::Unsafe,
+            )
+        }
         None => diagnostic,
+    }
+}
+
+/// Names in a sentence: `a`, `b` and `c`.
+pub fn listed(names: &[&str], word: &str) -> String {
+    let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    match quoted.as_slice() {
+        [] => String::new(),
+        [one] => one.clone(),
+        [most @ .., last] => format!("{} {word} {last}", most.join(", ")),
     }
 }

@@ -19,7 +19,7 @@ impl<'a> Checker<'a> {
             return;
         }
         let scope = self.unknown_parameters(predicate.params.as_ref());
-        self.body_for_itself(predicate.name.span, Region::Predicate, scope, |checker| {
+        self.body_for_itself(&predicate.name, Region::Predicate, scope, |checker| {
             checker.predicate_body(predicate);
         });
     }

@@ -19,8 +19,12 @@ impl<'a> Checker<'a> {
         };
         if !self.has_world {
             self.report(
-                Diagnostic::new(Code::E0407, span, "this needs a world, and there is none")
-                    .label("read by a robot in its world"),
+                Diagnostic::new(
+                    Code::E0407,
+                    reference.name.span,
+                    format!("`{}` needs a world, and there is none", reference.name.name),
+                )
+                .label("read by a robot in its world"),
             );
             return Typed::error(span);
         }
@@ -67,11 +71,13 @@ impl<'a> Checker<'a> {
     }
 
     fn read_one(&mut self, function: Function, target: &Typed) -> Option<ExprId> {
-        if matches!(target.value, Value::Robot)
-            || (function == Function::Visible
-                && matches!(target.value, Value::Wall(_) | Value::NearestWall))
-        {
-            self.not_yet(target.span, "readings of robots, and of walls in sight");
+        if matches!(target.value, Value::Robot) {
+            self.not_yet(target.span, "readings of robots");
+            return None;
+        }
+        let wall = matches!(target.value, Value::Wall(_) | Value::NearestWall);
+        if function == Function::Visible && wall {
+            self.not_yet(target.span, "readings of walls in sight");
             return None;
         }
         match function {

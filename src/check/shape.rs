@@ -118,8 +118,8 @@ impl<'a> Checker<'a> {
 
     fn senseless<T>(&mut self, span: Span, what: &str) -> Option<T> {
         self.report(
-            Diagnostic::new(Code::E0404, span, format!("this is {what}"))
-                .label("no robot could meet it"),
+            Diagnostic::new(Code::E0404, span, format!("{what} is no shape"))
+                .label("no robot could meet this"),
         );
         None
     }

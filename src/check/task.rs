@@ -2,7 +2,7 @@
 
 use super::Checker;
 use super::context::{Context, Region};
-use super::names::{Decl, unknown};
+use super::names::{Decl, START_WORDS, unknown};
 use super::types::{Type, Typed, Value};
 use super::units::Dim;
 use crate::diagnostic::{Code, Diagnostic};
@@ -18,7 +18,6 @@ use std::collections::BTreeMap;
 impl<'a> Checker<'a> {
     /// `task name { … }`
     pub(super) fn task(&mut self, task: &'a ast::Task) {
-        let errors = self.error_count();
         let zero = self.program.pool.num(0.0);
         let mut built = Task {
             name: super::world::spelled(&task.name.name),
@@ -33,6 +32,8 @@ impl<'a> Checker<'a> {
             otherwise: zero,
         };
         let mut seen: BTreeMap<&str, Span> = BTreeMap::new();
+        // A `start` may speak of the history, wherever that stands.
+        let mut starts = Vec::new();
         for aspect in &task.aspects {
             self.context = Context::new(Region::Tree);
             let word = aspect_word(&aspect.kind);
@@ -56,7 +57,7 @@ impl<'a> Checker<'a> {
                     built.history = self.history(window, outcomes);
                 }
                 AspectKind::Patience(ticks) => built.patience = self.ticks(ticks, "`patience`"),
-                AspectKind::Start(start) => built.start = self.start(start),
+                AspectKind::Start(start) => starts.push(start),
                 AspectKind::EndOn(event) => {
                     self.context = Context::new(Region::Reward);
                     let event = self.expect(event, &Type::Bool, "what an episode ends on");
@@ -70,6 +71,9 @@ impl<'a> Checker<'a> {
                 }
                 AspectKind::Error => {}
             }
+        }
+        for start in starts {
+            built.start = self.start(start, Some(built.history));
         }
         for (word, example) in [
             ("choose", "choose goto(A), goto(B)"),
@@ -99,21 +103,15 @@ impl<'a> Checker<'a> {
             );
         }
         // A task with a mistake in it is known by name, so that what refers to it is not reported as well.
-        if self.error_count() == errors || !self.names.tasks.is_empty() {
-            self.program.tasks.push(built);
-        }
-    }
-
-    /// How many errors have been reported so far.
-    fn error_count(&self) -> usize {
-        self.diagnostics.iter().filter(|d| d.is_error()).count()
+        self.program.tasks.push(built);
     }
 
     fn observed(&mut self, list: &'a [Expr]) -> Vec<Id<Predicate>> {
         let mut observed: Vec<Id<Predicate>> = Vec::new();
         for expr in list {
             let Some(reference) = plain_ref(expr) else {
-                self.not_named(expr, "a predicate", "predicate NAME = …");
+                let declaration = format!("predicate NAME = {}", print::expr(expr));
+                self.not_named(expr, "a predicate", &declaration);
                 continue;
             };
             let name = reference.name.name.as_str();
@@ -163,28 +161,32 @@ impl<'a> Checker<'a> {
             }
             None => {
                 let behaviors = self.names.values(|decl| matches!(decl, Decl::Behavior(_)));
-                let mut diagnostic = unknown(&reference.name, "behaviour", behaviors);
-                if diagnostic.fixes.is_empty() && !self.uses_library() {
-                    diagnostic = diagnostic
-                        .help("`use std` brings goto, dock, follow_wall, wander and idle");
-                }
+                let diagnostic = unknown(&reference.name, "behaviour", behaviors);
+                let diagnostic = self.perhaps_of_library(diagnostic, &reference.name.name);
                 self.report(diagnostic);
                 None
             }
         }
     }
 
-    fn uses_library(&self) -> bool {
-        self.names
+    /// Offers the library where it would bring the missing name.
+    pub(super) fn perhaps_of_library(&self, diagnostic: Diagnostic, name: &str) -> Diagnostic {
+        let used = self
+            .names
             .value("idle", true)
-            .is_some_and(|(_, library)| library)
+            .is_some_and(|(_, library)| library);
+        if !used && ["goto", "dock", "follow_wall", "wander", "idle"].contains(&name) {
+            diagnostic.help(format!("`use std` brings `{name}`"))
+        } else {
+            diagnostic
+        }
     }
 
     fn once<T: PartialEq>(&mut self, list: &mut Vec<T>, item: T, span: Span) {
         if list.contains(&item) {
             self.report(
                 Diagnostic::new(Code::E0503, span, "this is in the list already")
-                    .label("listed twice"),
+                    .label("listed a second time"),
             );
         } else {
             list.push(item);
@@ -197,21 +199,18 @@ impl<'a> Checker<'a> {
             Diagnostic::new(
                 Code::E0203,
                 reference.span,
-                format!(
-                    "{wanted} is needed here, and `{}` is {found}",
-                    reference.name.name
-                ),
+                format!("{wanted} is needed here"),
             )
-            .label(format!("this is {found}")),
+            .label(format!("`{}` is {found}", reference.name.name)),
         );
     }
 
-    fn not_named(&mut self, expr: &Expr, wanted: &str, declaration: &str) {
+    pub(super) fn not_named(&mut self, expr: &Expr, wanted: &str, declaration: &str) {
         if !matches!(expr.kind, ExprKind::Error) {
             self.report(
-                Diagnostic::new(Code::E0203, expr.span, format!("{wanted} is named here"))
-                    .label("this is an expression")
-                    .help(format!("give it a name, `{declaration}`, and list that")),
+                Diagnostic::new(Code::E0203, expr.span, format!("{wanted} is needed here"))
+                    .label("this is an expression without a name")
+                    .help(format!("declare one: `{declaration}`")),
             );
         }
     }
@@ -220,8 +219,15 @@ impl<'a> Checker<'a> {
         let length = self.constant(window, &Type::NUMBER, "the length of the history");
         let window_length = match length {
             Some(n) if n.fract() == 0.0 && (1.0..=64.0).contains(&n) => n as usize,
-            Some(_) => {
-                self.out_of_range(window.span, "a history holds 1 to 64 terminations");
+            Some(n) => {
+                let label = if n.fract() != 0.0 {
+                    "this is no whole number"
+                } else if n < 1.0 {
+                    "nothing would be remembered"
+                } else {
+                    "these are too many"
+                };
+                self.out_of_range(window.span, "a history holds 1 to 64 terminations", label);
                 0
             }
             None => 0,
@@ -242,30 +248,45 @@ impl<'a> Checker<'a> {
         if (1.0..=1e15).contains(&ticks) {
             return Some(ticks as u64);
         }
-        self.out_of_range(expr.span, "this is at least one tick");
+        let label = if seconds <= 0.0 {
+            "this takes no time"
+        } else if ticks < 1.0 {
+            "this is less than half a tick"
+        } else {
+            "this is beyond all counting"
+        };
+        self.out_of_range(expr.span, &format!("{role} is at least one tick"), label);
         None
     }
 
     /// `start { … }`
-    pub(super) fn start(&mut self, start: &'a ast::Start) -> Vec<StartLine> {
+    pub(super) fn start(
+        &mut self,
+        start: &'a ast::Start,
+        history: Option<History>,
+    ) -> Vec<StartLine> {
         self.context = Context::new(Region::Start);
+        self.kept = history;
         let mut lines: Vec<StartLine> = Vec::new();
+        let mut set: Vec<&ast::Ident> = Vec::new();
         for line in &start.lines {
             let built = self.start_line(line);
-            for new in built.into_iter().flatten() {
-                if lines.iter().any(|old| old.replaced_by(&new)) {
-                    self.report(
-                        Diagnostic::new(
-                            Code::E0503,
-                            line.span,
-                            format!("`{}` is set twice", line.target.name.name),
-                        )
-                        .label("the second line would undo the first"),
-                    );
-                }
-                lines.push(new);
+            let name = &line.target.name;
+            match set.iter().find(|first| first.name == name.name) {
+                Some(first) => self.report(
+                    Diagnostic::new(
+                        Code::E0503,
+                        name.span,
+                        format!("`{}` is set twice", name.name),
+                    )
+                    .label("this line would undo the first")
+                    .also(first.span, "first set here"),
+                ),
+                None => set.push(name),
             }
+            lines.extend(built.into_iter().flatten());
         }
+        self.kept = None;
         lines
     }
 
@@ -274,7 +295,16 @@ impl<'a> Checker<'a> {
         let name = line.target.name.name.as_str();
         match name {
             "pose" => {
-                self.expect(&line.value, &Type::Anywhere, "`pose`");
+                let value = self.expr(&line.value);
+                if !value.ty.fits(&Type::Anywhere) {
+                    self.report(
+                        Diagnostic::new(Code::E0302, value.span, "`pose` is `anywhere`")
+                            .label(format!("this is {}", value.ty))
+                            .help(
+                                "a pose of your own: `position = (1 m, 2 m)`, `heading = 90 deg`",
+                            ),
+                    );
+                }
                 return Some(vec![StartLine::Anywhere]);
             }
             "position" => {
@@ -291,7 +321,19 @@ impl<'a> Checker<'a> {
             }
             "history" => {
                 self.context.region = Region::StartHistory;
-                let value = self.expect(&line.value, &Type::Termination, "`history`");
+                let value = self.expr(&line.value);
+                if !value.ty.fits(&Type::Termination) {
+                    self.report(
+                        Diagnostic::new(
+                            Code::E0302,
+                            value.span,
+                            "`history` starts with the end of a behaviour",
+                        )
+                        .label(format!("this is {}", value.ty))
+                        .help("for example: `history = success(goto(A))`"),
+                    );
+                    return None;
+                }
                 return value.scalar().map(|id| vec![StartLine::History(id)]);
             }
             _ => {}
@@ -306,8 +348,7 @@ impl<'a> Checker<'a> {
                 .label(format!("this is {}", decl.what())),
                 None => {
                     let states = self.names.values(|decl| matches!(decl, Decl::State(_)));
-                    let poses = ["pose", "position", "heading", "history"];
-                    unknown(&line.target.name, "state", states.chain(poses))
+                    unknown(&line.target.name, "state", states.chain(START_WORDS))
                 }
             };
             self.report(diagnostic);

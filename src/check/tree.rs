@@ -2,6 +2,7 @@
 
 use super::Checker;
 use super::context::{Binding, Region};
+use super::ending::keeping;
 use super::names::{Decl, unknown};
 use super::types::{Type, Value};
 use crate::diagnostic::{Applicability, Code, Diagnostic};
@@ -11,8 +12,9 @@ use crate::ir::tree::{Atom, Composite, Decorator, Guard, Node, Tree};
 use crate::ir::{Id, law};
 use crate::source::Span;
 use crate::syntax::ast::{
-    self, Arg, ArgKind, BinaryOp, Expr, ExprKind, NodeKind, Ref, Spanned, UnaryOp, Word,
+    self, Arg, ArgKind, BinaryOp, Expr, ExprKind, NodeKind, Outcome, Ref, Spanned, UnaryOp, Word,
 };
+use crate::syntax::print;
 
 impl<'a> Checker<'a> {
     /// `tree name(params) for task = node`
@@ -32,14 +34,15 @@ impl<'a> Checker<'a> {
         };
         let scope = self.unknown_parameters(tree.params.as_ref());
         let mut root = None;
-        self.body_for_itself(tree.name.span, Region::Tree, scope, |checker| {
+        self.asked.clear();
+        self.body_for_itself(&tree.name, Region::Tree, scope, |checker| {
             root = checker.node(&tree.root);
         });
         let Some(root) = root.filter(|_| tree.params.is_none()) else {
             return;
         };
         if let Some(task) = task {
-            self.asks_kept_history(tree, task, &root);
+            self.asks_kept_history(task);
         }
         self.program.trees.push(Tree {
             name: super::world::spelled(&tree.name.name),
@@ -49,26 +52,23 @@ impl<'a> Checker<'a> {
         });
     }
 
-    /// `done(b)` and `failed(b)` ask a window that the task has to keep.
-    fn asks_kept_history(&mut self, tree: &ast::Tree, task: Id<Task>, root: &Node) {
+    /// `done(b)` and `failed(b)` ask a window that the task has to keep; one message for each outcome.
+    fn asks_kept_history(&mut self, task: Id<Task>) {
         let history = self.program.tasks[task].history;
-        let mut asked = (false, false);
-        root.visit_atoms(&mut |atom| match atom {
-            Atom::Done(_) => asked.0 = true,
-            Atom::Failed(_) => asked.1 = true,
-            Atom::Predicate(_) => {}
-        });
-        for (asked, kept, word, outcome) in [
-            (asked.0, history.success, "done", "success"),
-            (asked.1, history.failure, "failed", "failure"),
+        for (kept, asks, outcome) in [
+            (history.success, Outcome::Success, "success"),
+            (history.failure, Outcome::Failure, "failure"),
         ] {
-            if asked && !kept {
+            let asked = self.asked.iter().find(|(_, outcome)| *outcome == asks);
+            if let Some(&(span, _)) = asked
+                && !kept
+            {
                 let name = &self.program.tasks[task].name;
                 let message = format!("the task `{name}` keeps no {outcome} in its history");
                 self.report(
-                    Diagnostic::new(Code::E0607, tree.name.span, message)
-                        .label(format!("this tree asks `{word}(…)`"))
-                        .help(format!("let the task say `history last 1 {outcome}`")),
+                    Diagnostic::new(Code::E0607, span, message)
+                        .label("this could never hold")
+                        .help(format!("let the task say `{}`", keeping(history, outcome))),
                 );
             }
         }
@@ -144,7 +144,10 @@ impl<'a> Checker<'a> {
             return None;
         }
         if word.node == Word::Parallel {
-            self.one_drives(children, &built, number);
+            let at = args
+                .and_then(<[Arg]>::first)
+                .map_or(word.span, |arg| arg.span);
+            self.one_drives(children, &built, number, at);
         }
         let mut children: Vec<Node> = built.into_iter().collect::<Option<_>>()?;
         let kind = match word.node {
@@ -205,7 +208,11 @@ impl<'a> Checker<'a> {
                     if number.fract() == 0.0 && (1.0..=1e6).contains(&number) {
                         return Some(number as u64);
                     }
-                    self.out_of_range(value.span, &format!("{role} is a whole number from 1 up"));
+                    self.out_of_range(
+                        value.span,
+                        &format!("{role} is a whole number from 1 to a million"),
+                        "this is not",
+                    );
                     None
                 }
                 _ => {
@@ -242,6 +249,7 @@ impl<'a> Checker<'a> {
         children: &'a [ast::Node],
         built: &[Option<Node>],
         successes: Option<u64>,
+        at: Span,
     ) {
         let drives = |node: &Option<Node>| {
             node.as_ref().is_some_and(|node| {
@@ -266,16 +274,19 @@ impl<'a> Checker<'a> {
                     .help("a robot has one drive: use one tree for each actuator"),
             );
         }
-        if let (Some(n), Some(first)) = (successes, children.first())
+        if let Some(n) = successes
             && n > children.len() as u64
         {
             self.report(
                 Diagnostic::new(
                     Code::E0606,
-                    first.span,
-                    format!("{n} children cannot succeed: there are {}", children.len()),
+                    at,
+                    format!(
+                        "so many children cannot succeed: there are {}",
+                        children.len()
+                    ),
                 )
-                .label("too few children"),
+                .label("more than there are"),
             );
         }
     }
@@ -312,14 +323,9 @@ impl<'a> Checker<'a> {
                     let nodes = self.names.values(|decl| {
                         matches!(decl, Decl::Behavior(_) | Decl::Tree(_) | Decl::Predicate(_))
                     });
-                    let mut diagnostic =
+                    let diagnostic =
                         unknown(&reference.name, "behaviour, subtree or predicate", nodes);
-                    if diagnostic.fixes.is_empty()
-                        && self.names.value("idle", true).is_none()
-                        && matches!(name, "goto" | "dock" | "follow_wall" | "wander" | "idle")
-                    {
-                        diagnostic = diagnostic.help(format!("`use std` brings `{name}`"));
-                    }
+                    let diagnostic = self.perhaps_of_library(diagnostic, name);
                     self.report(diagnostic);
                     return None;
                 }
@@ -364,7 +370,7 @@ impl<'a> Checker<'a> {
                         .label("this comparison has none")
                         .help(format!(
                             "give it one: `predicate NAME = {}`",
-                            crate::syntax::print::expr(expr)
+                            print::expr(expr)
                         )),
                 );
                 None
@@ -396,6 +402,12 @@ impl<'a> Checker<'a> {
                 return None;
             };
             let id = self.behavior_ref(behavior)?;
+            let outcome = if name == "done" {
+                Outcome::Success
+            } else {
+                Outcome::Failure
+            };
+            self.asked.push((reference.span, outcome));
             return Some(if name == "done" {
                 Atom::Done(id)
             } else {
@@ -414,7 +426,15 @@ impl<'a> Checker<'a> {
                         "a guard asks predicates by name",
                     )
                     .label(format!("`{name}` is {}", decl.what()))
-                    .help(format!("give it one: `predicate NAME = {name}`")),
+                    .help(match decl {
+                        Decl::Behavior(_) | Decl::Tree(_) => {
+                            "nodes that follow each other: `sequence { …, … }`".to_owned()
+                        }
+                        Decl::Event(_) => {
+                            "remember it in a state, and ask that by a predicate".to_owned()
+                        }
+                        _ => named(reference),
+                    }),
                 );
                 None
             }
@@ -426,7 +446,7 @@ impl<'a> Checker<'a> {
                         "a guard asks predicates by name",
                     )
                     .label(format!("`{name}` is built in"))
-                    .help(format!("give it one: `predicate NAME = {name}…`")),
+                    .help(named(reference)),
                 );
                 None
             }
@@ -438,6 +458,15 @@ impl<'a> Checker<'a> {
             }
         }
     }
+}
+
+/// How a predicate gives what is asked a name.
+fn named(reference: &Ref) -> String {
+    let asked = Expr {
+        kind: ExprKind::Ref(reference.clone()),
+        span: reference.span,
+    };
+    format!("give it a name: `predicate NAME = {}`", print::expr(&asked))
 }
 
 /// A conjunction or a disjunction, kept flat.

@@ -59,33 +59,39 @@ impl Dim {
 
     /// A unit of this dimension as the language writes it, if it can: a numerator of one factor is needed.
     pub fn unit(self) -> Option<String> {
+        let one_above = [self.length, self.angle, self.time]
+            .iter()
+            .filter(|&&exponent| exponent > 0)
+            .count()
+            == 1;
+        (self == Self::FREQUENCY || one_above).then(|| self.in_si())
+    }
+
+    /// The dimension in SI units, as a person reads it: `rad·s/m^2`, `1/m`.
+    fn in_si(self) -> String {
+        if self == Self::FREQUENCY {
+            return "Hz".to_owned();
+        }
         let factors = [("m", self.length), ("rad", self.angle), ("s", self.time)];
         let power = |(name, exponent): (&str, i32)| match exponent.abs() {
             1 => name.to_owned(),
             n => format!("{name}^{n}"),
         };
-        if self == Self::FREQUENCY {
-            return Some("Hz".to_owned());
+        let chosen = |above: bool| {
+            let side = factors
+                .into_iter()
+                .filter(move |&(_, e)| e != 0 && (e > 0) == above);
+            side.map(power).collect::<Vec<_>>()
+        };
+        let mut text = match chosen(true).as_slice() {
+            [] => "1".to_owned(),
+            above => above.join("·"),
+        };
+        for factor in chosen(false) {
+            text.push('/');
+            text.push_str(&factor);
         }
-        let above: Vec<String> = factors
-            .into_iter()
-            .filter(|&(_, e)| e > 0)
-            .map(power)
-            .collect();
-        let below: Vec<String> = factors
-            .into_iter()
-            .filter(|&(_, e)| e < 0)
-            .map(power)
-            .collect();
-        match above.as_slice() {
-            [one] => Some(
-                std::iter::once(one.clone())
-                    .chain(below)
-                    .collect::<Vec<_>>()
-                    .join("/"),
-            ),
-            _ => None,
-        }
+        text
     }
 }
 
@@ -102,14 +108,9 @@ impl fmt::Display for Dim {
             Dim::FREQUENCY => Some("a frequency"),
             _ => None,
         };
-        match (named, self.unit()) {
-            (Some(name), Some(unit)) => write!(f, "{name} ({unit})"),
-            (None, Some(unit)) => write!(f, "a quantity in {unit}"),
-            _ => write!(
-                f,
-                "a quantity of length^{} time^{} angle^{}",
-                self.length, self.time, self.angle
-            ),
+        match named {
+            Some(name) => write!(f, "{name} ({})", self.in_si()),
+            None => write!(f, "a quantity in {}", self.in_si()),
         }
     }
 }

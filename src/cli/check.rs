@@ -3,7 +3,7 @@
 use super::report::Reporter;
 use super::{Failure, files};
 use crate::diagnostic::{Diagnostic, render};
-use crate::driver::load;
+use crate::driver::{check, load};
 use clap::{Args, ValueEnum};
 
 #[derive(Debug, Args)]
@@ -34,7 +34,8 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
             fine = false;
             continue;
         };
-        let loaded = load::load(&name, bytes, &mut files::Disk);
+        let mut loaded = load::load(&name, bytes, &mut files::Disk);
+        loaded.diagnostics.extend(check::worlds(&loaded));
         let wrong = |d: &Diagnostic| d.is_error() || arguments.deny_warnings;
         let clean = !loaded.diagnostics.iter().any(wrong);
         fine &= clean;

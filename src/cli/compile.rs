@@ -33,6 +33,8 @@ enum Emit {
     Dot,
     /// JSON.
     Json,
+    /// A picture.
+    Svg,
 }
 
 pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {
@@ -46,6 +48,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
                 Emit::Bt => Form::Bt,
                 Emit::Dot => Form::Dot,
                 Emit::Json => Form::Json,
+                Emit::Svg => Form::Svg,
             };
             compile::emit(&loaded, form, arguments.tree.as_deref())
                 .map_err(|mistake| say.one(&loaded.sources, mistake))?

@@ -1,5 +1,6 @@
 //! `btc explain`
 
+use super::report::tell;
 use super::{Failure, files};
 use crate::diagnostic::Code;
 use crate::driver::explain;
@@ -22,7 +23,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         Ok(text) => files::print(text),
         Err(likely) => {
             let hint = likely.map_or(String::new(), |likely| format!("; did you mean {likely}?"));
-            eprintln!("error: there is no code `{code}`{hint}");
+            tell(&format!("error: there is no code `{code}`{hint}"));
             Err(Failure::Usage)
         }
     }

@@ -1,7 +1,7 @@
 //! Reading programs, writing results.
 
 use super::Failure;
-use super::report::Reporter;
+use super::report::{Reporter, tell};
 use crate::driver::load::{self, Loaded, Reader};
 use std::io::{self, Read, Write};
 use std::path::{Component, Path, PathBuf};
@@ -35,7 +35,7 @@ pub(super) fn read(path: &str) -> Result<(String, Vec<u8>), Failure> {
 
 /// A mistake that has no place in a text.
 pub(super) fn complain(message: &str) -> Failure {
-    eprintln!("error: {message}");
+    tell(&format!("error: {message}"));
     Failure::Input
 }
 
@@ -51,9 +51,15 @@ pub(super) fn load(path: &str, say: &Reporter) -> Result<Loaded, Failure> {
     Ok(loaded)
 }
 
-/// Writes a whole file or nothing: to a temporary name beside it, synced and renamed.
+/// Writes a whole file or nothing: to a temporary name beside it, synced and renamed. A file that was there keeps its
+/// permissions, a link goes on to lead to it, and what is no file (a device, a pipe) is written to as it is.
 pub(super) fn write(path: &Path, text: &str) -> Result<(), Failure> {
     let attempt = || -> io::Result<()> {
+        let path = &path.canonicalize().unwrap_or_else(|_| path.to_owned());
+        let old = std::fs::metadata(path).ok();
+        if old.as_ref().is_some_and(|old| !old.is_file()) {
+            return std::fs::write(path, text);
+        }
         let folder = path
             .parent()
             .filter(|parent| !parent.as_os_str().is_empty());
@@ -65,6 +71,9 @@ pub(super) fn write(path: &Path, text: &str) -> Result<(), Failure> {
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
         let mut file = builder.tempfile_in(folder)?;
         file.write_all(text.as_bytes())?;
+        if let Some(old) = old {
+            file.as_file().set_permissions(old.permissions())?;
+        }
         file.as_file().sync_all()?;
         file.persist(path).map_err(|error| error.error)?;
         Ok(())

@@ -2,7 +2,7 @@
 
 use super::Failure;
 use super::files::{self, STDIN};
-use super::report::Reporter;
+use super::report::{Reporter, tell};
 use crate::driver::format;
 use clap::Args;
 use std::path::Path;
@@ -36,7 +36,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
         let changed = text.as_bytes() != bytes;
         if arguments.check {
             if changed {
-                eprintln!("{name} is not laid out");
+                tell(&format!("{name} is not laid out"));
                 fine = false;
             }
         } else if path == STDIN {

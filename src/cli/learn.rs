@@ -3,7 +3,7 @@
 use super::Failure;
 use super::files::{self, STDIN};
 use super::progress::Progress;
-use super::report::Reporter;
+use super::report::{Reporter, tell};
 use crate::driver::learn::{self, Options};
 use crate::driver::verify;
 use crate::tree::decanonicalise::{Care, Method};
@@ -64,7 +64,7 @@ enum CareSet {
 
 pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {
     if arguments.file == STDIN {
-        eprintln!("error: a program is learned from its file, so that the result can use it");
+        tell("error: a program is learned from its file, so that the result can use it");
         return Err(Failure::Usage);
     }
     let loaded = files::load(&arguments.file, say)?;
@@ -78,6 +78,11 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     std::fs::create_dir_all(&folder)
         .map_err(|error| files::complain(&format!("{}: {error}", folder.display())))?;
     let source = files::from_folder(&folder, Path::new(&arguments.file))?;
+    if source == "learned.bt" {
+        let message =
+            "is the program itself, and would be overwritten; name another folder with `-o`";
+        return Err(files::complain(&format!("{}: {message}", arguments.file)));
+    }
     let options = Options {
         learner: arguments.learner.as_deref(),
         seed: arguments.seed,
@@ -107,14 +112,14 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     }
     files::print(&learned.tree)?;
     for line in &learned.report {
-        eprintln!("{line}");
+        tell(line);
     }
     let claims = verify::claims_of_learned(&loaded, &learned)
         .map_err(|mistakes| say.several(&loaded.sources, &mistakes))?;
     for claim in &claims {
-        eprintln!("{}", claim.text);
+        tell(&claim.text);
     }
-    eprintln!("written to {}", folder.display());
+    tell(&format!("written to {}", folder.display()));
     if claims.iter().all(|claim| claim.holds) {
         Ok(())
     } else {

@@ -4,7 +4,7 @@ use super::Failure;
 use crate::diagnostic::{Diagnostic, render};
 use crate::source::Sources;
 use clap::ValueEnum;
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 
 /// When to colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -15,6 +15,11 @@ pub(super) enum Color {
     Always,
     /// Never.
     Never,
+}
+
+/// Writes a line to standard error. Nobody may be left to read it: the result matters, not the report.
+pub(super) fn tell(line: &str) {
+    let _ = writeln!(std::io::stderr().lock(), "{line}");
 }
 
 /// Says what there is to say.
@@ -38,7 +43,8 @@ impl Reporter {
 
     /// Every diagnostic, for a person.
     pub(super) fn all(&self, sources: &Sources, diagnostics: &[Diagnostic]) {
-        eprint!("{}", render::human(sources, diagnostics, self.color));
+        let text = render::human(sources, diagnostics, self.color);
+        let _ = write!(std::io::stderr().lock(), "{text}");
     }
 
     /// One diagnostic that ends the command.
@@ -66,7 +72,7 @@ impl Reporter {
             .flatten()
             .collect();
         if !parts.is_empty() {
-            eprintln!("{}", parts.join(", "));
+            tell(&parts.join(", "));
         }
     }
 }

@@ -3,8 +3,9 @@
 use super::report::Reporter;
 use super::{Failure, files};
 use crate::driver::run::{self, Subject};
-use crate::driver::{load, table, target};
+use crate::driver::{load, picture, table, target};
 use clap::{Args, ValueEnum};
+use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 #[command(group = clap::ArgGroup::new("subject").required(true).args(["tree", "policy"]))]
@@ -26,6 +27,12 @@ pub(super) struct Arguments {
     /// How to write the figures.
     #[arg(long, value_name = "FORM", default_value = "human")]
     format: Format,
+    /// Draw the world with the way of the robot in the first episode, as SVG.
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// How many ticks of it to draw.
+    #[arg(long, value_name = "N", default_value_t = 2_000, requires = "svg")]
+    svg_ticks: u64,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -63,6 +70,11 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     };
     let ran = run::run(&loaded, subject, arguments.episodes, arguments.seed)
         .map_err(|mistake| say.one(&loaded.sources, mistake))?;
+    if let Some(path) = &arguments.svg {
+        let picture = picture::draw(&loaded, subject, arguments.seed, arguments.svg_ticks)
+            .map_err(|mistake| say.one(&loaded.sources, mistake))?;
+        files::write(path, &picture)?;
+    }
     match arguments.format {
         Format::Human => files::print(&ran.human()),
         Format::Json => files::print(&format!("{:#}\n", ran.json())),

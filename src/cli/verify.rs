@@ -1,6 +1,6 @@
 //! `btc verify`
 
-use super::report::Reporter;
+use super::report::{Reporter, tell};
 use super::{Failure, files};
 use crate::driver::verify;
 use clap::Args;
@@ -20,7 +20,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
         [] => verify::claims(&loaded),
         [left, right] => verify::trees(&loaded, left, right).map(|result| vec![result]),
         _ => {
-            eprintln!("error: one tree cannot be compared: name two, or none to prove the claims");
+            tell("error: one tree cannot be compared: name two, or none to prove the claims");
             return Err(Failure::Usage);
         }
     };

@@ -78,6 +78,7 @@ codes! {
     E0206 "used before it is declared",
     E0207 "declared only",
     E0208 "a file that cannot be read",
+    E0209 "definitions within definitions without end",
 
     E0301 "units do not match",
     E0302 "types do not match",
@@ -121,6 +122,7 @@ codes! {
 
     E0701 "not built yet",
 
+    W0201 "a name that nothing reads",
     W0301 "a plain number for a ratio",
 
     W0501 "a setting without effect",

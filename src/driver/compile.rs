@@ -22,6 +22,8 @@ pub enum Form {
     Dot,
     /// JSON.
     Json,
+    /// A picture of a tree.
+    Svg,
 }
 
 /// Writes a program, or one of its trees, in a form.
@@ -47,6 +49,10 @@ pub fn emit(loaded: &Loaded, form: Form, tree: Option<&str>) -> Result<String, D
             let tree = &program.trees[one_tree(loaded, named)?];
             emit::dot::tree(&tree.name, &tree.root, program)
         }
+        (Form::Svg, named) => {
+            let tree = &program.trees[one_tree(loaded, named)?];
+            emit::svg::tree::tree(&tree.name, &tree.root, program)
+        }
         (Form::Json, named) => emit::json::program(program, named),
     })
 }
@@ -69,7 +75,10 @@ fn one_tree(loaded: &Loaded, named: Option<Id<Tree>>) -> Result<Id<Tree>, Diagno
                     names => format!("the program has several trees: {}", names.join(", ")),
                 },
             )
-            .label("say which one with `--tree NAME`"))
+            .label(match names.as_slice() {
+                [] => "`tree NAME = …` is missing",
+                _ => "say which one with `--tree NAME`",
+            }))
         }
     }
 }
@@ -118,7 +127,10 @@ pub fn summary(loaded: &Loaded) -> String {
             ),
         );
     }
-    let list = |names: Vec<&str>| format!("{}: {}", names.len(), names.join(", "));
+    let list = |names: Vec<&str>| match names.len() {
+        0 => "none".to_owned(),
+        n => format!("{n}: {}", names.join(", ")),
+    };
     line(
         "predicates",
         list(

@@ -2,6 +2,7 @@
 
 mod agreed;
 mod bench;
+mod drawn;
 mod elect;
 mod metrics;
 mod report;

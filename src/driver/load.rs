@@ -58,6 +58,7 @@ pub fn load(name: &str, text: Vec<u8>, reader: &mut dyn Reader) -> Loaded {
         tables: Vec::new(),
         diagnostics: Vec::new(),
         depth: 0,
+        incomplete: false,
     };
     let main = loader.file(name, text, false);
     let inputs: Vec<Input> = loader
@@ -70,7 +71,10 @@ pub fn load(name: &str, text: Vec<u8>, reader: &mut dyn Reader) -> Loaded {
         .collect();
     let checked = check::check(&inputs);
     let mut diagnostics = loader.diagnostics;
-    diagnostics.extend(checked.diagnostics);
+    // What is not declared may be declared in the file that is missing.
+    let elsewhere = |found: &Diagnostic| matches!(found.code, Code::E0202 | Code::E0407);
+    let found = checked.diagnostics.into_iter();
+    diagnostics.extend(found.filter(|found| !(loader.incomplete && elsewhere(found))));
     diagnostic::sort(&mut diagnostics);
     let user = loader.parsed.iter().filter(|parsed| !parsed.library);
     let files = user.map(|parsed| parsed.file).collect();
@@ -122,11 +126,13 @@ struct Loader<'r> {
     tables: Vec<(FileId, Span)>,
     diagnostics: Vec<Diagnostic>,
     depth: usize,
+    /// Whether a program that is used cannot be read.
+    incomplete: bool,
 }
 
 impl Loader<'_> {
     fn file(&mut self, name: &str, bytes: Vec<u8>, library: bool) -> FileId {
-        self.known.push(name.to_owned());
+        self.known.push(beside("", name));
         let (file, mistake) = decode(&mut self.sources, name, bytes);
         let broken = mistake.is_some();
         self.diagnostics.extend(mistake);
@@ -172,22 +178,23 @@ impl Loader<'_> {
             Ok(bytes) => {
                 self.file(&resolved, bytes, false);
             }
-            Err(why) => self.diagnostics.push(
-                Diagnostic::new(Code::E0208, span, format!("`{path}` cannot be read"))
-                    .label(why)
-                    .note(format!("looked for at {resolved}")),
-            ),
+            Err(why) => {
+                self.incomplete |= !table;
+                self.diagnostics.push(
+                    Diagnostic::new(Code::E0208, span, format!("`{path}` cannot be read"))
+                        .label(why)
+                        .note(format!("looked for at {resolved}")),
+                );
+            }
         }
     }
 }
 
 /// The path of a file that `from` names: relative to the folder of `from`, `.` and `..` taken out where they can be.
 pub fn beside(from: &str, path: &str) -> String {
-    if path.starts_with('/') {
-        return path.to_owned();
-    }
+    let from = if path.starts_with('/') { "/" } else { from };
     let folder = from.rsplit_once('/').map_or("", |(folder, _)| folder);
-    let rooted = folder.is_empty() && from.starts_with('/') || folder.starts_with('/');
+    let rooted = from.starts_with('/');
     let mut parts: Vec<&str> = Vec::new();
     for part in folder.split('/').chain(path.split('/')) {
         match part {

@@ -1,10 +1,12 @@
 //! What each command does, as functions from text to results: nothing is printed, no file is touched.
 
+pub mod check;
 pub mod compile;
 pub mod explain;
 pub mod format;
 pub mod learn;
 pub mod load;
+pub mod picture;
 pub mod run;
 pub mod table;
 pub mod target;

@@ -89,6 +89,19 @@ pub(super) fn play_tree(
     episodes: u64,
     start: Start,
 ) -> Result<Vec<Episode>, Diagnostic> {
+    let (simulator, runner) = ready(loaded, task, root)?;
+    let patience = loaded.program.tasks[task].patience;
+    Ok(play_all(episodes, start, patience, || {
+        (simulator.simulation(), Ticked(runner.clone()))
+    }))
+}
+
+/// The world of a task and a tree that runs in it.
+pub(super) fn ready(
+    loaded: &Loaded,
+    task: Id<Task>,
+    root: &Node,
+) -> Result<(Simulator, Runner), Diagnostic> {
     let mut asked = BTreeSet::new();
     root.visit_atoms(&mut |atom| {
         asked.insert(atom);
@@ -98,10 +111,7 @@ pub(super) fn play_tree(
     can_run(loaded, root)?;
     let runner = Runner::new(root, simulator.atoms())
         .map_err(|atom| internal(loaded, &loaded.program.atom_name(atom)))?;
-    let patience = loaded.program.tasks[task].patience;
-    Ok(play_all(episodes, start, patience, || {
-        (simulator.simulation(), Ticked(runner.clone()))
-    }))
+    Ok((simulator, runner))
 }
 
 /// A tree as a controller.
@@ -114,10 +124,15 @@ impl Controller for Ticked {
     }
 
     fn tick(&mut self, simulation: &mut Simulation) {
-        let atoms = simulation.atoms();
-        let words = [atoms as u64, (atoms >> 64) as u64];
+        let words = words(simulation);
         self.0.tick(&words, |behavior| simulation.act(behavior));
     }
+}
+
+/// The atoms as a tree reads them.
+pub(super) fn words(simulation: &Simulation) -> [u64; 2] {
+    let atoms = simulation.atoms();
+    [atoms as u64, (atoms >> 64) as u64]
 }
 
 /// The world of a task, from the task's own starts.

@@ -90,7 +90,10 @@ fn only<T>(
                 names.join(", ")
             ),
         )
-        .label("say which one is meant")),
+        .label(match word {
+            "learn" => "say which one with `--learner NAME`",
+            _ => "a tree says which one is meant: `tree NAME for TASK = …`",
+        })),
     }
 }
 

@@ -174,12 +174,21 @@ fn event_claim(
     } else {
         failed > 0
     };
-    let verdict = if refuted { "refuted" } else { "not refuted" };
+    let (verdict, bound) = if refuted {
+        (
+            "refuted",
+            format!("above {:.2} %", 100.0 * lower95(failed, EPISODES)),
+        )
+    } else {
+        (
+            "not refuted",
+            format!("below {:.2} %", 100.0 * upper95(failed, EPISODES)),
+        )
+    };
     Ok(Proved {
         holds: !refuted,
         text: format!(
-            "{text}: {verdict} in {EPISODES} episodes; it fails in {failed} of them, a rate below {:.2} % at 95 %",
-            100.0 * upper95(failed, EPISODES)
+            "{text}: {verdict} in {EPISODES} episodes; it fails in {failed} of them, a rate {bound} at 95 %"
         ),
     })
 }
@@ -299,14 +308,22 @@ impl Pair<'_> {
             "different: `{left}` and `{right}` part after {} ticks {environment}",
             trace.steps.len()
         )];
-        for (i, step) in trace.steps.iter().enumerate() {
+        let mut first = 1;
+        for alike in trace.steps.chunk_by(|a, b| a == b) {
+            let Some(step) = alike.first() else { continue };
+            let last = first + alike.len() - 1;
+            let ticks = if first == last {
+                format!("tick {first:<3}")
+            } else {
+                format!("ticks {first} to {last}")
+            };
             lines.push(format!(
-                "  tick {:<3} {}: both select {}, which answers {}",
-                i + 1,
+                "  {ticks} {}: both select {}, which answers {}",
                 held(&step.valuation),
                 name(&step.behavior),
                 step.status.name()
             ));
+            first = last + 1;
         }
         lines.push(format!(
             "  tick {:<3} {}: `{left}` selects {}, `{right}` selects {}",

@@ -60,14 +60,21 @@ impl Layout<'_> {
             self.copy(length);
             return;
         }
-        self.copy(1);
-        self.skip_blank();
-        self.line(depth + 1);
         let closing = match opening {
             '{' => '}',
             '[' => ']',
             _ => ')',
         };
+        let alone = is_alone(whole);
+        self.copy(1);
+        if alone {
+            // What wraps one thing takes no line and no indentation of its own.
+            self.group(depth, Some(closing));
+            self.copy(1);
+            return;
+        }
+        self.skip_blank();
+        self.line(depth + 1);
         self.group(depth + 1, Some(closing));
         let kept = self.text.trim_end().len();
         self.text.truncate(kept);
@@ -114,6 +121,26 @@ fn matching(text: &str) -> usize {
         }
     }
     text.len()
+}
+
+/// Whether a group in brackets holds one thing only.
+fn is_alone(group: &str) -> bool {
+    let mut depth = 0_usize;
+    let mut at = 0;
+    while let Some(next) = group.get(at..).and_then(|rest| rest.chars().next()) {
+        match next {
+            '{' | '[' | '(' => depth += 1,
+            '}' | ']' | ')' => depth = depth.saturating_sub(1),
+            ',' if depth == 1 => return false,
+            '"' => {
+                at += quoted(group.get(at..).unwrap_or_default());
+                continue;
+            }
+            _ => {}
+        }
+        at += next.len_utf8();
+    }
+    true
 }
 
 /// The length of the string literal that a text begins with.

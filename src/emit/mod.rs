@@ -5,3 +5,4 @@ pub mod bt;
 pub mod dot;
 pub mod ir;
 pub mod json;
+pub mod svg;

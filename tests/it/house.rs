@@ -19,7 +19,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("policy", &["ir"]),
     ("learn", &["ir", "world", "policy", "math", "random"]),
     ("tree", &["ir", "policy", "logic"]),
-    ("emit", &["ir", "tree", "source", "syntax"]),
+    ("emit", &["ir", "tree", "source", "syntax", "math"]),
     (
         "driver",
         &[

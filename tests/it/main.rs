@@ -7,10 +7,19 @@
     reason = "a test that meets the unexpected has failed"
 )]
 
+mod check;
+mod cli;
+mod examples;
+mod explain;
 mod house;
 mod learn;
+mod learning;
 mod naive;
+mod program;
+mod reference;
+mod robust;
 mod snapshot;
+mod svg;
 mod syntax;
 mod syntax_print;
 mod syntax_total;

@@ -89,6 +89,9 @@ fn offered(sources: &Sources, fix: &Fix, said: &str) -> String {
         })
         .collect();
     let edits = edits.join(", ");
+    if fix.title.ends_with('?') {
+        return format!("help: {}", fix.title);
+    }
     if fix.title == said || fix.title.starts_with("write `") || fix.title.starts_with("drop ") {
         format!("help: {edits}")
     } else {

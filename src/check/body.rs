@@ -1,0 +1,152 @@
+//! Bodies: checked once for themselves, and once more wherever they are used.
+
+use super::Checker;
+use super::context::{Binding, Context, Region};
+use crate::diagnostic::{Code, Diagnostic, Label};
+use crate::source::Span;
+use crate::syntax::ast::{Ident, Ref};
+
+/// How many bodies may be checked within one another.
+const DEEP: usize = 48;
+
+/// How many bodies a program may unroll altogether.
+const MANY: usize = 200_000;
+
+/// A body that is being checked.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Open<'a> {
+    /// Where its name is declared.
+    pub(super) at: Span,
+    /// The name, as it is used.
+    pub(super) name: &'a str,
+    /// Whether it is of the library.
+    pub(super) library: bool,
+}
+
+impl<'a> Checker<'a> {
+    /// Checks a body with its parameters known by type only, and remembers whether it is free of mistakes.
+    pub(super) fn body_for_itself(
+        &mut self,
+        body: &'a Ident,
+        region: Region,
+        scope: Vec<Binding>,
+        pass: impl FnOnce(&mut Self),
+    ) {
+        // What is deeper is reported where it is unrolled.
+        if self.open_bodies.len() > DEEP {
+            return;
+        }
+        self.clean_bodies.insert(body.span, true);
+        let context = Context {
+            region,
+            library: false,
+            scope,
+        };
+        let ((), found) = self.within(body.span, &body.name, context, pass);
+        let clean = !found.iter().any(Diagnostic::is_error);
+        self.clean_bodies.insert(body.span, clean);
+        self.diagnostics.extend(found);
+    }
+
+    /// Checks a body again under arguments. Mistakes that only these make are reported where they are given; `None`
+    /// where there were any.
+    pub(super) fn unrolled<T>(
+        &mut self,
+        body: Span,
+        reference: &'a Ref,
+        library: bool,
+        region: Region,
+        scope: Vec<Binding>,
+        pass: impl FnOnce(&mut Self) -> T,
+    ) -> Option<T> {
+        let name = reference.name.name.as_str();
+        if self.open_bodies.iter().any(|open| open.at == body) {
+            self.report(
+                Diagnostic::new(
+                    Code::E0205,
+                    reference.name.span,
+                    format!("`{name}` is defined by itself"),
+                )
+                .label("this use closes the circle")
+                .also(body, "its definition starts here"),
+            );
+            return None;
+        }
+        if self.clean_bodies.get(&body) == Some(&false) {
+            return None;
+        }
+        self.bodies_unrolled += 1;
+        if self.open_bodies.len() > DEEP || self.bodies_unrolled > MANY {
+            self.too_much(reference.name.span, "this use goes too far");
+            return None;
+        }
+        let context = Context {
+            region,
+            library,
+            scope,
+        };
+        let (result, found) = self.within(body, name, context, pass);
+        let mut told: Vec<(Code, String)> = Vec::new();
+        for inner in found.into_iter().filter(Diagnostic::is_error) {
+            let what = (inner.code, inner.message.clone());
+            if !told.contains(&what) {
+                told.push(what);
+                self.report(used_so(inner, reference, library));
+            }
+        }
+        told.is_empty().then_some(result)
+    }
+
+    /// Runs a pass over a body in a context of its own, and takes back what it reported.
+    fn within<T>(
+        &mut self,
+        at: Span,
+        name: &'a str,
+        context: Context,
+        pass: impl FnOnce(&mut Self) -> T,
+    ) -> (T, Vec<Diagnostic>) {
+        let library = context.library;
+        let outer = std::mem::replace(&mut self.context, context);
+        self.open_bodies.push(Open { at, name, library });
+        let result = self.captured(pass);
+        self.open_bodies.pop();
+        self.context = outer;
+        result
+    }
+
+    /// Reports, once, that definitions within definitions do not come to an end.
+    pub(super) fn too_much(&mut self, span: Span, label: &str) {
+        if std::mem::replace(&mut self.gave_up, true) {
+            return;
+        }
+        self.report(
+            Diagnostic::new(
+                Code::E0209,
+                span,
+                "the definitions within definitions grow too large",
+            )
+            .label(label)
+            .note(format!(
+                "at most {DEEP} may stand within one another, and {MANY} uses in all"
+            )),
+        );
+    }
+}
+
+/// A mistake that a body makes under the arguments of a use, with the way to it.
+fn used_so(mut inner: Diagnostic, reference: &Ref, library: bool) -> Diagnostic {
+    let name = &reference.name.name;
+    match inner.code {
+        // These are mistakes of the text that they stand in, whoever uses it.
+        Code::E0205 | Code::E0209 if !library => inner,
+        _ => {
+            let label = Label {
+                span: reference.span,
+                message: format!("in this use of `{name}`"),
+            };
+            inner.labels.insert(0, label);
+            inner.fixes.clear();
+            inner
+        }
+    }
+}

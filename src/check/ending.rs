@@ -1,0 +1,106 @@
+//! How behaviours end: what events ask and what a history starts with.
+
+use super::Checker;
+use super::builtin::Function;
+use super::context::Region;
+use super::types::{Type, Typed, Value};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::ir::expr::Expr;
+use crate::ir::task::History;
+use crate::ir::tree::Status;
+use crate::syntax::ast::Ref;
+
+impl<'a> Checker<'a> {
+    /// A history that starts with what it does not keep would be forgotten at once.
+    fn kept_in_history(&mut self, function: Function, reference: &Ref) {
+        let Some(history) = self
+            .kept
+            .filter(|_| self.context.region == Region::StartHistory)
+        else {
+            return;
+        };
+        let kept = match function {
+            Function::Failure => history.failure,
+            _ => history.success,
+        };
+        if !kept {
+            let outcome = function.name();
+            self.report(
+                Diagnostic::new(
+                    Code::E0607,
+                    reference.name.span,
+                    format!("the history of the task keeps no {outcome}"),
+                )
+                .label("so it cannot start with one")
+                .help(format!("let the task say `{}`", keeping(history, outcome))),
+            );
+        }
+    }
+
+    /// `success(b)`, `failure(b)`: the behaviour ended so in this tick; in a `history` line, that it did.
+    pub(super) fn ended(&mut self, function: Function, reference: &'a Ref) -> Typed {
+        let span = reference.span;
+        let Some(&[value]) = self.positional(reference, 1, 1).as_deref() else {
+            return Typed::error(span);
+        };
+        let region = self.context.region;
+        if matches!(function, Function::Done | Function::Failed) {
+            return self.out_of_scope(
+                function.name(),
+                reference.name.span,
+                "the history window is asked in the guards of trees",
+            );
+        }
+        if !region.sees_events() && !matches!(region, Region::StartHistory | Region::Let) {
+            return self.out_of_scope(
+                function.name(),
+                reference.name.span,
+                "only events, effects and rewards see a behaviour end",
+            );
+        }
+        self.kept_in_history(function, reference);
+        let behavior = self.expect(value, &Type::Behavior, "what ends");
+        let failed = function == Function::Failure;
+        let ty = if region == Region::StartHistory {
+            Type::Termination
+        } else {
+            Type::Bool
+        };
+        let Value::Behavior(id) = behavior.value else {
+            return Typed {
+                ty: if behavior.ty == Type::Error {
+                    Type::Error
+                } else {
+                    ty
+                },
+                value: Value::Unknown,
+                span,
+            };
+        };
+        if region == Region::StartHistory {
+            let code = id.index() * 2 + usize::from(failed);
+            let code = self.program.pool.num(code as f64);
+            return Typed {
+                ty,
+                value: Value::Scalar(code),
+                span,
+            };
+        }
+        let status = if failed {
+            Status::Failure
+        } else {
+            Status::Success
+        };
+        self.leaf(Expr::Ended(id, status), ty, span)
+    }
+}
+
+/// The `history` line that keeps an outcome besides what is kept already.
+pub(super) fn keeping(history: History, outcome: &str) -> String {
+    let window = history.window.max(1);
+    if history.success || history.failure {
+        format!("history last {window} success, failure")
+    } else {
+        format!("history last {window} {outcome}")
+    }
+}

@@ -1,0 +1,327 @@
+//! The command line: what it writes where, and its exit codes.
+
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+const SMALL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/delivery_small.bt");
+
+fn btc(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_btc"))
+        .args(arguments)
+        .stdin(Stdio::null())
+        .output()
+        .unwrap()
+}
+
+fn piped(arguments: &[&str], input: &[u8]) -> Output {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_btc"))
+        .args(arguments)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut pipe = child.stdin.take().unwrap();
+    pipe.write_all(input).unwrap();
+    drop(pipe);
+    child.wait_with_output().unwrap()
+}
+
+fn out(output: &Output) -> &str {
+    std::str::from_utf8(&output.stdout).unwrap()
+}
+
+fn err(output: &Output) -> &str {
+    std::str::from_utf8(&output.stderr).unwrap()
+}
+
+#[test]
+fn a_program_without_mistakes_is_ok() {
+    let output = btc(&["check", SMALL]);
+    assert_eq!(
+        (output.status.code(), out(&output), err(&output)),
+        (Some(0), "ok\n", "")
+    );
+}
+
+#[test]
+fn mistakes_give_exit_code_1_and_a_bad_command_line_2() {
+    let wrong = b"state battery: ratio = 3 m\n";
+    let output = piped(&["check", "-"], wrong);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(err(&output).contains("<stdin>:1:24"), "{}", err(&output));
+    assert_eq!(btc(&["check", "/no/such/file.bt"]).status.code(), Some(1));
+    for usage in [
+        &["chek", SMALL][..],
+        &["check"],
+        &["run", SMALL],
+        &["run", SMALL, "--tree", "expert", "--episodes", "0"],
+        &["verify", SMALL, "expert"],
+        &["learn", "-"],
+        &["compile", SMALL, "--emit", "pdf"],
+        &["explain", "E9999"],
+    ] {
+        assert_eq!(btc(usage).status.code(), Some(2), "{usage:?}");
+    }
+}
+
+#[test]
+fn what_is_no_text_is_a_located_mistake() {
+    let output = piped(&["check", "-"], b"state a: bool = \xff\xfe\n");
+    assert_eq!(output.status.code(), Some(1));
+    assert!(err(&output).contains("E0130"), "{}", err(&output));
+    assert_eq!(piped(&["fmt", "-"], b"\xff").status.code(), Some(1));
+    let nothing = piped(&["check", "-"], b"");
+    assert_eq!(nothing.status.code(), Some(0));
+}
+
+#[test]
+fn names_that_are_not_there_are_offered_likely_ones() {
+    let output = btc(&["run", SMALL, "--tree", "exprt"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(
+        err(&output).contains("did you mean `expert`?"),
+        "{}",
+        err(&output)
+    );
+}
+
+#[test]
+fn formatting_is_a_fixed_point_and_keeps_comments() {
+    let text = fs::read(SMALL).unwrap();
+    let output = piped(&["fmt", "-"], &text);
+    assert_eq!(output.stdout, text);
+    assert_eq!(btc(&["fmt", "--check", SMALL]).status.code(), Some(0));
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("a.bt");
+    fs::write(&file, "// kept\nstate   a:bool=true // too\n").unwrap();
+    let path = file.to_str().unwrap();
+    assert_eq!(btc(&["fmt", "--check", path]).status.code(), Some(1));
+    assert_eq!(btc(&["fmt", path]).status.code(), Some(0));
+    let text = fs::read_to_string(&file).unwrap();
+    assert_eq!(text, "// kept\nstate a: bool = true // too\n");
+    let broken = piped(&["fmt", "-"], b"state = \n");
+    assert_eq!((broken.status.code(), out(&broken)), (Some(1), ""));
+}
+
+#[test]
+fn learning_writes_whole_files_that_other_commands_take() {
+    let folder = tempfile::tempdir().unwrap();
+    let learn = |name: &str, threads: &str| {
+        let to = folder.path().join(name);
+        let output = btc(&[
+            "learn",
+            SMALL,
+            "-o",
+            to.to_str().unwrap(),
+            "--episodes",
+            "100",
+            "--roll-outs",
+            "50",
+            "--threads",
+            threads,
+        ]);
+        assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+        assert!(out(&output).starts_with("/// Learned from delivery_small.bt, seed 1: "));
+        to
+    };
+    let (one, two) = (learn("one", "1"), learn("two", "2"));
+    let files = |folder: &Path| {
+        let mut files: Vec<(String, Vec<u8>)> = fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap())
+            .map(|entry| {
+                let name = entry.file_name().into_string().unwrap();
+                (name, fs::read(entry.path()).unwrap())
+            })
+            .collect();
+        files.sort();
+        files
+    };
+    let first = files(&one);
+    assert_eq!(first, files(&two));
+    let names: Vec<&str> = first.iter().map(|(name, _)| name.as_str()).collect();
+    for name in [
+        "curve.csv",
+        "learned.bt",
+        "learned.dot",
+        "metrics.json",
+        "policy.csv",
+        "q.csv",
+        "transitions.csv",
+    ] {
+        assert!(names.contains(&name), "{names:?}");
+    }
+    let program = one.join("learned.bt");
+    let program = program.to_str().unwrap();
+    let verified = btc(&["verify", program, "learned", "expert"]);
+    assert_eq!(verified.status.code(), Some(0), "{}", err(&verified));
+    let by_tree = btc(&[
+        "run",
+        program,
+        "--tree",
+        "learned",
+        "--episodes",
+        "5",
+        "--format",
+        "json",
+    ]);
+    let policy = one.join("policy.csv");
+    let by_policy = btc(&[
+        "run",
+        program,
+        "--policy",
+        policy.to_str().unwrap(),
+        "--episodes",
+        "5",
+        "--format",
+        "json",
+    ]);
+    assert_eq!(by_tree.status.code(), Some(0), "{}", err(&by_tree));
+    assert_eq!(by_tree.stdout, by_policy.stdout);
+}
+
+#[test]
+fn a_broken_table_is_a_located_mistake() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = folder.path().join("policy.csv");
+    fs::write(
+        &table,
+        "carrying_package,battery_low,behavior\n1,0,goto(B)\n1,2,goto(A)\n",
+    )
+    .unwrap();
+    let output = btc(&["run", SMALL, "--policy", table.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(err(&output).contains("policy.csv:3:3"), "{}", err(&output));
+}
+
+#[test]
+fn every_code_is_explained() {
+    let list = btc(&["explain"]);
+    assert!(out(&list).lines().count() > 40);
+    let output = btc(&["explain", "e0301"]);
+    assert!(out(&output).starts_with("# E0301"));
+}
+
+#[test]
+fn nobody_need_read_standard_error() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("wrong.bt");
+    fs::write(&file, "state a: bool = 3 m\n").unwrap();
+    for arguments in [&["check"][..], &["fmt", "--check"], &["verify"]] {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_btc"))
+            .args(arguments)
+            .args([file.to_str().unwrap(), "/no/such/file.bt"])
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        drop(child.stderr.take());
+        let code = child.wait().unwrap().code();
+        assert!(matches!(code, Some(1 | 2)), "{arguments:?}: {code:?}");
+    }
+}
+
+#[test]
+fn a_program_is_one_file_by_whatever_path() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| format!("{}/{name}", folder.path().display());
+    fs::create_dir(path("sub")).unwrap();
+    fs::write(path("a.bt"), "use \"b.bt\"\nstate a: bool = true\n").unwrap();
+    fs::write(
+        path("b.bt"),
+        "use \"./sub/../a.bt\"\nstate b: bool = true\n",
+    )
+    .unwrap();
+    for name in ["a.bt", "sub/../a.bt", "./b.bt"] {
+        let output = btc(&["check", &path(name)]);
+        assert_eq!(out(&output), "ok\n", "{name}: {}", err(&output));
+    }
+}
+
+#[test]
+fn what_a_missing_file_may_declare_is_not_missed_as_well() {
+    let moved = "use \"gone.bt\"\ntree t for delivery = low => goto(A)\nstate a: bool = 3 m\n";
+    let output = piped(&["check", "-"], moved.as_bytes());
+    let said = err(&output);
+    assert!(said.contains("E0208") && said.contains("E0302"), "{said}");
+    assert!(said.ends_with("\n2 errors\n"), "{said}");
+    let table = piped(&["check", "-"], b"use \"gone.csv\"\nstate a: bool = b\n");
+    assert!(err(&table).ends_with("\n2 errors\n"), "{}", err(&table));
+}
+
+#[test]
+fn a_world_that_cannot_be_built_is_a_mistake_of_the_program() {
+    let text = fs::read_to_string(SMALL).unwrap();
+    let vast = text.replace("disc(17 cm)", "disc(17 m)");
+    let output = piped(&["check", "-"], vast.as_bytes());
+    assert_eq!(output.status.code(), Some(1));
+    assert!(err(&output).contains("fits nowhere"), "{}", err(&output));
+    let declared = text.replace(
+        "predicate battery_low      = battery <= 25%",
+        "predicate battery_low",
+    );
+    let output = piped(&["check", "-"], declared.as_bytes());
+    assert_eq!(out(&output), "ok\n", "{}", err(&output));
+}
+
+#[test]
+fn a_program_is_not_overwritten_by_what_it_learns() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("learned.bt");
+    fs::copy(SMALL, &file).unwrap();
+    let place = folder.path().to_str().unwrap();
+    let output = btc(&["learn", file.to_str().unwrap(), "-o", place]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(err(&output).contains("overwritten"), "{}", err(&output));
+    assert_eq!(fs::read(&file).unwrap(), fs::read(SMALL).unwrap());
+}
+
+#[test]
+fn a_long_trace_is_told_in_short() {
+    let trees =
+        "tree a for delivery = goto(A)\ntree b for delivery = timeout(20 ticks) { goto(A) }\n";
+    let text = fs::read_to_string(SMALL).unwrap() + trees;
+    let output = piped(&["verify", "-", "a", "b"], text.as_bytes());
+    let said = out(&output);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(said.contains("part after 20 ticks"), "{said}");
+    assert!(
+        said.contains("  ticks 1 to 20 {}: both select goto(A), which answers running\n"),
+        "{said}"
+    );
+    assert_eq!(said.lines().count(), 3, "{said}");
+}
+
+#[cfg(unix)]
+#[test]
+fn writing_changes_the_text_of_a_file_and_nothing_else() {
+    use std::os::unix::fs::{FileTypeExt, PermissionsExt, symlink};
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| format!("{}/{name}", folder.path().display());
+    fs::write(path("file.bt"), "state   a:bool=true\n").unwrap();
+    fs::set_permissions(path("file.bt"), fs::Permissions::from_mode(0o600)).unwrap();
+    symlink("file.bt", path("link.bt")).unwrap();
+    assert_eq!(btc(&["fmt", &path("link.bt")]).status.code(), Some(0));
+    assert!(fs::symlink_metadata(path("link.bt")).unwrap().is_symlink());
+    let text = fs::read_to_string(path("file.bt")).unwrap();
+    assert_eq!(text, "state a: bool = true\n");
+    let mode = fs::metadata(path("file.bt")).unwrap().permissions().mode();
+    assert_eq!(mode & 0o777, 0o600);
+
+    // A device of the system may be the one that a careless root would replace: a pipe stands for it.
+    let made = Command::new("mkfifo").arg(path("pipe")).status();
+    if made.is_ok_and(|status| status.success()) {
+        let reader = std::thread::spawn({
+            let pipe = path("pipe");
+            move || fs::read_to_string(pipe).unwrap()
+        });
+        let output = btc(&["compile", SMALL, "--emit", "ir", "-o", &path("pipe")]);
+        assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+        assert!(reader.join().unwrap().starts_with("world warehouse"));
+        let kind = fs::metadata(path("pipe")).unwrap().file_type();
+        assert!(kind.is_fifo());
+    }
+}

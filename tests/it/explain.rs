@@ -1,0 +1,162 @@
+//! The explanations, run: the wrong program provokes its code and nothing else, the right one nothing.
+
+use crate::program::{self, NoFiles};
+use btc::diagnostic::{Code, Diagnostic};
+use btc::driver::load::{Loaded, Reader, load};
+use btc::driver::{compile, learn, run, target, verify};
+use btc::tree::decanonicalise::{Care, Method};
+
+/// The example of an explanation that follows a heading.
+fn example(code: Code, heading: &str) -> &'static str {
+    let explanation = code.explanation();
+    let start = format!("\n{heading}:\n\n```bt\n");
+    let at = explanation.find(&start);
+    let at = at.unwrap_or_else(|| panic!("{code} has no example under {heading}")) + start.len();
+    let length = explanation[at..].find("\n```").unwrap();
+    &explanation[at..at + length]
+}
+
+fn wrong(code: Code) -> Loaded {
+    load("wrong.bt", example(code, "Wrong").into(), &mut NoFiles)
+}
+
+fn right(code: Code) -> Loaded {
+    let loaded = load("right.bt", example(code, "Right").into(), &mut NoFiles);
+    assert_eq!(program::shown(&loaded), "", "{code}");
+    loaded
+}
+
+fn codes(diagnostics: &[Diagnostic]) -> Vec<Code> {
+    diagnostics.iter().map(|found| found.code).collect()
+}
+
+/// The codes that loading a program does not meet; each has a test below.
+const LATER: [Code; 6] = [
+    Code::E0130,
+    Code::E0409,
+    Code::E0504,
+    Code::E0505,
+    Code::E0609,
+    Code::E0610,
+];
+
+#[test]
+fn each_code_is_explained_and_provoked() {
+    for &code in Code::ALL {
+        let heading = format!("# {code}: {}\n\n", code.title());
+        assert!(code.explanation().starts_with(&heading), "{code}");
+        // Those of the syntax are provoked beside the parser.
+        if code.name().starts_with("E01") || LATER.contains(&code) {
+            continue;
+        }
+        let found = codes(&wrong(code).diagnostics);
+        assert!(
+            !found.is_empty() && found.iter().all(|&other| other == code),
+            "{code} provokes {found:?}"
+        );
+        right(code);
+    }
+}
+
+#[test]
+fn explanations_fit_a_terminal() {
+    for &code in Code::ALL
+        .iter()
+        .filter(|code| !code.name().starts_with("E01"))
+    {
+        for line in code.explanation().lines() {
+            assert!(line.chars().count() <= 120, "{code}: {line}");
+        }
+    }
+}
+
+/// E0130: bytes that are no text.
+#[test]
+fn a_file_that_is_no_text() {
+    let code = Code::E0130;
+    let mut bytes = Vec::new();
+    for c in example(code, "Wrong").chars() {
+        match c {
+            '\u{fffd}' => bytes.push(0xff),
+            c => bytes.extend(c.to_string().bytes()),
+        }
+    }
+    let loaded = load("wrong.bt", bytes, &mut NoFiles);
+    assert_eq!(codes(&loaded.diagnostics), [code]);
+    assert_eq!(
+        loaded.sources.text(loaded.diagnostics[0].span()),
+        "\u{fffd}"
+    );
+    right(code);
+}
+
+/// E0409: a robot that is larger than its arena.
+#[test]
+fn a_world_that_cannot_be_built() {
+    let code = Code::E0409;
+    let loaded = wrong(code);
+    assert_eq!(program::shown(&loaded), "");
+    let subject = |loaded: &Loaded| run::Subject::Tree(target::tree(loaded, "back").unwrap());
+    let found = run::run(&loaded, subject(&loaded), 1, 1).unwrap_err();
+    assert_eq!(found.code, code);
+    assert_eq!(loaded.sources.text(found.span()), "yard");
+    let right = right(code);
+    assert!(run::run(&right, subject(&right), 1, 1).is_ok());
+}
+
+/// E0504: a tree by the wrong name.
+#[test]
+fn a_tree_that_is_not_there() {
+    let code = Code::E0504;
+    let loaded = wrong(code);
+    assert_eq!(program::shown(&loaded), "");
+    let found = compile::emit(&loaded, compile::Form::Bt, Some("expert")).unwrap_err();
+    assert_eq!(found.code, code);
+    assert!(compile::emit(&right(code), compile::Form::Bt, Some("expert")).is_ok());
+}
+
+/// E0505: no episode, so no decision.
+#[test]
+fn nothing_is_learned() {
+    let code = Code::E0505;
+    let loaded = wrong(code);
+    assert_eq!(program::shown(&loaded), "");
+    let found = learned(&loaded, Some(0)).unwrap_err();
+    assert_eq!(found.code, code);
+    assert!(learned(&right(code), None).is_ok());
+}
+
+/// E0610: a table that was recorded for another task.
+#[test]
+fn a_table_of_another_task() {
+    struct Table;
+    impl Reader for Table {
+        fn read(&mut self, path: &str) -> Result<Vec<u8>, String> {
+            assert_eq!(path, "transitions.csv");
+            Ok(b"raining,behavior,status,next:raining,count\n0,stroll,success,1,7\n".to_vec())
+        }
+    }
+    let code = Code::E0610;
+    let loaded = load("wrong.bt", example(code, "Wrong").into(), &mut Table);
+    assert_eq!(program::shown(&loaded), "");
+    let found = verify::trees(&loaded, "a", "b").unwrap_err();
+    assert_eq!(codes(&found), [code]);
+    let proved = verify::trees(&right(code), "a", "b").unwrap();
+    assert!(!proved.holds);
+}
+
+fn learned(loaded: &Loaded, episodes: Option<u64>) -> Result<learn::Learned, Diagnostic> {
+    let options = learn::Options {
+        learner: None,
+        seed: None,
+        seeds: 1,
+        episodes,
+        evidence: 1,
+        method: Method::Search,
+        care: Care::Seen,
+        roll_outs: 10,
+        tests: 0,
+        source: "program.bt",
+    };
+    learn::learn(loaded, &options, &|_| {})
+}

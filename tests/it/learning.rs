@@ -1,0 +1,140 @@
+//! From a program to a learned, proved, printed tree, and what may be asked of it.
+
+use crate::examples::example;
+use crate::snapshot;
+use btc::driver::learn::{Learned, Options, learn};
+use btc::driver::load::{Loaded, Reader, load};
+use btc::driver::run::{self, Subject};
+use btc::driver::{table, target, verify};
+use btc::policy::Policy;
+use btc::tree::decanonicalise::{Care, Method};
+
+/// Learns small delivery in a moment: a tenth of its episodes show the same policy.
+fn learned(loaded: &Loaded, seed: u64, method: Method) -> Learned {
+    let options = Options {
+        learner: None,
+        seed: Some(seed),
+        seeds: 1,
+        episodes: Some(400),
+        evidence: 1,
+        method,
+        care: Care::Reachable,
+        roll_outs: 50,
+        tests: 0,
+        source: "delivery_small.bt",
+    };
+    learn(loaded, &options, &|_| {}).unwrap()
+}
+
+/// The files of a learned program beside its source.
+struct Folder {
+    files: Vec<(&'static str, String)>,
+    source: String,
+}
+
+impl Reader for Folder {
+    fn read(&mut self, path: &str) -> Result<Vec<u8>, String> {
+        if path == "delivery_small.bt" {
+            return Ok(self.source.clone().into_bytes());
+        }
+        let file = self.files.iter().find(|(name, _)| *name == path);
+        file.map(|(_, text)| text.clone().into_bytes())
+            .ok_or_else(|| "not there".to_owned())
+    }
+}
+
+impl Folder {
+    fn of(learned: &Learned) -> Self {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/delivery_small.bt");
+        Self {
+            files: learned.files.clone(),
+            source: std::fs::read_to_string(path).unwrap(),
+        }
+    }
+
+    fn load(&mut self) -> Loaded {
+        let text = self.read("learned.bt").unwrap();
+        load("learned.bt", text, self)
+    }
+}
+
+#[test]
+fn small_delivery_ends_with_figure_8() {
+    let loaded = example("delivery_small");
+    for method in [Method::Paper, Method::Search] {
+        let learned = learned(&loaded, 1, method);
+        assert_eq!(learned.policy.rows.len(), 10);
+        snapshot::check("delivery_small.learned.bt", &learned.tree);
+        let expert = loaded.program.trees.values().next().unwrap();
+        assert_eq!(learned.root, expert.root);
+    }
+}
+
+#[test]
+fn a_seed_is_learned_the_same_way_on_any_number_of_threads() {
+    let loaded = example("delivery_small");
+    let on = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.unwrap()
+            .install(|| learned(&loaded, 7, Method::Search).files)
+    };
+    let one = on(1);
+    assert_eq!(one, on(2));
+    assert_eq!(one, on(3));
+}
+
+#[test]
+fn the_learned_program_is_whole() {
+    let learned = learned(&example("delivery_small"), 3, Method::Search);
+    let mut folder = Folder::of(&learned);
+    let loaded = folder.load();
+    assert!(loaded.diagnostics.is_empty(), "{:?}", loaded.diagnostics);
+    let proved = verify::trees(&loaded, "learned", "expert").unwrap();
+    assert!(proved.holds, "{}", proved.text);
+    assert!(proved.text.starts_with("equal:"), "{}", proved.text);
+}
+
+#[test]
+fn a_changed_guard_is_found_by_a_shortest_trace() {
+    let learned = learned(&example("delivery_small"), 1, Method::Search);
+    let mut folder = Folder::of(&learned);
+    folder.source = folder.source.replace(
+        "    battery_low => memory sequence { goto(C), dock(C) },\n    carrying_package",
+        "    battery_low => goto(C),\n    carrying_package",
+    );
+    let proved = verify::trees(&folder.load(), "learned", "expert").unwrap();
+    assert!(!proved.holds);
+    snapshot::check("delivery_small.different", &proved.text);
+}
+
+#[test]
+fn tree_and_policy_run_alike() {
+    let learned = learned(&example("delivery_small"), 1, Method::Search);
+    let mut folder = Folder::of(&learned);
+    let mut loaded = folder.load();
+    let task = target::task_of(&loaded, None).unwrap();
+    let text = folder.read("policy.csv").unwrap();
+    let (file, mistake) = btc::driver::load::decode(&mut loaded.sources, "policy.csv", text);
+    assert!(mistake.is_none());
+    let policy = table::policy(&loaded, file, task).unwrap();
+    let decisions = |policy: &Policy| -> Vec<_> {
+        let rows = policy.rows.iter();
+        rows.map(|row| (row.minterm.clone(), row.behavior))
+            .collect()
+    };
+    assert_eq!(decisions(&policy), decisions(&learned.policy));
+    let tree = target::tree(&loaded, "learned").unwrap();
+    let by_tree = run::run(&loaded, Subject::Tree(tree), 20, 5).unwrap();
+    let by_policy = run::run(&loaded, Subject::Policy(&policy, task), 20, 5).unwrap();
+    assert_eq!(by_tree, by_policy);
+    assert_eq!(by_tree.json().to_string(), by_policy.json().to_string());
+}
+
+#[test]
+fn figures_have_their_form() {
+    let loaded = example("delivery_small");
+    let tree = target::tree(&loaded, "expert").unwrap();
+    let ran = run::run(&loaded, Subject::Tree(tree), 4, 1).unwrap();
+    snapshot::check("delivery_small.run.json", &format!("{:#}", ran.json()));
+    snapshot::check("delivery_small.run", &ran.human());
+}

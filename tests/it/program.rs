@@ -1,0 +1,42 @@
+//! Programs as the driver loads them.
+
+use btc::diagnostic::render;
+use btc::driver::load::{Loaded, Reader, beside, load};
+use std::path::Path;
+
+/// No file but the one that is asked for.
+pub(crate) struct NoFiles;
+
+impl Reader for NoFiles {
+    fn read(&mut self, _: &str) -> Result<Vec<u8>, String> {
+        Err("there are no files here".to_owned())
+    }
+}
+
+/// The files of a folder; paths are relative to it.
+struct Folder<'a>(&'a Path);
+
+impl Reader for Folder<'_> {
+    fn read(&mut self, path: &str) -> Result<Vec<u8>, String> {
+        let folder = self.0.to_str().unwrap();
+        let path = beside(&format!("{folder}/main.bt"), path);
+        std::fs::read(path).map_err(|_| "there is no such file".to_owned())
+    }
+}
+
+/// The program in a file, under a name that holds no place of this machine.
+pub(crate) fn named(name: &str, path: &Path) -> Loaded {
+    let bytes = std::fs::read(path).unwrap();
+    load(name, bytes, &mut Folder(path.parent().unwrap()))
+}
+
+/// The program that a file would be with this text.
+pub(crate) fn with_text(path: &Path, text: String) -> Loaded {
+    let name = path.file_name().unwrap().to_str().unwrap();
+    load(name, text.into(), &mut Folder(path.parent().unwrap()))
+}
+
+/// What a person is shown of a program.
+pub(crate) fn shown(loaded: &Loaded) -> String {
+    render::human(&loaded.sources, &loaded.diagnostics, false)
+}

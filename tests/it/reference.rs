@@ -1,0 +1,149 @@
+//! The examples of the language reference, `docs/language.md`.
+//!
+//! The words after `bt` say what a block is: nothing, a whole program; `items`, added to the first whole program of the
+//! page, as everything below; `wrong CODE`, items with that one mistake; else what it is a part of, or `expressions`,
+//! one a line.
+
+use crate::program::{NoFiles, shown};
+use btc::diagnostic::Code;
+use btc::driver::format::format;
+use btc::driver::load::{Loaded, load};
+
+/// A block of the page.
+struct Example {
+    /// The line of the page that it begins after.
+    line: usize,
+    /// The words after `bt`.
+    kind: &'static str,
+    text: String,
+}
+
+const PAGE: &str = include_str!("../../docs/language.md");
+
+fn examples() -> Vec<Example> {
+    let mut examples = Vec::new();
+    let mut lines = PAGE.lines().enumerate();
+    while let Some((number, line)) = lines.next() {
+        let Some(fence) = line.strip_prefix("```") else {
+            continue;
+        };
+        let body = lines.by_ref().map(|(_, line)| line);
+        let text: Vec<&str> = body.take_while(|line| *line != "```").collect();
+        if let Some(kind) = fence.strip_prefix("bt") {
+            examples.push(Example {
+                line: number + 1,
+                kind: kind.trim(),
+                text: text.join("\n") + "\n",
+            });
+        }
+    }
+    examples
+}
+
+/// A robot that says all it must.
+const ROBOT: &str =
+    "body = disc(17 cm) drive = differential(max_speed = 0.4 m/s, max_turn = 2 rad/s)";
+
+/// The program that an example stands in.
+fn program(example: &Example, world: &str) -> String {
+    let text = &example.text;
+    let field = "tick = 100 ms";
+    let arena = "arena = rect((0 m, 0 m), (6 m, 4 m)) place nest = disc((1 m, 1 m), 20 cm)";
+    match example.kind.split(' ').next().unwrap() {
+        "" => text.clone(),
+        "items" | "wrong" => format!("{world}\n{text}"),
+        "world" => format!("world w {{ {field}\n{text}\nrobot r {{ {ROBOT} }} }}"),
+        "robot" => format!("world w {{ {field} {arena} robot r {{\n{text}}} }}"),
+        "task" => {
+            let rest =
+                "choose goto(shed), goto(gate), dock(charger) history last 1 success, failure";
+            let more = "end after 1 h reward { otherwise: -1 }";
+            format!("{world}\ntask example {{ {rest}\n{text}\n{more} }}")
+        }
+        "learner" => format!("{world}\nlearn haul {{\n{text}}}"),
+        "statements" => format!("{world}\non charged {{\n{text}}}"),
+        "expressions" => {
+            let lines = text.lines().enumerate();
+            let items = lines.map(|(i, line)| format!("let example_{i} = {line}\n"));
+            format!("{world}\n{}", items.collect::<String>())
+        }
+        kind => panic!("line {}: no block is `bt {kind}`", example.line),
+    }
+}
+
+fn loaded(example: &Example, world: &str) -> Loaded {
+    load("example.bt", program(example, world).into(), &mut NoFiles)
+}
+
+fn world() -> String {
+    let first = examples()
+        .into_iter()
+        .find(|example| example.kind.is_empty());
+    first.expect("the page has a whole program").text
+}
+
+#[test]
+fn the_examples_are_right() {
+    let world = world();
+    for example in examples() {
+        let loaded = loaded(&example, &world);
+        let found: Vec<Code> = loaded.diagnostics.iter().map(|found| found.code).collect();
+        match example.kind.strip_prefix("wrong ") {
+            None => assert!(
+                found.is_empty(),
+                "line {}:\n{}",
+                example.line,
+                shown(&loaded)
+            ),
+            Some(code) => {
+                let expected = Code::parse(code).expect("a code");
+                let said = shown(&loaded);
+                assert_eq!(found, [expected], "line {}:\n{said}", example.line);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_examples_are_laid_out() {
+    for example in examples() {
+        if matches!(example.kind.split(' ').next(), Some("" | "items" | "wrong")) {
+            let text = format("example.bt", example.text.clone().into()).expect("it parses");
+            assert_eq!(example.text, text, "line {}", example.line);
+        }
+    }
+}
+
+/// Every built-in name and every setting that the checker offers is on the page.
+#[test]
+fn the_page_names_everything() {
+    let settings = "method episodes rate initial discount explore unseen dwell seed";
+    let words = "selector sequence parallel invert succeed fail retry repeat timeout memory";
+    for word in settings.split(' ').chain(words.split(' ')) {
+        assert!(PAGE.contains(&format!("`{word}")), "{word}");
+    }
+    // Its lines are those of the form `Variant "name",`.
+    let built_in = include_str!("../../src/check/builtin.rs").lines();
+    let names = built_in.filter_map(|line| {
+        let (variant, name) = line.trim().strip_suffix("\",")?.split_once(" \"")?;
+        variant.chars().all(char::is_alphanumeric).then_some(name)
+    });
+    let names: Vec<&str> = names.collect();
+    assert!(names.len() > 50, "{names:?}");
+    for name in names {
+        assert!(PAGE.contains(name), "{name}");
+    }
+}
+
+/// The table of library behaviours holds what the library declares.
+#[test]
+fn the_library_is_told_as_it_is() {
+    let library = include_str!("../../src/library/std.bt");
+    let heads = library
+        .lines()
+        .filter_map(|line| line.strip_prefix("behavior "));
+    for head in heads {
+        let head = head.trim_end_matches('{').trim();
+        assert!(PAGE.contains(&format!("| `{head}` |")), "{head}");
+    }
+}
