@@ -3,6 +3,7 @@
 mod agreed;
 mod bench;
 mod drawn;
+mod elect;
 mod metrics;
 mod report;
 mod results;

@@ -50,21 +50,6 @@ pub(super) struct Bench<'a> {
     pub never: Vec<Id<Event>>,
 }
 
-/// How many episodes a policy is validated on.
-const VALIDATION: u64 = 200;
-
-/// How many proposals of a run are validated.
-const FINALISTS: usize = 3;
-
-/// Whether two policies decide alike.
-fn same(a: &Decisions, b: &Decisions) -> bool {
-    let alike = |(key, decided): (&Key, &Decided)| {
-        b.get(key)
-            .is_some_and(|other| other.choice == decided.choice)
-    };
-    a.len() == b.len() && a.iter().all(alike)
-}
-
 /// The learner's start lines, in the simulator's lists.
 const EXPLORING: usize = 0;
 
@@ -154,72 +139,18 @@ impl Bench<'_> {
             points.push(point);
         };
         let counts = train(&mut process, method.as_mut(), &course, round, progress);
-        let table = self.elect(proposals, seed);
-        let table = table.unwrap_or_else(|| method.table().clone());
+        let elected = self.elect(proposals, seed);
+        let (decisions, table) = elected.unwrap_or_else(|| {
+            let table = method.table();
+            (extract::greedy(table, self.evidence), table.clone())
+        });
         Run {
             seed,
-            decisions: extract::greedy(&table, self.evidence),
+            decisions,
             table,
             counts,
             points,
         }
-    }
-
-    /// The best proposal: those that look best on the curve are validated, each policy once.
-    fn elect(&self, mut proposals: Vec<(f64, Table)>, seed: u64) -> Option<Table> {
-        // Of equals the later one, which has seen more.
-        proposals.reverse();
-        proposals.sort_by(|(a, _), (b, _)| b.total_cmp(a));
-        let mut finalists: Vec<(Decisions, Table)> = Vec::new();
-        for (_, table) in proposals {
-            let decisions = extract::greedy(&table, self.evidence);
-            let known = finalists.iter().any(|(other, _)| same(other, &decisions));
-            if !known && finalists.len() < FINALISTS {
-                finalists.push((decisions, table));
-            }
-        }
-        let best = match finalists.as_slice() {
-            [_, _, ..] => {
-                let all = finalists.iter();
-                let validated: Vec<Summary> = all
-                    .map(|(decisions, _)| self.validate(decisions, (Purpose::Propose, seed)))
-                    .collect();
-                self.best(&validated)
-            }
-            _ => 0,
-        };
-        finalists.into_iter().nth(best).map(|(_, table)| table)
-    }
-
-    /// What a policy is worth on the episodes by which the best of several is taken.
-    pub fn validate(&self, decisions: &Decisions, stream: (Purpose, u64)) -> Summary {
-        self.roll_out(decisions, VALIDATION, stream).1
-    }
-
-    /// The place of the best, the first of equals: where the program claims that the learned tree never does something,
-    /// the fewest such events; then the greatest return.
-    pub fn best(&self, validated: &[Summary]) -> usize {
-        let broken = |summary: &Summary| -> u64 {
-            let events = self
-                .never
-                .iter()
-                .filter_map(|e| summary.events.get(e.index()));
-            events.map(|(count, _)| count).sum()
-        };
-        let better = |a: &Summary, b: &Summary| {
-            let order = broken(b).cmp(&broken(a));
-            order.then(a.total.mean.total_cmp(&b.total.mean)).is_gt()
-        };
-        let mut best = 0;
-        for (at, summary) in validated.iter().enumerate() {
-            if validated
-                .get(best)
-                .is_some_and(|other| better(summary, other))
-            {
-                best = at;
-            }
-        }
-        best
     }
 
     /// A point of the curve, measured on episodes of its own.
