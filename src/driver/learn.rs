@@ -2,6 +2,7 @@
 
 mod agreed;
 mod bench;
+mod drawn;
 mod metrics;
 mod report;
 mod results;

@@ -87,15 +87,14 @@ fn pictures_are_xml_and_the_same_each_time() {
 /// The README's pictures are those of today's program. To make them anew:
 ///
 /// ```text
-/// btc compile examples/delivery_large.bt --emit svg --tree expert -o docs/tree.svg
+/// btc compile examples/delivery_small.bt --emit svg --tree expert -o docs/tree.svg
 /// btc run examples/delivery_large.bt --tree expert --svg docs/world.svg --svg-ticks 1000
 /// ```
 #[test]
 fn the_pictures_of_the_readme_are_true() {
-    let loaded = example("delivery_large.bt");
     for (name, picture) in [
-        ("tree.svg", tree(&loaded)),
-        ("world.svg", world(&loaded, 1000)),
+        ("tree.svg", tree(&example("delivery_small.bt"))),
+        ("world.svg", world(&example("delivery_large.bt"), 1000)),
     ] {
         let path = format!("{}/docs/{name}", env!("CARGO_MANIFEST_DIR"));
         let stored = std::fs::read_to_string(path).unwrap_or_default();

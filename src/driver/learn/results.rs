@@ -1,7 +1,7 @@
 //! Everything that learning came to, and the files that it is written to.
 
 use super::bench::{Bench, Run};
-use super::{Learned, Options, metrics, report};
+use super::{Learned, Options, drawn, metrics, report};
 use crate::driver::load::Loaded;
 use crate::emit;
 use crate::ir::Id;
@@ -158,10 +158,12 @@ pub(super) fn write(
     let files = vec![
         ("learned.bt", program_text),
         ("learned.dot", emit::dot::tree(name, root, program)),
+        ("learned.svg", emit::svg::tree::tree(name, root, program)),
         ("policy.csv", decisions::write(policy, program)),
         ("transitions.csv", transitions::write(policy, program)),
         ("q.csv", evidence::write(policy, program)),
         ("curve.csv", curve::csv(&curves)),
+        ("curve.svg", drawn::learning_curve(name, &curves)),
         (
             "metrics.json",
             metrics::text(bench, loaded, options, &results),
