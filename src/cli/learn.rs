@@ -1,9 +1,9 @@
 //! `btc learn`
 
-use super::Failure;
 use super::files::{self, STDIN};
 use super::progress::Progress;
 use super::report::{Reporter, tell};
+use super::{Failure, PLAYED};
 use crate::driver::learn::{self, Options};
 use crate::driver::verify;
 use crate::tree::decanonicalise::{Care, Method};
@@ -39,10 +39,10 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 10)]
     evidence: u64,
     /// How many greedy episodes show the transitions of the policy.
-    #[arg(long, value_name = "N", default_value_t = 2000, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 2000, value_parser = clap::value_parser!(u64).range(1..=PLAYED))]
     roll_outs: u64,
     /// How many episodes test the tree: 1000 with several seeds, else none.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(0..=PLAYED))]
     tests: Option<u64>,
 }
 

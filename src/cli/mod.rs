@@ -17,6 +17,9 @@ mod verify;
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
+/// The most episodes that are played at once: the figures of each are kept until the last has ended.
+const PLAYED: u64 = 1_000_000;
+
 /// A compiler for behaviour trees that robots learn by themselves.
 #[derive(Debug, Parser)]
 #[command(name = "btc", version, max_term_width = 100)]

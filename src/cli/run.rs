@@ -1,7 +1,7 @@
 //! `btc run`
 
 use super::report::Reporter;
-use super::{Failure, files};
+use super::{Failure, PLAYED, files};
 use crate::driver::run::{self, Subject};
 use crate::driver::{load, picture, table, target};
 use clap::{Args, ValueEnum};
@@ -19,7 +19,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "FILE")]
     policy: Option<String>,
     /// How many episodes.
-    #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u64).range(1..=PLAYED))]
     episodes: u64,
     /// The seed of the episodes.
     #[arg(long, value_name = "N", default_value_t = 1)]
