@@ -6,6 +6,7 @@ pub mod format;
 pub mod learn;
 pub mod load;
 pub mod run;
+pub mod simplify;
 pub mod table;
 pub mod target;
 pub mod verify;

@@ -167,7 +167,7 @@ fn can_run(loaded: &Loaded, root: &Node) -> Result<(), Diagnostic> {
     }
 }
 
-fn internal(loaded: &Loaded, atom: &str) -> Diagnostic {
+pub(super) fn internal(loaded: &Loaded, atom: &str) -> Diagnostic {
     Diagnostic::new(
         Code::E0409,
         target::world_span(loaded),

@@ -83,3 +83,12 @@ pub(super) fn either(a: &Guard, b: &Guard) -> Guard {
     let (shared, rest) = common(&joined);
     and(shared.into_iter().chain([rest]))
 }
+
+/// How many literals of a guard are negated.
+pub(super) fn negations(guard: &Guard) -> usize {
+    match guard {
+        Guard::Const(_) | Guard::Atom(_) => 0,
+        Guard::Not(inner) => 1 + negations(inner),
+        Guard::And(parts) | Guard::Or(parts) => parts.iter().map(negations).sum(),
+    }
+}
