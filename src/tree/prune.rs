@@ -5,6 +5,7 @@
 
 mod guards;
 mod memory;
+mod plain;
 mod tidy;
 mod units;
 
@@ -16,6 +17,7 @@ use crate::ir::tree::{Atom, Node};
 use std::collections::BTreeSet;
 use std::fmt;
 
+pub use plain::{oddities, plainer};
 pub use tidy::tidy;
 
 /// A predicate outside of which a behaviour fails outright, such as `vis(A)` for `goto(A)`.
@@ -92,44 +94,6 @@ pub fn candidates(root: &Node, possible: &[Possible]) -> Vec<Candidate> {
         }
     }
     found
-}
-
-/// Every tree that turns one unit round and has fewer negated literals, and is no larger: `not c => a, b` as
-/// `c => b, a`. They differ where what stands first fails outright.
-pub fn turned(root: &Node) -> Vec<Candidate> {
-    let (size, negated) = (Size::of(root), negations(root));
-    let mut found: Vec<Candidate> = Vec::new();
-    for node in turned_below(root) {
-        let root = tidy(node);
-        let no_larger = Size::of(&root);
-        let same = (no_larger.nodes, no_larger.literals) <= (size.nodes, size.literals);
-        if same && negations(&root) < negated {
-            found.push(Candidate {
-                change: Change::Turned,
-                size: no_larger,
-                root,
-            });
-        }
-    }
-    found
-}
-
-fn turned_below(node: &Node) -> Vec<Node> {
-    let mut found = units::turned(node);
-    for (i, child) in children(node).iter().enumerate() {
-        let below = turned_below(child).into_iter();
-        found.extend(below.map(|turned| with_child(node, i, turned)));
-    }
-    found
-}
-
-/// How many literals are negated.
-fn negations(node: &Node) -> usize {
-    let own = match node {
-        Node::Condition(guard) => guards::negations(guard),
-        _ => 0,
-    };
-    own + children(node).iter().map(negations).sum::<usize>()
 }
 
 /// The moves at a node and at all that is below it.

@@ -9,6 +9,7 @@
 
 mod house;
 mod naive;
+mod simplify;
 mod snapshot;
 mod syntax;
 mod syntax_print;

@@ -1,9 +1,9 @@
 //! Trees against each other on the same seeds.
 
 use super::trace::{Paths, Recorded, Trace};
+use crate::diagnostic::Diagnostic;
 use crate::driver::load::Loaded;
 use crate::driver::run;
-use crate::diagnostic::Diagnostic;
 use crate::ir::Id;
 use crate::ir::task::Task;
 use crate::ir::tree::{Atom, Node};
@@ -54,9 +54,14 @@ impl Player {
     }
 
     /// The mean return.
-    pub(super) fn mean(&self) -> f64 {
+    pub(super) fn returns(&self) -> Mean {
         let totals: Vec<f64> = self.played.iter().map(|p| p.episode.total).collect();
-        Mean::of(&totals).mean
+        Mean::of(&totals)
+    }
+
+    /// The standard deviation of a return.
+    pub(super) fn spread(&self) -> f64 {
+        error(&self.returns()) * (self.episodes() as f64).sqrt()
     }
 
     /// Whether the tree plays every path alike.
@@ -94,6 +99,16 @@ impl Player {
     }
 }
 
+/// The standard error of a mean.
+pub(super) fn error(mean: &Mean) -> f64 {
+    (mean.ci95[1] - mean.mean) / 1.96
+}
+
+/// Whether a tree loses at most so much with 95 % confidence, and has no more episodes ended to its loss.
+pub(super) fn within(player: &Player, other: &Player, limit: f64) -> bool {
+    player.loss(other).ci95[1] <= limit && player.ended_more(other) <= 0
+}
+
 fn ended_worse(own: &Episode, other: &Episode) -> bool {
     matches!(own.end, End::On(_)) && own.end != other.end && own.total < other.total
 }
@@ -118,8 +133,8 @@ impl Bench {
         })
     }
 
-    /// The same world with other seeds.
-    pub(super) fn from(self, stream: u64) -> Self {
+    /// The same world with the seeds of another stream.
+    pub(super) fn on(self, stream: u64) -> Self {
         let start = Start {
             stream,
             ..self.start

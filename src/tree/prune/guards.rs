@@ -62,7 +62,7 @@ pub(super) fn cubes(guard: &Guard) -> &[Guard] {
 /// The literals that stand in every alternative, and the guard without them.
 pub(super) fn common(guard: &Guard) -> (Vec<Guard>, Guard) {
     let cubes = cubes(guard);
-    let parts = |cube: &Guard| super::tidy::literals(cube).to_vec();
+    let parts = |cube: &Guard| super::tidy::parts(cube).to_vec();
     let Some((first, rest)) = cubes.split_first() else {
         return (Vec::new(), guard.clone());
     };

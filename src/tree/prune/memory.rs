@@ -83,7 +83,7 @@ fn without(guard: &Guard, atom: Atom) -> Guard {
         literal => *literal == Guard::Atom(atom),
     };
     or(cubes(guard).iter().map(|cube| {
-        let parts = super::tidy::literals(cube).iter();
+        let parts = super::tidy::parts(cube).iter();
         and(parts.filter(|part| !says(part)).cloned())
     }))
 }

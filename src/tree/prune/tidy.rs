@@ -46,24 +46,26 @@ fn folded(guard: Guard) -> Guard {
 }
 
 /// The alternatives without those that another one covers: `a or a and b` is `a`.
-fn absorbed(parts: Vec<Guard>) -> Vec<Guard> {
+fn absorbed(cubes: Vec<Guard>) -> Vec<Guard> {
     let covers = |wide: &Guard, narrow: &Guard| {
-        let narrow = literals(narrow);
-        literals(wide).iter().all(|part| narrow.contains(part))
+        let narrow = parts(narrow);
+        parts(wide).iter().all(|part| narrow.contains(part))
     };
-    let kept = |(i, part): (usize, &Guard)| {
-        !parts.iter().enumerate().any(|(j, other)| {
+    let kept = |(i, cube): (usize, &Guard)| {
+        !cubes.iter().enumerate().any(|(j, other)| {
             // Of two equal ones the first stays.
-            i != j && covers(other, part) && (j < i || !covers(part, other))
+            i != j && covers(other, cube) && (j < i || !covers(cube, other))
         })
     };
-    let keep: Vec<bool> = parts.iter().enumerate().map(kept).collect();
-    let both = parts.into_iter().zip(keep);
-    both.filter(|(_, keep)| *keep).map(|(part, _)| part).collect()
+    let keep: Vec<bool> = cubes.iter().enumerate().map(kept).collect();
+    let both = cubes.into_iter().zip(keep);
+    both.filter(|(_, keep)| *keep)
+        .map(|(cube, _)| cube)
+        .collect()
 }
 
 /// The parts of a conjunction.
-pub(super) fn literals(guard: &Guard) -> &[Guard] {
+pub(super) fn parts(guard: &Guard) -> &[Guard] {
     match guard {
         Guard::And(parts) => parts,
         Guard::Const(true) => &[],

@@ -3,7 +3,7 @@
 use super::guards::{common, either, literals, parts};
 use super::{Change, Move, Possible};
 use crate::ir::tree::{Composite, Guard, Node};
-use crate::tree::formula::{and, guarded, not};
+use crate::tree::formula::{and, guarded};
 
 /// `guard => body`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -67,7 +67,7 @@ pub(super) fn select(units: Vec<Unit>) -> Node {
 }
 
 /// The units with the one at `at` replaced.
-fn put(units: &[Unit], at: usize, unit: Unit) -> Vec<Unit> {
+pub(super) fn put(units: &[Unit], at: usize, unit: Unit) -> Vec<Unit> {
     let mut units = units.to_vec();
     if let Some(old) = units.get_mut(at) {
         *old = unit;
@@ -125,7 +125,7 @@ fn merged(units: &[Unit], found: &mut Vec<Move>) {
 }
 
 /// The predicate outside of which what a unit does first fails.
-fn needs(body: &Node, possible: &[Possible]) -> Option<Guard> {
+pub(super) fn needs(body: &Node, possible: &[Possible]) -> Option<Guard> {
     match body {
         Node::Behavior(behavior) => possible
             .iter()
@@ -198,28 +198,6 @@ fn reordered(units: &[Unit], found: &mut Vec<Move>) {
             }
         }
     }
-}
-
-/// Each unit with the units after it exchanged with it: `not c => a, b` becomes `c => b, a`.
-pub(super) fn turned(node: &Node) -> Vec<Node> {
-    let Some(units) = units(node) else {
-        return Vec::new();
-    };
-    let mut found = Vec::new();
-    for (i, unit) in units.iter().enumerate() {
-        let rest: Vec<Unit> = units.iter().skip(i + 1).cloned().collect();
-        if rest.is_empty() || unit.guard == Guard::Const(true) {
-            continue;
-        }
-        let first = Unit {
-            guard: not(unit.guard.clone()),
-            body: select(rest),
-        };
-        let before = units.iter().take(i).cloned();
-        let units = before.chain([first, unit.under(Guard::Const(true))]);
-        found.push(select(units.collect()));
-    }
-    found
 }
 
 /// A literal that a run of neighbours has in all their guards, once before a selector of them.
