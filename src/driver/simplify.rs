@@ -17,7 +17,7 @@ use crate::ir::tree::{Atom, Node};
 use crate::ir::{Id, Program};
 use crate::learn::statistics::{Mean, Summary};
 use crate::tree::Size;
-use crate::tree::prune::{self, Change, Possible};
+use crate::tree::prune::{Change, Possible};
 use crate::world::Start;
 use bench::{Bench, Player, within};
 use search::{Held, Search};
@@ -87,7 +87,8 @@ pub struct Progress {
 /// Simplifies the exact tree of a task while the mean paired loss of return stays below `loss`, a part of the exact
 /// tree's return, with 95 % confidence, and no line of `end on` ends more episodes to the robot's loss.
 ///
-/// What is gained on the way down is not given away again: the loss is held against the best tree that was met, too.
+/// On each way down the loss is held against the best tree that was met on it, too, so that what is gained is not given
+/// away again for a node or two.
 ///
 /// # Errors
 /// The world cannot be built.
@@ -108,11 +109,7 @@ pub fn simplify(
     let bench = Bench::new(loaded, task, root, start)?;
     let possible = possible(&loaded.program, task);
     let mut search = Search::new(bench, &possible, loss, progress);
-    let mut held = search.trees(root);
-    held.sort_by_key(|held| {
-        let odd = prune::oddities(&held.root, &possible);
-        (held.size(), odd)
-    });
+    let held = search.trees(root);
     let ticks = search.ticks;
     let bench = search.into_bench().on(CONFIRM);
     let found = confirmed(&bench, root, &held, loss);

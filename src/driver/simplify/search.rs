@@ -31,12 +31,6 @@ pub(super) struct Held {
     player: Player,
 }
 
-impl Held {
-    pub(super) fn size(&self) -> Size {
-        Size::of(&self.root)
-    }
-}
-
 /// When a tree of the same size is taken for its plainness.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Plain {
@@ -92,22 +86,26 @@ impl<'a> Search<'a> {
         self.bench
     }
 
-    /// Trees that are within the loss of the exact one and of the best that was met.
+    /// Trees that are within the loss, the smallest first, of equal size the plainest, then the best.
     pub(super) fn trees(&mut self, root: &Node) -> Vec<Held> {
         let Some(mut exact) = self.bench.player(root) else {
             return Vec::new();
         };
         self.ticks += self.bench.play(&mut [&mut exact], EPISODES, None);
-        let limit = self.loss * exact.returns().mean.abs();
         let mut held = self.descend(root, &exact, Plain::Last);
         held.extend(self.descend(root, &exact, Plain::Early));
-        let players = held.iter().map(|held| &held.player);
-        let best = players.chain([&exact]).max_by(|a, b| {
-            let (a, b) = (a.returns().mean, b.returns().mean);
-            a.total_cmp(&b)
+        held.sort_by(|a, b| {
+            let key = |held: &Held| {
+                let Size {
+                    nodes, literals, ..
+                } = Size::of(&held.root);
+                (nodes, literals, prune::oddities(&held.root, self.possible))
+            };
+            let returns = |held: &Held| held.player.returns().mean;
+            let better = returns(b).total_cmp(&returns(a));
+            key(a).cmp(&key(b)).then(better)
         });
-        let best = best.unwrap_or(&exact).clone();
-        held.retain(|held| within(&held.player, &best, limit));
+        held.dedup_by(|a, b| a.root == b.root);
         held
     }
 
@@ -138,6 +136,7 @@ impl<'a> Search<'a> {
             let mut smaller = self.runners(smaller.filter(known));
             let plainer = prune::plainer(&root, self.possible).into_iter();
             let mut plainer = self.runners(plainer.filter(known));
+            let mut regained = None;
             let mut free = alike(&mut smaller, &measure, &paths);
             if free.is_none() && plain == Plain::Early {
                 free = alike(&mut plainer, &measure, &paths);
@@ -145,10 +144,12 @@ impl<'a> Search<'a> {
             let next = match free {
                 Some(next) => next,
                 None => {
-                    let raced = match self.race(smaller, &measure) {
-                        Some(next) => Some(next),
-                        None => self.race(plainer, &measure),
-                    };
+                    let raced = self.race(smaller, &measure).or_else(|| {
+                        // To read plainly is worth what was gained on the way.
+                        let next = self.race(plainer, &measure.of(exact))?;
+                        regained = Some(next.player.clone());
+                        Some(next)
+                    });
                     let Some(next) = raced else {
                         break;
                     };
@@ -158,7 +159,9 @@ impl<'a> Search<'a> {
             };
             now = next.player;
             root = next.candidate.root;
-            if now.loss(&best).ci95[1] < 0.0 {
+            if let Some(player) = regained {
+                best = player;
+            } else if now.loss(&best).ci95[1] < 0.0 {
                 best = now.clone();
             }
             steps.push(Step {
@@ -215,7 +218,12 @@ fn alike(runners: &mut Vec<Runner>, measure: &Measure, paths: &Paths) -> Option<
     Some(found)
 }
 
-impl Measure<'_> {
+impl<'a> Measure<'a> {
+    /// The same against another best tree.
+    fn of(&self, best: &'a Player) -> Self {
+        Self { best, ..*self }
+    }
+
     /// Whether a candidate that has played so many episodes may still come within the limit.
     fn hopes(&self, runner: &Runner, episodes: usize) -> bool {
         [self.exact, self.best].into_iter().all(|other| {
