@@ -13,10 +13,12 @@ pub(super) fn parts(guard: &Guard) -> Vec<Guard> {
 }
 
 fn inner(guard: &Guard) -> Vec<Guard> {
-    let (parts, join): (&[Guard], fn(Vec<Guard>) -> Guard) = match guard {
-        Guard::And(parts) => (parts, |parts| and(parts)),
-        Guard::Or(parts) => (parts, |parts| or(parts)),
-        _ => return Vec::new(),
+    let (Guard::And(parts) | Guard::Or(parts)) = guard else {
+        return Vec::new();
+    };
+    let join = |parts: Vec<Guard>| match guard {
+        Guard::And(_) => and(parts),
+        _ => or(parts),
     };
     let mut found = Vec::new();
     for (i, part) in parts.iter().enumerate() {
