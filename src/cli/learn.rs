@@ -35,6 +35,9 @@ pub(super) struct Arguments {
     /// In which minterms the tree takes the policy's decisions.
     #[arg(long, value_name = "SET", default_value = "reachable")]
     care: CareSet,
+    /// Print a smaller tree that costs less than this part of the return, such as `1%`; tested in simulation, not proved.
+    #[arg(long, value_name = "LOSS", value_parser = loss)]
+    simplify: Option<f64>,
     /// The fewest decisions by which a minterm counts as learned; below, it is a don't-care.
     #[arg(long, value_name = "N", default_value_t = 10)]
     evidence: u64,
@@ -60,6 +63,18 @@ enum CareSet {
     Seen,
     /// In those that the greedy policy reaches.
     Reachable,
+}
+
+/// A part of a return: `1%` or `0.01`.
+fn loss(text: &str) -> Result<f64, String> {
+    let (digits, scale) = match text.strip_suffix('%') {
+        Some(digits) => (digits, 100.0),
+        None => (text, 1.0),
+    };
+    match digits.trim().parse::<f64>().map(|number| number / scale) {
+        Ok(part) if (0.0..1.0).contains(&part) => Ok(part),
+        _ => Err("a loss is a part of the return, such as `1%`".to_owned()),
+    }
 }
 
 pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {
@@ -97,6 +112,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
             CareSet::Seen => Care::Seen,
             CareSet::Reachable => Care::Reachable,
         },
+        simplify: arguments.simplify,
         roll_outs: arguments.roll_outs,
         tests: arguments
             .tests
@@ -107,10 +123,10 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     let learned = learn::learn(&loaded, &options, &|stage| bar.show(stage));
     bar.finish();
     let learned = learned.map_err(|mistake| say.one(&loaded.sources, mistake))?;
+    files::print(&learned.tree)?;
     for (name, text) in &learned.files {
         files::write(&folder.join(name), text)?;
     }
-    files::print(&learned.tree)?;
     for line in &learned.report {
         tell(line);
     }

@@ -39,6 +39,7 @@ impl Progress {
             Stage::Validating => self.0.set_message("validating"),
             Stage::RollingOut => self.0.set_message("rolling out"),
             Stage::Proving => self.0.set_message("proving"),
+            Stage::Simplifying => self.0.set_message("simplifying"),
             Stage::Testing => self.0.set_message("testing"),
         }
     }

@@ -9,7 +9,7 @@ mod report;
 mod results;
 
 use super::load::Loaded;
-use super::{run, target};
+use super::{run, simplify, target};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::program::Event;
 use crate::ir::task::{ClaimKind, Learner, TreeRef};
@@ -43,6 +43,8 @@ pub struct Options<'o> {
     pub method: Method,
     /// In which minterms the tree takes the policy's decisions.
     pub care: Care,
+    /// The part of the exact tree's return that a smaller tree may cost; `None` for the exact tree.
+    pub simplify: Option<f64>,
     /// How many greedy episodes show the transitions of the policy.
     pub roll_outs: u64,
     /// How many episodes test the tree.
@@ -62,6 +64,8 @@ pub enum Stage {
     RollingOut,
     /// Turning it into a tree, and proving.
     Proving,
+    /// Simplifying the tree.
+    Simplifying,
     /// Testing the tree.
     Testing,
 }
@@ -132,6 +136,21 @@ pub fn learn(
         seen: seen?,
         reachable: reachable?,
     };
+    let exact = &trees.chosen().root;
+    let simplified = match options.simplify {
+        None => None,
+        Some(loss) => {
+            let heard = |_| progress(Stage::Simplifying);
+            Some(simplify::simplify(
+                loaded,
+                learner.task,
+                exact,
+                loss,
+                seed,
+                &heard,
+            )?)
+        }
+    };
     let tested = if options.tests > 0 {
         progress(Stage::Testing);
         let care = results::care_set(options.care, &met, run);
@@ -149,6 +168,7 @@ pub fn learn(
         summary,
         policy,
         trees,
+        simplified,
         tested,
     };
     Ok(results::write(&bench, loaded, options, learner_id, results))

@@ -8,6 +8,7 @@ pub mod learn;
 pub mod load;
 pub mod picture;
 pub mod run;
+pub mod simplify;
 pub mod table;
 pub mod target;
 pub mod verify;

@@ -9,6 +9,7 @@ pub mod equivalence;
 pub mod formula;
 pub mod program;
 pub mod prove;
+pub mod prune;
 pub mod size;
 pub mod tick;
 

@@ -154,6 +154,7 @@ fn learned(loaded: &Loaded, episodes: Option<u64>) -> Result<learn::Learned, Dia
         evidence: 1,
         method: Method::Search,
         care: Care::Seen,
+        simplify: None,
         roll_outs: 10,
         tests: 0,
         source: "program.bt",

@@ -19,6 +19,7 @@ fn learned(loaded: &Loaded, seed: u64, method: Method) -> Learned {
         evidence: 1,
         method,
         care: Care::Reachable,
+        simplify: None,
         roll_outs: 50,
         tests: 0,
         source: "delivery_small.bt",

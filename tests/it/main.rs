@@ -18,6 +18,7 @@ mod naive;
 mod program;
 mod reference;
 mod robust;
+mod simplify;
 mod snapshot;
 mod svg;
 mod syntax;

@@ -28,6 +28,11 @@ pub(super) fn lines(bench: &Bench, results: &Results) -> Vec<String> {
     report.worth();
     report.figures(&results.summary, "greedy episodes");
     report.outside(&results.summary, "in minterms never learned");
+    if let Some(simplified) = &results.simplified {
+        report
+            .lines
+            .extend(simplified.lines(bench.program, bench.learner.task));
+    }
     if let Some(tested) = &results.tested {
         report.line(
             "test",

@@ -3,6 +3,7 @@
 use super::bench::{Bench, Run};
 use super::{Learned, Options, drawn, metrics, report};
 use crate::driver::load::Loaded;
+use crate::driver::simplify::Simplified;
 use crate::emit;
 use crate::ir::Id;
 use crate::ir::task::Learner;
@@ -32,7 +33,9 @@ pub(super) struct Results {
     pub policy: Policy,
     /// The tree on either care set; that of the chosen one is what was learned.
     pub trees: Trees,
-    /// What the tree is worth on test episodes, if there were any.
+    /// The smaller tree that is printed in the place of the exact one, if one was asked for.
+    pub simplified: Option<Simplified>,
+    /// What the exact tree is worth on test episodes, if there were any.
     pub tested: Option<Summary>,
 }
 
@@ -135,20 +138,26 @@ pub(super) fn write(
 ) -> Learned {
     let program = bench.program;
     let file = options.source.rsplit('/').next().unwrap_or_default();
-    let root = &results.trees.chosen().root;
+    let exact = &results.trees.chosen().root;
     let name = &bench.learner.name;
-    let tree = emit::bt::tree(
-        program,
-        name,
-        &[results.origin(file)],
-        Some(&bench.task.name),
-        root,
-    );
-    let program_text = format!(
+    let item = |name: &str, docs: &[String], root| {
+        emit::bt::tree(program, name, docs, Some(&bench.task.name), root)
+    };
+    let mut program_text = format!(
         "//! Written by `btc learn`. The table is what the greedy policy met; proofs go along its paths.\n\
-         use \"{}\"\nuse \"transitions.csv\"\n\n{tree}",
+         use \"{}\"\nuse \"transitions.csv\"\n\n",
         options.source
     );
+    let mut docs = vec![results.origin(file)];
+    let mut root = exact;
+    if let Some(simplified) = &results.simplified {
+        program_text.push_str(&item(&exact_name(name), &docs, exact));
+        program_text.push('\n');
+        docs.push(simplified.doc(program, bench.learner.task));
+        root = &simplified.root;
+    }
+    let tree = item(name, &docs, root);
+    program_text.push_str(&tree);
     let curves: Vec<_> = results
         .runs
         .iter()
@@ -177,5 +186,13 @@ pub(super) fn write(
         learner,
         curves,
         policy: results.policy,
+    }
+}
+
+/// What the exact tree is called beside a simplified one.
+fn exact_name(name: &str) -> String {
+    match name.strip_suffix('`') {
+        Some(quoted) => format!("{quoted}_exact`"),
+        None => format!("{name}_exact"),
     }
 }

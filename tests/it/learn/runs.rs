@@ -35,6 +35,7 @@ const OPTIONS: Options = Options {
     evidence: 10,
     method: Method::Search,
     care: Care::Reachable,
+    simplify: None,
     roll_outs: 100,
     tests: 0,
     source: "../delivery.bt",

@@ -1,0 +1,186 @@
+//! What a tree met and did in an episode, so that another tree can be held against it without simulation.
+//!
+//! A simulation depends on the tree through the behaviours that it ticks and on nothing else. A tree that ticks the same
+//! behaviours all along a trace therefore plays the same episode.
+
+use crate::driver::run::Ticked;
+use crate::ir::Id;
+use crate::ir::law::Behavior;
+use crate::ir::tree::Status;
+use crate::learn::episode::Controller;
+use crate::tree::Runner;
+use crate::world::Simulation;
+use rustc_hash::FxHashMap;
+use std::collections::BTreeSet;
+
+/// The behaviours that one tick ticked, with their answers.
+type Calls = Vec<(Id<Behavior>, Status)>;
+
+/// Ticks in a row with one valuation, the same behaviours and the same answers.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+struct Met {
+    atoms: u128,
+    calls: Calls,
+}
+
+/// An episode as a tree met it.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Trace {
+    met: Vec<(Met, u64)>,
+}
+
+/// A tree that is recorded.
+pub(super) struct Recorded {
+    runner: Ticked,
+    trace: Trace,
+    now: Calls,
+}
+
+impl Recorded {
+    pub(super) fn new(runner: Runner) -> Self {
+        Self {
+            runner: Ticked(runner),
+            trace: Trace::default(),
+            now: Vec::new(),
+        }
+    }
+
+    /// What was met since the last reset.
+    pub(super) fn into_trace(self) -> Trace {
+        self.trace
+    }
+}
+
+impl Controller for Recorded {
+    fn reset(&mut self) {
+        self.runner.reset();
+        self.trace.met.clear();
+    }
+
+    fn tick(&mut self, simulation: &mut Simulation) {
+        let atoms = simulation.atoms();
+        self.now.clear();
+        let now = &mut self.now;
+        self.runner.0.tick(&words(atoms), |behavior| {
+            let status = simulation.act(behavior);
+            now.push((behavior, status));
+            status
+        });
+        match self.trace.met.last_mut() {
+            Some((met, times)) if met.atoms == atoms && met.calls == *now => *times += 1,
+            _ => {
+                let calls = now.clone();
+                self.trace.met.push((Met { atoms, calls }, 1));
+            }
+        }
+    }
+}
+
+/// A valuation as the tree reads it.
+fn words(atoms: u128) -> [u64; 2] {
+    [atoms as u64, (atoms >> 64) as u64]
+}
+
+/// Whether the tree ticks these behaviours in this tick.
+fn agrees(runner: &mut Runner, met: &Met) -> bool {
+    let mut calls = met.calls.iter();
+    let mut same = true;
+    runner.tick(&words(met.atoms), |behavior| match calls.next() {
+        Some((expected, status)) if *expected == behavior => *status,
+        _ => {
+            same = false;
+            Status::Running
+        }
+    });
+    same && calls.next().is_none()
+}
+
+impl Trace {
+    /// Whether a tree, its memory fresh, ticks the same behaviours all along.
+    pub(super) fn replays(&self, runner: &mut Runner) -> bool {
+        runner.reset();
+        self.met.iter().all(|(met, times)| {
+            for _ in 0..*times {
+                let before = runner.memory().to_vec();
+                if !agrees(runner, met) {
+                    return false;
+                }
+                if runner.memory() == before {
+                    break;
+                }
+            }
+            true
+        })
+    }
+}
+
+/// Every tick that the episodes of a tree had, each with those that followed it.
+///
+/// A tree that agrees on every path through it agrees with every episode; one that does not may still do so.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Paths {
+    met: Vec<Met>,
+    next: Vec<BTreeSet<usize>>,
+    starts: BTreeSet<usize>,
+}
+
+/// Ticks of a tree after which a comparison gives up.
+const EFFORT: usize = 20_000;
+
+impl Paths {
+    /// The paths of these episodes.
+    pub(super) fn of<'t>(traces: impl Iterator<Item = &'t Trace>) -> Self {
+        let mut paths = Self::default();
+        let mut known: FxHashMap<Met, usize> = FxHashMap::default();
+        for trace in traces {
+            let mut last = None;
+            for (met, times) in &trace.met {
+                let at = *known.entry(met.clone()).or_insert_with(|| {
+                    paths.met.push(met.clone());
+                    paths.next.push(BTreeSet::new());
+                    paths.met.len() - 1
+                });
+                let from = match last {
+                    None => Some(&mut paths.starts),
+                    Some(last) => paths.next.get_mut(last),
+                };
+                from.into_iter().for_each(|next| {
+                    next.insert(at);
+                });
+                if let (Some(next), true) = (paths.next.get_mut(at), *times > 1) {
+                    next.insert(at);
+                }
+                last = Some(at);
+            }
+        }
+        paths
+    }
+
+    /// Whether a tree ticks the same behaviours on every path.
+    pub(super) fn replay(&self, runner: &mut Runner) -> bool {
+        runner.reset();
+        let fresh = runner.memory().to_vec();
+        let mut open: Vec<(usize, Vec<u64>)> =
+            self.starts.iter().map(|at| (*at, fresh.clone())).collect();
+        let mut seen: BTreeSet<(usize, Vec<u64>)> = open.iter().cloned().collect();
+        let mut ticks = 0;
+        while let Some((at, memory)) = open.pop() {
+            let (Some(met), Some(next)) = (self.met.get(at), self.next.get(at)) else {
+                continue;
+            };
+            ticks += 1;
+            runner.resume(&memory);
+            if ticks > EFFORT || !agrees(runner, met) {
+                return false;
+            }
+            for to in next {
+                let state = (*to, runner.memory().to_vec());
+                if !seen.contains(&state) {
+                    seen.insert(state.clone());
+                    open.push(state);
+                }
+            }
+        }
+        true
+    }
+}

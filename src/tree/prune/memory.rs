@@ -1,0 +1,89 @@
+//! Sequences with memory in the place of guards over the history.
+
+use super::guards::{common, cubes, either, literals};
+use super::units::{Unit, join, units};
+use super::{Change, Move};
+use crate::ir::tree::{Atom, Composite, Guard, Node};
+use crate::tree::formula::{and, or};
+
+/// Two units `… done(a) … => b` and `… => a` as `guard => memory sequence { a, b }`, in the place of either.
+///
+/// The guard is that of the one or the other or both without what they say of a, or one of its literals alone: whether
+/// that is right is for the simulation to say.
+pub(super) fn moves(node: &Node) -> Vec<Move> {
+    let Some(units) = units(node) else {
+        return Vec::new();
+    };
+    let mut found = Vec::new();
+    for (j, second) in units.iter().enumerate() {
+        for (i, first) in units.iter().enumerate() {
+            let Some(done) = done(&first.body) else {
+                continue;
+            };
+            let asked = Guard::Atom(done);
+            if i == j || first.body == second.body || !literals(&second.guard).contains(&asked) {
+                continue;
+            }
+            let (a, b) = (without(&first.guard, done), without(&second.guard, done));
+            let both = either(&a, &b);
+            let mut guards = vec![a, b, and(common(&both).0)];
+            guards.extend(literals(&both));
+            guards.push(both);
+            let body = chain(&first.body, &second.body);
+            for (at, guard) in guards.iter().enumerate() {
+                if guards.iter().take(at).any(|known| known == guard) {
+                    continue;
+                }
+                let unit = Unit {
+                    guard: guard.clone(),
+                    body: body.clone(),
+                };
+                found.push((Change::Joined, join(&units, i, j, unit.clone())));
+                found.push((Change::Joined, join(&units, j, i, unit)));
+            }
+        }
+    }
+    found
+}
+
+/// What the history says once the body has succeeded.
+fn done(body: &Node) -> Option<Atom> {
+    match body {
+        Node::Behavior(behavior) => Some(Atom::Done(*behavior)),
+        Node::Composite {
+            kind: Composite::Sequence,
+            memory: true,
+            children,
+        } => done(children.last()?),
+        _ => None,
+    }
+}
+
+/// The memory sequence of two bodies, as one where they are such themselves.
+fn chain(first: &Node, second: &Node) -> Node {
+    let parts = |body: &Node| match body {
+        Node::Composite {
+            kind: Composite::Sequence,
+            memory: true,
+            children,
+        } => children.clone(),
+        body => vec![body.clone()],
+    };
+    Node::Composite {
+        kind: Composite::Sequence,
+        memory: true,
+        children: [parts(first), parts(second)].concat(),
+    }
+}
+
+/// The guard without its literals over an atom.
+fn without(guard: &Guard, atom: Atom) -> Guard {
+    let says = |literal: &Guard| match literal {
+        Guard::Not(inner) => **inner == Guard::Atom(atom),
+        literal => *literal == Guard::Atom(atom),
+    };
+    or(cubes(guard).iter().map(|cube| {
+        let parts = super::tidy::parts(cube).iter();
+        and(parts.filter(|part| !says(part)).cloned())
+    }))
+}

@@ -1,0 +1,229 @@
+//! Moves over the units of a selector.
+
+use super::guards::{common, either, literals, parts};
+use super::{Change, Move, Possible};
+use crate::ir::tree::{Composite, Guard, Node};
+use crate::tree::formula::{and, guarded};
+
+/// `guard => body`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Unit {
+    pub(super) guard: Guard,
+    pub(super) body: Node,
+}
+
+impl Unit {
+    fn of(node: &Node) -> Self {
+        if let Node::Composite {
+            kind: Composite::Sequence,
+            memory: false,
+            children,
+        } = node
+            && let [Node::Condition(guard), body] = children.as_slice()
+        {
+            return Self {
+                guard: guard.clone(),
+                body: body.clone(),
+            };
+        }
+        Self {
+            guard: Guard::Const(true),
+            body: node.clone(),
+        }
+    }
+
+    fn node(self) -> Node {
+        guarded(self.guard, self.body)
+    }
+
+    /// The same under another guard.
+    pub(super) fn under(&self, guard: Guard) -> Self {
+        Self {
+            guard,
+            body: self.body.clone(),
+        }
+    }
+}
+
+/// The units of a selector; `None` for any other node.
+pub(super) fn units(node: &Node) -> Option<Vec<Unit>> {
+    match node {
+        Node::Composite {
+            kind: Composite::Selector,
+            memory: false,
+            children,
+        } => Some(children.iter().map(Unit::of).collect()),
+        _ => None,
+    }
+}
+
+/// The selector of these units.
+pub(super) fn select(units: Vec<Unit>) -> Node {
+    Node::Composite {
+        kind: Composite::Selector,
+        memory: false,
+        children: units.into_iter().map(Unit::node).collect(),
+    }
+}
+
+/// The units with the one at `at` replaced.
+pub(super) fn put(units: &[Unit], at: usize, unit: Unit) -> Vec<Unit> {
+    let mut units = units.to_vec();
+    if let Some(old) = units.get_mut(at) {
+        *old = unit;
+    }
+    units
+}
+
+/// The units with one for two: `unit` stands where the one at `at` stood, the one at `gone` is left out.
+pub(super) fn join(units: &[Unit], at: usize, gone: usize, unit: Unit) -> Node {
+    let mut units = put(units, at, unit);
+    units.remove(gone);
+    select(units)
+}
+
+/// The moves at a node, if it is a selector.
+pub(super) fn moves(node: &Node, possible: &[Possible]) -> Vec<Move> {
+    let Some(units) = units(node) else {
+        return Vec::new();
+    };
+    let mut found = Vec::new();
+    merged(&units, &mut found);
+    where_possible(&units, possible, &mut found);
+    last_resort(&units, possible, &mut found);
+    reordered(&units, &mut found);
+    factored(&units, &mut found);
+    found
+}
+
+/// Two units in one: of the same behaviour wherever they stand, of different ones if they are neighbours.
+fn merged(units: &[Unit], found: &mut Vec<Move>) {
+    for (i, first) in units.iter().enumerate() {
+        for (j, second) in units.iter().enumerate().skip(i + 1) {
+            let same = first.body == second.body;
+            if !same && j > i + 1 {
+                continue;
+            }
+            let both = either(&first.guard, &second.guard);
+            let shared = and(common(&both).0);
+            for guard in [both, shared] {
+                for (at, gone) in [(i, j), (j, i)] {
+                    found.push((
+                        Change::Merged,
+                        join(units, at, gone, first.under(guard.clone())),
+                    ));
+                    if !same {
+                        found.push((
+                            Change::Merged,
+                            join(units, at, gone, second.under(guard.clone())),
+                        ));
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The predicate outside of which what a unit does first fails.
+pub(super) fn needs(body: &Node, possible: &[Possible]) -> Option<Guard> {
+    match body {
+        Node::Behavior(behavior) => possible
+            .iter()
+            .find(|(b, _)| b == behavior)
+            .map(|(_, atom)| Guard::Atom(*atom)),
+        Node::Composite {
+            kind: Composite::Sequence,
+            memory: true,
+            children,
+        } => needs(children.first()?, possible),
+        _ => None,
+    }
+}
+
+/// `X` only where it is possible: that predicate for the whole guard, alone or with one of the guard's literals.
+fn where_possible(units: &[Unit], possible: &[Possible], found: &mut Vec<Move>) {
+    for (i, unit) in units.iter().enumerate() {
+        let Some(needs) = needs(&unit.body, possible) else {
+            continue;
+        };
+        let mut guards = vec![needs.clone()];
+        guards.extend(
+            literals(&unit.guard)
+                .into_iter()
+                .map(|literal| and([literal, needs.clone()])),
+        );
+        for guard in guards.into_iter().filter(|guard| *guard != unit.guard) {
+            let units = put(units, i, unit.under(guard));
+            found.push((Change::Possible, select(units)));
+        }
+    }
+}
+
+/// Another unit as the last resort, without a guard, and the last one only where it is possible.
+fn last_resort(units: &[Unit], possible: &[Possible], found: &mut Vec<Move>) {
+    let Some((last, others)) = units.split_last() else {
+        return;
+    };
+    let Some(needs) = needs(&last.body, possible) else {
+        return;
+    };
+    for (i, unit) in others.iter().enumerate() {
+        let mut units = others.to_vec();
+        units.remove(i);
+        units.push(last.under(and([last.guard.clone(), needs.clone()])));
+        units.push(unit.under(Guard::Const(true)));
+        found.push((Change::Possible, select(units)));
+    }
+}
+
+/// Two neighbours exchanged, or a unit brought to the front, and the guard of one of them loosened.
+fn reordered(units: &[Unit], found: &mut Vec<Move>) {
+    for (i, unit) in units.iter().enumerate().skip(1) {
+        let mut exchanged = units.to_vec();
+        exchanged.swap(i - 1, i);
+        for at in [i - 1, i] {
+            if let Some(moved) = exchanged.get(at) {
+                for guard in parts(&moved.guard) {
+                    let units = put(&exchanged, at, moved.under(guard));
+                    found.push((Change::Reordered, select(units)));
+                }
+            }
+        }
+        if i > 1 {
+            for guard in parts(&unit.guard) {
+                let mut units = units.to_vec();
+                units.remove(i);
+                units.insert(0, unit.under(guard));
+                found.push((Change::Reordered, select(units)));
+            }
+        }
+    }
+}
+
+/// A literal that a run of neighbours has in all their guards, once before a selector of them.
+fn factored(units: &[Unit], found: &mut Vec<Move>) {
+    for (i, first) in units.iter().enumerate() {
+        for literal in common(&first.guard).0 {
+            let run = units.iter().skip(i).map_while(|unit| {
+                let (shared, rest) = common(&unit.guard);
+                shared.contains(&literal).then(|| {
+                    let others = shared.into_iter().filter(|part| *part != literal);
+                    unit.under(and(others.chain([rest])))
+                })
+            });
+            let run: Vec<Unit> = run.collect();
+            let length = run.len();
+            if length < 2 {
+                continue;
+            }
+            let unit = Unit {
+                guard: literal,
+                body: select(run),
+            };
+            let before = units.iter().take(i).cloned();
+            let after = units.iter().skip(i + length).cloned();
+            let units = before.chain([unit]).chain(after).collect();
+            found.push((Change::Factored, select(units)));
+        }
+    }
+}
