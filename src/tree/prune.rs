@@ -115,7 +115,9 @@ fn here(node: &Node, possible: &[Possible]) -> Vec<Move> {
         return found;
     }
     for i in 0..children(node).len() {
-        found.extend(without(node, i).map(|node| (Change::Dropped, node)));
+        // A guard alone would have the robot stand still.
+        let less = without(node, i).filter(drives);
+        found.extend(less.map(|node| (Change::Dropped, node)));
     }
     found.extend(reduced(node).into_iter().map(|n| (Change::Reduced, n)));
     found.extend(units::moves(node, possible));

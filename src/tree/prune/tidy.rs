@@ -41,7 +41,10 @@ fn folded(guard: Guard) -> Guard {
         Guard::Const(_) | Guard::Atom(_) => guard,
         Guard::Not(inner) => not(folded(*inner)),
         Guard::And(parts) => and(parts.into_iter().map(folded)),
-        Guard::Or(parts) => or(absorbed(parts.into_iter().map(folded).collect())),
+        Guard::Or(parts) => match or(parts.into_iter().map(folded)) {
+            Guard::Or(cubes) => or(absorbed(cubes)),
+            guard => guard,
+        },
     }
 }
 
@@ -74,8 +77,16 @@ pub(super) fn parts(guard: &Guard) -> &[Guard] {
 }
 
 fn tidy_selector(children: Vec<Node>) -> Node {
+    let spliced = children.into_iter().flat_map(|child| match child {
+        Node::Composite {
+            kind: Composite::Selector,
+            memory: false,
+            children,
+        } => children,
+        child => vec![child],
+    });
     let mut reached = Vec::new();
-    for child in children {
+    for child in spliced {
         match child {
             Node::Condition(Guard::Const(false)) => {}
             Node::Condition(Guard::Const(true)) => {
