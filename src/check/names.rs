@@ -168,6 +168,13 @@ impl<'a> Names<'a> {
                     );
                 }
                 match layer.get(name.name.as_str()) {
+                    // What was learned stands beside the accepted result that its source has.
+                    Some(Decl::Tree(first))
+                        if matches!(decl, Decl::Tree(_))
+                            && first.name.span.file != name.span.file =>
+                    {
+                        layer.insert(&name.name, decl);
+                    }
                     Some(first) => diagnostics.push(twice(name, first.ident(), first.what())),
                     None => {
                         layer.insert(&name.name, decl);

@@ -18,7 +18,14 @@ use crate::syntax::print;
 
 impl<'a> Checker<'a> {
     /// `tree name(params) for task = node`
+    ///
+    /// A tree of a used file gives way to one of its name in a file that uses it.
     pub(super) fn tree(&mut self, tree: &'a ast::Tree, docs: &[String]) {
+        if let Some((Decl::Tree(known), _)) = self.names.value(&tree.name.name, false)
+            && known.name.span.file != tree.name.span.file
+        {
+            return;
+        }
         let task = match &tree.task {
             Some(name) => {
                 let spelled = super::world::spelled(&name.name);

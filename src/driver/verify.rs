@@ -121,10 +121,10 @@ pub fn claims_of_learned(
     let mut results = Vec::new();
     for claim in &program.claims {
         let subject = side(program, learned, claim.tree);
-        let own = claim.tree == TreeRef::Learned(learned.learner);
+        let own = is_learned(program, learned, claim.tree);
         match (&claim.kind, subject) {
             (ClaimKind::Equals(other), Some(left)) => {
-                let own = own || *other == TreeRef::Learned(learned.learner);
+                let own = own || is_learned(program, learned, *other);
                 if let (true, Some(right)) = (own, side(program, learned, *other)) {
                     results.push(pair.prove(left, right)?);
                 }
@@ -193,19 +193,28 @@ fn event_claim(
     })
 }
 
+/// Whether a claim speaks of the tree that was learned: by the learner, or by an accepted result of its name, which the
+/// new one takes the place of.
+fn is_learned(program: &Program, learned: &Learned, tree: TreeRef) -> bool {
+    match tree {
+        TreeRef::Tree(id) => program.trees[id].name == program.learners[learned.learner].name,
+        TreeRef::Learned(id) => id == learned.learner,
+    }
+}
+
 fn side<'a>(
     program: &'a Program,
     learned: &'a Learned,
     tree: TreeRef,
 ) -> Option<(&'a str, &'a Node)> {
+    if is_learned(program, learned, tree) {
+        let learner: &Learner = &program.learners[learned.learner];
+        return Some((&learner.name, &learned.root));
+    }
     match tree {
         TreeRef::Tree(id) => {
             let tree = &program.trees[id];
             Some((&tree.name, &tree.root))
-        }
-        TreeRef::Learned(id) if id == learned.learner => {
-            let learner: &Learner = &program.learners[id];
-            Some((&learner.name, &learned.root))
         }
         TreeRef::Learned(_) => None,
     }

@@ -74,6 +74,10 @@ impl Writer<'_> {
                 "seen": sizes(&results.trees.seen),
                 "reachable": sizes(&results.trees.reachable),
             },
+            "simplified": results
+                .simplified
+                .as_ref()
+                .map(|simplified| simplified.json(self.bench.program, self.bench.learner.task)),
             "greedy": self.ran(&results.summary),
             "value": { "predicted": mean(&predicted), "simulated": mean(&simulated) },
             "outside": outside(&results.summary),
