@@ -2,7 +2,7 @@
 //!
 //! Every body is checked once for itself, with its parameters known by type only; then families, behaviours and
 //! subtrees are unrolled by checking their bodies again under their arguments. What goes wrong only under the
-//! arguments is reported where they are given. A mistake is reported once: an expression of [`types::Type::Error`]
+//! arguments is reported where they are given. A mistake is reported once: an expression of `Type::Error`
 //! agrees with everything that is built on it.
 
 mod argument;

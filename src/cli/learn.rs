@@ -5,7 +5,7 @@ use super::progress::Progress;
 use super::report::{Reporter, tell};
 use super::{Failure, PLAYED};
 use crate::driver::learn::{self, Options};
-use crate::driver::verify;
+use crate::driver::{target, verify};
 use crate::tree::decanonicalise::{Care, Method};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -83,6 +83,9 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
         return Err(Failure::Usage);
     }
     let loaded = files::load(&arguments.file, say)?;
+    // Without a learner no folder is made.
+    target::learner(&loaded, arguments.learner.as_deref())
+        .map_err(|mistake| say.one(&loaded.sources, mistake))?;
     let folder = match &arguments.output {
         Some(folder) => folder.clone(),
         None => {
