@@ -141,9 +141,8 @@ done
 echo "
 ## Table I: the large delivery, guard by guard
 
-Ours, with seed 1: \`btc learn $LARGE --seed 1 --simplify 1%\`.
-
 \`\`\`bt
+// btc learn $LARGE --seed 1 --simplify 1%
 // Exact, proved $(report large_1 '$1 == "proved" { sub(/^proved */, ""); print }').
 $(tree learned_exact "$exact")
 // Simplified: made from the exact tree, tested and not proved.
