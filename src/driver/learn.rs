@@ -125,6 +125,13 @@ pub fn learn(
     let atoms = program.atoms(learner.task);
     let thin = results::thin(run, options.evidence, atoms.len());
     let policy = extract::policy(&run.decisions, &run.table, &met, task, atoms);
+    let values = policy
+        .rows
+        .iter()
+        .flat_map(|row| row.values.iter().flatten());
+    if values.into_iter().any(|value| !value.q.is_finite()) {
+        return Err(without_value(loaded));
+    }
     progress(Stage::Proving);
     let tree = |care| {
         decanonicalise::decanonicalise(&policy, options.method, care)
@@ -245,6 +252,18 @@ fn refused(loaded: &Loaded, refuted: &crate::tree::prove::Refuted, evidence: u64
         )
         .note("this is a mistake of btc itself; please report it with the program"),
     }
+}
+
+/// A reward such as 0 / 0 makes every comparison of values void.
+fn without_value(loaded: &Loaded) -> Diagnostic {
+    Diagnostic::new(
+        Code::E0505,
+        target::end_of_file(loaded),
+        "nothing was learned: the rewards come to no finite number",
+    )
+    .help(
+        "look for a division by zero, or a root or logarithm of a negative number, under `reward`",
+    )
 }
 
 fn nothing(loaded: &Loaded, evidence: u64) -> Diagnostic {

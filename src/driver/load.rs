@@ -73,8 +73,18 @@ pub fn load(name: &str, text: Vec<u8>, reader: &mut dyn Reader) -> Loaded {
     let mut diagnostics = loader.diagnostics;
     // What is not declared may be declared in the file that is missing.
     let elsewhere = |found: &Diagnostic| matches!(found.code, Code::E0202 | Code::E0407);
+    // What a world, a task or a learner does not say may stand behind a brace that is not closed.
+    let unclosed: Vec<FileId> = diagnostics
+        .iter()
+        .filter(|found| found.code == Code::E0102)
+        .map(|found| found.span().file)
+        .collect();
+    let unread = |found: &Diagnostic| {
+        matches!(found.code, Code::E0402 | Code::E0502) && unclosed.contains(&found.span().file)
+    };
     let found = checked.diagnostics.into_iter();
-    diagnostics.extend(found.filter(|found| !(loader.incomplete && elsewhere(found))));
+    diagnostics
+        .extend(found.filter(|found| !(loader.incomplete && elsewhere(found) || unread(found))));
     diagnostic::sort(&mut diagnostics);
     let user = loader.parsed.iter().filter(|parsed| !parsed.library);
     let files = user.map(|parsed| parsed.file).collect();

@@ -11,7 +11,11 @@ use btc::tree::decanonicalise::{Care, Method};
 
 /// Learns small delivery in a moment: a tenth of its episodes show the same policy.
 fn learned(loaded: &Loaded, seed: u64, method: Method) -> Learned {
-    let options = Options {
+    learn(loaded, &options(seed, method), &|_| {}).unwrap()
+}
+
+fn options(seed: u64, method: Method) -> Options<'static> {
+    Options {
         learner: None,
         seed: Some(seed),
         seeds: 1,
@@ -23,8 +27,7 @@ fn learned(loaded: &Loaded, seed: u64, method: Method) -> Learned {
         roll_outs: 50,
         tests: 0,
         source: "delivery_small.bt",
-    };
-    learn(loaded, &options, &|_| {}).unwrap()
+    }
 }
 
 /// The files of a learned program beside its source.
@@ -138,4 +141,23 @@ fn figures_have_their_form() {
     let ran = run::run(&loaded, Subject::Tree(tree), 4, 1).unwrap();
     snapshot::check("delivery_small.run.json", &format!("{:#}", ran.json()));
     snapshot::check("delivery_small.run", &ran.human());
+}
+
+#[test]
+fn rewards_that_are_no_numbers_teach_nothing() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/delivery_small.bt");
+    let text = std::fs::read_to_string(path).unwrap();
+    let void = text.replace(
+        "otherwise:  -0.1",
+        "otherwise:  (battery - battery) / (battery - battery)",
+    );
+    assert_ne!(void, text);
+    let mut folder = Folder {
+        files: Vec::new(),
+        source: void.clone(),
+    };
+    let loaded = load("void.bt", void.into_bytes(), &mut folder);
+    assert!(loaded.diagnostics.is_empty(), "{:?}", loaded.diagnostics);
+    let mistake = learn(&loaded, &options(1, Method::Search), &|_| {}).unwrap_err();
+    assert_eq!(mistake.code, btc::diagnostic::Code::E0505);
 }
