@@ -104,11 +104,14 @@ pub struct Policy {
     pub transitions: Vec<Transition>,
 }
 
-/// One seen minterm.
+/// One seen minterm, or a cube of a table that leaves atoms free.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
-    /// The minterm.
+    /// The minterm; free atoms are 0 in it.
     pub minterm: Minterm,
+    /// The atoms whose value does not matter, a 1 for each: the row stands for every minterm that agrees with it in the
+    /// others. `None` for a row that stands for one minterm, as all do that were learned.
+    pub free: Option<Minterm>,
     /// What the policy does in it.
     pub behavior: Id<Behavior>,
     /// How many decisions were completed in it.

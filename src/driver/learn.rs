@@ -134,7 +134,12 @@ pub fn learn(
     }
     progress(Stage::Proving);
     let tree = |care| {
-        decanonicalise::decanonicalise(&policy, options.method, care)
+        let asked = decanonicalise::Options {
+            method: options.method,
+            care,
+            ..decanonicalise::Options::default()
+        };
+        decanonicalise::decanonicalise(&policy, &asked)
             .map_err(|refuted| refused(loaded, &refuted, options.evidence))
     };
     let (seen, reachable) = rayon::join(|| tree(Care::Seen), || tree(Care::Reachable));

@@ -76,6 +76,7 @@ pub fn policy(
             });
             Some(Row {
                 minterm: minterm(key, n),
+                free: None,
                 behavior,
                 visits: table.visits(row),
                 values: values.collect(),

@@ -77,6 +77,7 @@ pub fn read(text: &str, program: &Program, task: Option<Id<Task>>) -> Result<Pol
         for minterm in minterms(cells, &columns, &place)? {
             let row = Row {
                 minterm: minterm.clone(),
+                free: None,
                 behavior,
                 visits,
                 values: values.clone(),

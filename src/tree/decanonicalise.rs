@@ -34,6 +34,29 @@ pub enum Care {
     Reachable,
 }
 
+/// In which order the search lets the units of a selector stand.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Order {
+    /// As makes the tree smallest.
+    #[default]
+    Learned,
+    /// As the behaviours stand in the policy.
+    Given,
+    /// Behaviours with the fewest rows first.
+    Rarest,
+}
+
+/// What is asked of a tree.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Options {
+    /// How it is found.
+    pub method: Method,
+    /// Where it has to take the policy's decisions.
+    pub care: Care,
+    /// In which order its units stand.
+    pub order: Order,
+}
+
 /// A tree that takes the decisions of a policy.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Decanonicalised {
@@ -68,15 +91,11 @@ pub struct Failing {
 ///
 /// # Errors
 /// The policy has no rows, or the tree that was found is refuted: with the counterexample.
-pub fn decanonicalise(
-    policy: &Policy,
-    method: Method,
-    care: Care,
-) -> Result<Decanonicalised, Refuted> {
-    let policy = &cared(policy, care);
+pub fn decanonicalise(policy: &Policy, options: &Options) -> Result<Decanonicalised, Refuted> {
+    let policy = &cared(policy, options.care);
     let problem = Problem::new(policy);
     let paper = paper::tree(&problem);
-    let root = match method {
+    let root = match options.method {
         Method::Paper => paper.clone(),
         Method::Search => search::tree(&problem, &paper),
     };

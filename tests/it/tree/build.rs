@@ -2,6 +2,7 @@
 
 use btc::ir::Id;
 use btc::ir::tree::{Atom, Composite, Decorator, Guard, Node};
+use btc::tree::decanonicalise::{Care, Method, Options};
 
 /// A behaviour.
 pub(crate) fn leaf(behavior: usize) -> Node {
@@ -71,5 +72,14 @@ pub(crate) fn parallel(successes: u32, children: Vec<Node>) -> Node {
     Node::Parallel {
         successes,
         children,
+    }
+}
+
+/// This method on this care set, the rest as usual.
+pub(crate) fn asked(method: Method, care: Care) -> Options {
+    Options {
+        method,
+        care,
+        ..Options::default()
     }
 }

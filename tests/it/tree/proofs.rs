@@ -1,5 +1,6 @@
 //! Trees of random policies hold by the naive interpreter, and mutations of them are told apart.
 
+use super::build::asked;
 use super::random::{Random, policy};
 use super::walk::{Reads, holds, parts_after, read, replay};
 use btc::ir::tree::{Guard, Node};
@@ -10,7 +11,7 @@ use btc::tree::decanonicalise::{Care, Decanonicalised, Method, decanonicalise};
 use btc::tree::equivalence::{Environment, Side, Verdict, compare};
 
 fn checked(policy: &Policy, method: Method, seed: u64) -> Decanonicalised {
-    let found = decanonicalise(policy, method, Care::Seen)
+    let found = decanonicalise(policy, &asked(method, Care::Seen))
         .unwrap_or_else(|refuted| panic!("seed {seed}, {method:?}: {refuted:?}"));
     for row in &policy.rows {
         let reads = read(&found.root, &holds(&policy.atoms, &row.minterm));
@@ -63,7 +64,7 @@ fn mutations_are_refuted_or_equal() {
     let (mut refuted, mut equal) = (0, 0);
     for seed in 1..=200 {
         let policy = policy(seed);
-        let found = decanonicalise(&policy, Method::Search, Care::Seen).unwrap();
+        let found = decanonicalise(&policy, &asked(Method::Search, Care::Seen)).unwrap();
         for mutant in mutants(&found.root, &mut Random::new(seed)) {
             let compared = compare(
                 Side::Tree(&mutant),

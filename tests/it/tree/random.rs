@@ -159,6 +159,7 @@ pub(crate) fn policy(seed: u64) -> Policy {
             .map(|(minterm, does)| Row {
                 behavior: Id::new(does),
                 minterm,
+                free: None,
                 visits: 1,
                 values: vec![None; behaviors],
             })

@@ -1,5 +1,6 @@
 //! The paper's example (section VIII-A): ten minterms, Figure 8.
 
+use super::build::asked;
 use btc::ir::Id;
 use btc::ir::task::History;
 use btc::ir::tree::{Atom, Composite, Guard, Node, Status};
@@ -36,6 +37,7 @@ pub(crate) fn policy() -> Policy {
     .into_iter()
     .map(|(carrying, low, done, does)| Row {
         minterm: minterm(carrying, low, done),
+        free: None,
         behavior: Id::new(does),
         visits: 1,
         values: vec![None; 4],
@@ -115,7 +117,7 @@ pub(crate) fn figure_8() -> Node {
 fn both_methods_find_figure_8() {
     for method in [Method::Paper, Method::Search] {
         for care in [Care::Seen, Care::Reachable] {
-            let found = decanonicalise(&policy(), method, care).unwrap();
+            let found = decanonicalise(&policy(), &asked(method, care)).unwrap();
             assert_eq!(found.root, figure_8(), "{method:?} {care:?}");
             assert_eq!(found.size.nodes, 10);
             assert!(found.proof.closed);
@@ -131,7 +133,7 @@ fn without_transitions_no_memory_node_is_printed() {
     let mut bare = policy();
     bare.transitions.clear();
     bare.starts.clear();
-    let found = decanonicalise(&bare, Method::Paper, Care::Seen).unwrap();
+    let found = decanonicalise(&bare, &asked(Method::Paper, Care::Seen)).unwrap();
     assert!(
         !format!("{:?}", found.root).contains("memory: true"),
         "{:?}",
@@ -178,6 +180,7 @@ fn the_least_policies_have_trees() {
             .enumerate()
             .map(|(i, b)| Row {
                 minterm: Minterm::new((0..atoms).map(|a| i >> a & 1 == 1)),
+                free: None,
                 behavior: Id::new(*b),
                 visits: 1,
                 values: vec![None; 4],
@@ -187,7 +190,7 @@ fn the_least_policies_have_trees() {
         policy
     };
     for method in [Method::Paper, Method::Search] {
-        let tree = |policy: &Policy| decanonicalise(policy, method, Care::Seen);
+        let tree = |policy: &Policy| decanonicalise(policy, &asked(method, Care::Seen));
         // No predicates and no history: the bare leaf.
         assert_eq!(
             tree(&one(0, &[2])).unwrap().root,
@@ -217,7 +220,7 @@ fn decisions_that_fail_are_listed_with_what_the_tree_does_next() {
         count: 7,
     });
     policy.transitions.sort();
-    let found = decanonicalise(&policy, Method::Search, Care::Seen).unwrap();
+    let found = decanonicalise(&policy, &asked(Method::Search, Care::Seen)).unwrap();
     let expected = Failing {
         minterm: stuck,
         behavior: Id::new(B),
