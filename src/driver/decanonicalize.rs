@@ -7,8 +7,7 @@ use super::table::{self, Refused, Text};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::emit;
 use crate::ir::Program;
-use crate::ir::tree::{Node, Tree};
-use crate::policy::error::{TableError, TableErrorKind};
+use crate::ir::tree::Tree;
 use crate::policy::table::{AtomName, Table};
 use crate::policy::{Policy, decisions};
 use crate::source::{FileId, Span};
@@ -67,12 +66,12 @@ pub struct Made {
 /// # Errors
 /// What is wrong with the texts, with the places.
 pub fn read(text: Text, recorded: Option<Recorded>, options: &Options) -> Result<Asked, Refused> {
-    let table = table::read(text)?;
+    let read = table::read(text)?;
     let at_header = |code, message: String| {
-        let span = |file| Span::new(file, table.header.start, table.header.end);
+        let span = |file| Span::new(file, read.header.start, read.header.end);
         move |file: FileId| Diagnostic::new(code, span(file), message)
     };
-    if options.slack > 0.0 && !table.has_values() {
+    if options.slack > 0.0 && !read.has_values() {
         let told = at_header(
             Code::E0817,
             "slack needs the values of the behaviours".to_owned(),
@@ -80,7 +79,7 @@ pub fn read(text: Text, recorded: Option<Recorded>, options: &Options) -> Result
         let help = "a column `q:NAME` for each behaviour says what it is worth";
         return Err(Refused::new(text, |file| vec![told(file).help(help)]));
     }
-    if let Some(what) = names(&table, options.name) {
+    if let Some(what) = names(&read, options.name) {
         let told = at_header(
             Code::E0816,
             format!("`{}` is the tree and {what}", options.name),
@@ -88,14 +87,8 @@ pub fn read(text: Text, recorded: Option<Recorded>, options: &Options) -> Result
         let help = "call the tree otherwise, with `--name NAME`";
         return Err(Refused::new(text, |file| vec![told(file).help(help)]));
     }
-    let (program, mut policy) = decisions::declared(&table, print::name);
-    decisions::expand(&mut policy).map_err(|at| {
-        let error = TableError {
-            span: table.place(text.bytes, at),
-            kind: TableErrorKind::Wide,
-        };
-        Refused::table(text, &[error])
-    })?;
+    let (program, mut policy) = decisions::declared(&read, print::name);
+    decisions::expand(&mut policy).map_err(|at| table::wide(&read, text, at))?;
     let mut asked = Asked {
         program,
         policy,
@@ -217,11 +210,6 @@ fn doc(
         "Made from {source}: proved on {}.",
         report::proved(policy, found)
     )
-}
-
-/// Whether a tree has memory.
-fn remembers(node: &Node) -> bool {
-    matches!(node, Node::Composite { memory: true, .. }) || node.children().iter().any(remembers)
 }
 
 /// The program needs no other files.

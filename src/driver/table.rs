@@ -55,6 +55,15 @@ pub fn read(text: Text) -> Result<Table, Refused> {
     Table::read(text.bytes, format).map_err(|errors| Refused::table(text, &errors))
 }
 
+/// The row of a table that stands for too many minterms.
+pub(super) fn wide(table: &Table, text: Text, at: usize) -> Refused {
+    let error = TableError {
+        span: table.place(text.bytes, at),
+        kind: TableErrorKind::Wide,
+    };
+    Refused::table(text, &[error])
+}
+
 /// Adds start minterms and greedy transitions to a policy. Those of `starts` come to the ones that `recorded` has.
 ///
 /// # Errors
@@ -166,8 +175,11 @@ fn located(file: FileId, error: &TableError) -> Diagnostic {
 
 fn code(kind: &TableErrorKind) -> Code {
     match kind {
+        TableErrorKind::NoText => Code::E0130,
         TableErrorKind::Malformed(_) | TableErrorKind::Empty => Code::E0811,
-        TableErrorKind::Ragged { .. } | TableErrorKind::MissingKey(_) => Code::E0812,
+        TableErrorKind::Ragged { .. }
+        | TableErrorKind::MissingKey(_)
+        | TableErrorKind::UnknownKey(_) => Code::E0812,
         TableErrorKind::RepeatedColumn(_)
         | TableErrorKind::SecondBehavior(_)
         | TableErrorKind::MissingColumn { .. }

@@ -5,6 +5,10 @@
 //! at the child after the last one whose success the window holds, a memory selector likewise with failures
 //! (Figures 4 and 5).
 
+mod table;
+
+pub use table::Decided;
+
 use super::formula::{and, guarded, not, or, selector};
 use crate::ir::Id;
 use crate::ir::law::Behavior;

@@ -24,6 +24,7 @@ mod svg;
 mod syntax;
 mod syntax_print;
 mod syntax_total;
+mod tables;
 mod tree;
 mod world_delivery;
 mod world_eval;
