@@ -2,6 +2,7 @@
 
 pub mod check;
 pub mod compile;
+pub mod decanonicalize;
 pub mod explain;
 pub mod format;
 pub mod learn;
@@ -9,6 +10,7 @@ pub mod load;
 pub mod picture;
 pub mod run;
 pub mod simplify;
+mod slack;
 pub mod table;
 pub mod target;
 pub mod verify;
