@@ -3,6 +3,8 @@
 mod environment;
 mod oracle;
 mod product;
+mod symbolic;
+mod unfold;
 
 pub use environment::Environment;
 
@@ -32,9 +34,29 @@ pub enum Verdict {
     Undecided(Explored),
 }
 
+/// How an answer was found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Means {
+    /// By going through every state of the product automaton.
+    #[default]
+    Paths,
+    /// Neither side has memory: by a truth table over the atoms on which their difference depends.
+    Table {
+        /// How many these are.
+        atoms: usize,
+    },
+    /// Neither side has memory: by a SAT solver.
+    Solver {
+        /// As for a table.
+        atoms: usize,
+    },
+}
+
 /// What was explored.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Explored {
+    /// How.
+    pub means: Means,
     /// States of both memories and the environment.
     pub states: usize,
     /// Ticks that were tried.
@@ -85,5 +107,10 @@ pub struct Unknown(pub Atom);
 /// # Errors
 /// An atom that a tree asks and the environment's table does not have.
 pub fn compare(left: Side, right: Side, environment: Environment) -> Result<Verdict, Unknown> {
-    product::explore(left, right, environment)
+    match (left, right, environment) {
+        (Side::Tree(left), Side::Tree(right), Environment::Any(history)) => {
+            symbolic::explore(left, right, history)
+        }
+        _ => product::explore(left, right, environment),
+    }
 }
