@@ -1,5 +1,6 @@
 //! When two sides take the same decisions: the product automaton of their memories and the environment.
 
+mod choices;
 mod environment;
 mod oracle;
 mod product;
@@ -7,6 +8,7 @@ mod symbolic;
 mod unfold;
 
 pub use environment::Environment;
+use environment::Follow;
 
 use crate::ir::Id;
 use crate::ir::law::Behavior;
@@ -72,6 +74,17 @@ pub struct Explored {
     pub after_failure: BTreeMap<Minterm, BTreeSet<Option<Id<Behavior>>>>,
 }
 
+impl Explored {
+    /// How an answer was found, in words.
+    pub fn means_text(&self) -> String {
+        match self.means {
+            Means::Paths => format!("{} states explored", self.states),
+            Means::Table { atoms } => format!("by a truth table over {atoms} predicates"),
+            Means::Solver { atoms } => format!("by a SAT solver over {atoms} predicates"),
+        }
+    }
+}
+
 /// A shortest way to a tick in which the sides select differently.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Trace {
@@ -111,6 +124,14 @@ pub fn compare(left: Side, right: Side, environment: Environment) -> Result<Verd
         (Side::Tree(left), Side::Tree(right), Environment::Any(history)) => {
             symbolic::explore(left, right, history)
         }
-        _ => product::explore(left, right, environment),
+        (_, _, Environment::Greedy(table)) => {
+            product::explore(left, right, table, Follow::Recorded)
+        }
+        // A table decides on its own minterms only.
+        (_, _, Environment::Observed(table))
+        | (Side::Policy(table), _, Environment::Any(_))
+        | (_, Side::Policy(table), Environment::Any(_)) => {
+            product::explore(left, right, table, Follow::Consistent)
+        }
     }
 }

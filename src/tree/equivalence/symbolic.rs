@@ -4,7 +4,7 @@
 //! which the selections differ? With memory the same question is asked in every pair of memories and every window that
 //! can be reached, shortest paths first; valuations and statuses are never enumerated, only the states that they lead to.
 
-use super::environment::{Termination, Window, in_window};
+use super::environment::{Termination, Window, in_window, remembers, termination};
 use super::unfold::{Inputs, Unfolded, unfold};
 use super::{Explored, Means, Step, Trace, Unknown, Verdict};
 use crate::ir::Id;
@@ -86,12 +86,7 @@ impl Search {
         let mut remembered = Vec::new();
         let mut signals = Vec::new();
         for atom in &atoms {
-            let termination = match atom {
-                Atom::Done(behavior) if history.success => Some((*behavior, Status::Success)),
-                Atom::Failed(behavior) if history.failure => Some((*behavior, Status::Failure)),
-                Atom::Predicate(_) | Atom::Done(_) | Atom::Failed(_) => None,
-            };
-            let termination = termination.filter(|_| history.window > 0);
+            let termination = termination(*atom).filter(|_| remembers(history, *atom));
             // What the window does not remember never holds.
             let signal = match (atom, termination) {
                 (Atom::Done(_) | Atom::Failed(_), None) => Signal::FALSE,

@@ -334,6 +334,8 @@ impl Tick<'_> {
     fn child(&mut self, child: usize, before: &Left, when: Signal, reach: Reach) -> Ways {
         let fresh = match before.drove {
             true => Signal::FALSE,
+            // Where nothing has been ticked before, nothing has here: the gates of nested nodes stay those of flat ones.
+            false if reach.fresh == reach.all => when,
             false => self.inputs.circuit.and(when, reach.fresh),
         };
         self.node(child, Reach { all: when, fresh })
