@@ -223,8 +223,8 @@ impl Pair<'_> {
                     }
                     None => format!(
                         "equal: `{left}` and `{right}` select the same behaviour in every environment that is \
-                         consistent with the history window ({} states explored)",
-                        explored.states
+                         consistent with the history window ({})",
+                        explored.means_text()
                     ),
                 },
             },
