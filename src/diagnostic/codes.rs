@@ -1,7 +1,7 @@
 //! The codes of diagnostics, each with its title and its explanation.
 //!
 //! E01xx syntax, E02xx names, E03xx types and units, E04xx the world, E05xx tasks and learning, E06xx trees,
-//! W… warnings. An explanation is a file of its own under `explain/`, with a wrong and a right example that the
+//! E082x trees for robots, W… warnings. An explanation is a file of its own under `explain/`, with a wrong and a right example that the
 //! tests run.
 
 use super::Severity;
@@ -121,6 +121,9 @@ codes! {
     E0610 "a table that does not fit",
 
     E0701 "not built yet",
+
+    E0821 "a node that the robot's library does not have",
+    E0822 "a time that the robot's library cannot keep",
 
     W0201 "a name that nothing reads",
     W0301 "a plain number for a ratio",
