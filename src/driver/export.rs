@@ -78,7 +78,7 @@ fn place(root: &Node, path: &[usize]) -> Span {
 
 fn refused(refusal: &Refusal, span: Span) -> Diagnostic {
     match refusal.reason {
-        Reason::Latched => Diagnostic::new(
+        Reason::Finished => Diagnostic::new(
             Code::E0821,
             span,
             "BehaviorTree.CPP has no such `parallel`",
@@ -86,14 +86,12 @@ fn refused(refusal: &Refusal, span: Span) -> Diagnostic {
         .label("has a child that can go on, and others to ask anew in each tick")
         .note("`Parallel` of BehaviorTree.CPP does not tick a child again that has finished")
         .help("a `sequence` or a `selector` asks the conditions to the left of a behaviour in each tick"),
-        Reason::Some => Diagnostic::new(Code::E0821, span, "py_trees has no such `parallel`")
+        Reason::Partial => Diagnostic::new(Code::E0821, span, "py_trees has no such `parallel`")
             .label("succeeds before all of its children have")
             .note("`Parallel` of py_trees fails as soon as one child fails")
             .help("a `selector` asks its conditions from the left until one holds"),
-        Reason::NoTick => Diagnostic::new(Code::E0822, span, "how long is this in seconds?")
-            .label("counts ticks, of unknown length")
-            .help("a `world { tick = … }` says how long a tick is"),
-        Reason::TooLong => Diagnostic::new(Code::E0822, span, "longer than 49 days")
-            .label("BehaviorTree.CPP counts milliseconds in 32 bits"),
+        Reason::Time => Diagnostic::new(Code::E0822, span, "no clock counts so long")
+            .label("longer than 49 days")
+            .note("BehaviorTree.CPP counts milliseconds in 32 bits"),
     }
 }

@@ -116,17 +116,16 @@ pub fn tree(program: &Program, tree: &Tree) -> Result<String, Refusal> {
 fn reason(node: &Node, tick: Option<f64>) -> Option<Reason> {
     match node {
         Node::Parallel { children, .. } => {
-            let latched = children.len() > 1 && !children.iter().all(answers_at_once);
-            latched.then_some(Reason::Latched)
+            let finished = children.len() > 1 && !children.iter().all(answers_at_once);
+            finished.then_some(Reason::Finished)
         }
         Node::Decorator {
             kind: Decorator::Timeout(ticks),
             ..
-        } => match tick {
-            None => Some(Reason::NoTick),
-            Some(tick) if *ticks as f64 * tick > f64::from(u32::MAX) => Some(Reason::TooLong),
-            Some(_) => None,
-        },
+        } => {
+            let fits = tick.is_some_and(|tick| *ticks as f64 * tick <= f64::from(u32::MAX));
+            (!fits).then_some(Reason::Time)
+        }
         _ => None,
     }
 }

@@ -94,11 +94,11 @@ fn reason(node: &Node, tick: Option<f64>) -> Option<Reason> {
         Node::Parallel {
             successes,
             children,
-        } => (u32::try_from(children.len()) != Ok(*successes)).then_some(Reason::Some),
+        } => (u32::try_from(children.len()) != Ok(*successes)).then_some(Reason::Partial),
         Node::Decorator {
             kind: Decorator::Timeout(_),
             ..
-        } => tick.is_none().then_some(Reason::NoTick),
+        } => tick.is_none().then_some(Reason::Time),
         _ => None,
     }
 }

@@ -15,13 +15,11 @@ pub struct Refusal {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reason {
     /// A `parallel` of BehaviorTree.CPP does not tick a child again that has finished.
-    Latched,
+    Finished,
     /// A `parallel` of py_trees fails with its first child.
-    Some,
-    /// The length of a tick is not known, so ticks cannot be turned into time.
-    NoTick,
-    /// A time that does not fit into the target's numbers.
-    TooLong,
+    Partial,
+    /// A time that the runtime cannot count, or ticks of unknown length.
+    Time,
 }
 
 /// The first node from the left for which there is a reason.
