@@ -11,7 +11,7 @@ use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::{Atom, Node};
 use crate::logic::{Bits, Columns};
-use crate::policy::{Minterm, Policy};
+use crate::policy::{Minterm, Policy, Row};
 use cube::{Cube, Fault};
 pub use plan::Reading;
 use plan::{Plan, plan};
@@ -86,7 +86,7 @@ pub struct Prover<'a> {
 impl<'a> Prover<'a> {
     /// Transposes the rows of a policy.
     pub fn new(policy: &'a Policy) -> Self {
-        let words = policy.rows.iter().map(|row| row.minterm.words());
+        let words = |row: &'a Row| (row.minterm.words(), row.free.as_ref().map(Minterm::words));
         let atoms = policy.atoms.iter().enumerate();
         let mut numbers: FxHashMap<Id<Behavior>, usize> = FxHashMap::default();
         let mut plain: Vec<(Id<Behavior>, Bits)> = Vec::new();
@@ -106,11 +106,22 @@ impl<'a> Prover<'a> {
         }
         Self {
             policy,
-            columns: Columns::new(policy.atoms.len(), words),
+            columns: Columns::with_free(policy.atoms.len(), policy.rows.iter().map(words)),
             positions: atoms.map(|(i, atom)| (*atom, i)).collect(),
             plain,
             wide,
         }
+    }
+
+    /// The rows, transposed.
+    pub fn columns(&self) -> &Columns {
+        &self.columns
+    }
+
+    /// The rows in which an atom is fixed to 1; `None` if the policy does not observe it.
+    pub fn column(&self, atom: Atom) -> Option<&Bits> {
+        let at = self.positions.get(&atom)?;
+        self.columns.iter().nth(*at).map(|(_, column)| column)
     }
 
     /// Whether a tree takes the policy's decisions.
@@ -244,7 +255,6 @@ impl<'a> Prover<'a> {
 
 impl Held for Prover<'_> {
     fn held(&self, atom: Atom) -> Option<&Bits> {
-        let at = self.positions.get(&atom)?;
-        self.columns.iter().nth(*at).map(|(_, column)| column)
+        self.column(atom)
     }
 }
