@@ -6,13 +6,15 @@
 
 use super::bits::Bits;
 use super::columns::Columns;
+use super::cube::Cover;
 use super::instance::Instance;
 use super::minimise::{Effort, Solution};
+use super::random::{self, Random};
 use super::whole;
 
 /// Rows up to which a problem is its own core, and rows of ON and of OFF in the first core of a larger one.
-const WHOLE: usize = 2_048;
-const FIRST: usize = 512;
+const WHOLE: usize = 512;
+const FIRST: usize = 128;
 /// Rounds after which the core is all rows.
 const ROUNDS: usize = 24;
 
@@ -59,6 +61,17 @@ impl<'a> Core<'a> {
         &self.solution
     }
 
+    /// The cover of all rows under a greater effort, on the core that this one came to.
+    pub(super) fn finish(&self, effort: &'a Effort) -> Cover {
+        let mut core = Self {
+            effort,
+            rounds: 0,
+            ..self.clone()
+        };
+        while !core.refine() {}
+        core.solution.cover
+    }
+
     /// Solves the core, and has the rows for which the cover is wrong join it. Whether there are none.
     pub(super) fn refine(&mut self) -> bool {
         let rows = |bits: &Bits| bits.iter().collect::<Vec<usize>>();
@@ -83,32 +96,7 @@ impl<'a> Core<'a> {
     }
 }
 
-/// So many of the rows, spread evenly, or all where there are no more. Within its stretch a row is taken by a hash, so
-/// that no period of the table shows.
 fn sample(rows: &Bits, size: usize) -> Bits {
-    let count = rows.count();
-    if count <= size {
-        return rows.clone();
-    }
-    let mut wanted = (0..size).map(|i| {
-        let (from, to) = (i * count / size, (i + 1) * count / size);
-        from + (hash(i as u64) % (to - from) as u64) as usize
-    });
-    let mut next = wanted.next();
-    let picked = rows.iter().enumerate().filter(|(at, _)| {
-        let hit = Some(*at) == next;
-        if hit {
-            next = wanted.next();
-        }
-        hit
-    });
-    Bits::collect(rows.bound(), picked.map(|(_, row)| row))
-}
-
-/// A number that looks random (the finaliser of splitmix64: Steele, Lea and Flood 2014).
-fn hash(number: u64) -> u64 {
-    let mut z = number.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
+    let picked = random::sample(rows.iter(), rows.count(), size, &mut Random::new(0));
+    Bits::collect(rows.bound(), picked)
 }

@@ -1,16 +1,20 @@
 //! Decision lists: classes of rows one after the other, each told from those after it.
 
+mod exchange;
+mod learned;
+
 use super::bits::Bits;
 use super::columns::Columns;
 use super::core::Core;
-use super::cube::{Cover, Cube};
+use super::cube::Cover;
 use super::minimise::{Effort, minimise_with};
 use rayon::prelude::*;
 
 /// The order of a decision list.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Order {
-    /// Each time the class whose cover has the fewest literals, then the fewest cubes.
+    /// Each time the class whose cover has the fewest literals, then the fewest cubes; neighbours change places where
+    /// that saves literals.
     #[default]
     Learned,
     /// As the classes are given.
@@ -29,37 +33,61 @@ pub fn list(
     order: Order,
     effort: &Effort,
 ) -> Vec<(usize, Cover)> {
-    let mut classes: Vec<Class> = classes
+    let there = classes
         .iter()
         .enumerate()
-        .filter(|(_, rows)| !rows.is_empty())
-        .map(|(number, rows)| Class { number, rows })
-        .collect();
-    match order {
-        Order::Learned => learned(columns, classes, effort),
+        .filter(|(_, rows)| !rows.is_empty());
+    let mut classes: Vec<Class> = there.map(|(number, rows)| Class { number, rows }).collect();
+    let list = match order {
+        Order::Learned => learned::list(columns, classes, effort),
         Order::Given => fixed(columns, &classes, effort),
         Order::Rarest => {
             classes.sort_by_key(|class| class.rows.count());
             fixed(columns, &classes, effort)
         }
-    }
+    };
+    let unit = |unit: Unit| (unit.class.number, unit.cover);
+    list.into_iter().map(unit).collect()
 }
 
-#[derive(Clone, Copy)]
+/// A class by its number.
+#[derive(Clone, Copy, Debug)]
 struct Class<'a> {
     number: usize,
     rows: &'a Bits,
 }
 
+/// A class with its cover.
+#[derive(Clone, Debug)]
+struct Unit<'a> {
+    class: Class<'a>,
+    cover: Cover,
+}
+
+impl Unit<'_> {
+    fn cost(&self) -> Cost {
+        cost(&self.cover)
+    }
+}
+
+/// Number of literals, then of cubes: what the order is chosen by.
+type Cost = (usize, usize);
+
+fn cost(cover: &Cover) -> Cost {
+    (cover.literals(), cover.cubes().len())
+}
+
 /// The list in this order.
-fn fixed(columns: &Columns, classes: &[Class], effort: &Effort) -> Vec<(usize, Cover)> {
-    let cover = |(i, class): (usize, &Class)| {
+fn fixed<'a>(columns: &Columns, classes: &[Class<'a>], effort: &Effort) -> Vec<Unit<'a>> {
+    let unit = |(i, class): (usize, &Class<'a>)| {
         let after = classes.iter().skip(i + 1);
         let off = union(columns, after.map(|class| class.rows));
-        let solution = minimise_with(columns, class.rows, &off, effort);
-        (class.number, solution.cover)
+        Unit {
+            class: *class,
+            cover: minimise_with(columns, class.rows, &off, effort).cover,
+        }
     };
-    classes.par_iter().enumerate().map(cover).collect()
+    classes.par_iter().enumerate().map(unit).collect()
 }
 
 fn union<'a>(columns: &Columns, sets: impl Iterator<Item = &'a Bits>) -> Bits {
@@ -69,45 +97,23 @@ fn union<'a>(columns: &Columns, sets: impl Iterator<Item = &'a Bits>) -> Bits {
     })
 }
 
-/// The list that takes the class with the cheapest cover each time.
-///
-/// A cover of a core costs about what a cover of all rows costs, or less. So the class that looks cheapest is refined
-/// until one that holds on all of its rows looks cheapest: the others are never minimised in full.
-fn learned<'a>(
-    columns: &'a Columns,
-    mut classes: Vec<Class<'a>>,
-    effort: &'a Effort,
-) -> Vec<(usize, Cover)> {
-    let mut list = Vec::new();
-    let mut left = union(columns, classes.iter().map(|class| class.rows));
-    while classes.len() > 1 {
-        let offs: Vec<Bits> = classes.par_iter().map(|c| left.minus(c.rows)).collect();
-        let cores = classes.par_iter().zip(&offs);
-        let mut cores: Vec<(Core, bool)> = cores
-            .map(|(class, off)| {
-                let mut core = Core::new(columns, class.rows, off, effort);
-                let done = core.refine();
-                (core, done)
-            })
-            .collect();
-        let chosen = loop {
-            let cost = |(core, _): &(Core, bool)| {
-                let cover = &core.solution().cover;
-                (cover.literals(), cover.cubes().len())
-            };
-            let cheapest = (0..).zip(&mut cores).min_by_key(|(_, core)| cost(core));
-            match cheapest {
-                Some((_, (core, done))) if !*done => *done = core.refine(),
-                Some((i, (core, _))) => break Some((i, core.solution().cover.clone())),
-                None => break None,
-            }
-        };
-        let Some((at, cover)) = chosen else { break };
-        let class = classes.remove(at);
-        left.subtract(class.rows);
-        list.push((class.number, cover));
+/// The cover of a class against the rows of those after it, or `None` once it looks dearer than `limit`.
+fn within(
+    columns: &Columns,
+    class: Class,
+    off: &Bits,
+    limit: Cost,
+    effort: &Effort,
+) -> Option<Cover> {
+    let quick = effort.quick();
+    let mut core = Core::new(columns, class.rows, off, &quick);
+    loop {
+        let holds = core.refine();
+        if cost(&core.solution().cover) > limit {
+            return None;
+        }
+        if holds {
+            return Some(core.finish(effort));
+        }
     }
-    let last = classes.first().map(|class| class.number);
-    list.extend(last.map(|number| (number, Cover::new([Cube::default()]))));
-    list
 }

@@ -16,8 +16,12 @@ pub struct Effort {
     pub cover_steps: usize,
     /// Rows times primes that the search for the cheapest cover may go through.
     pub cover_work: usize,
-    /// ON rows up to which every one of them is a seed of EXPAND.
+    /// Covers that are built from the left, and seeds of EXPAND at a time.
+    pub sweeps: usize,
+    /// Seeds of EXPAND that are tried at a time.
     pub seeds: usize,
+    /// Changes that are tried on a cover, for each of its cubes, before it is left as it is.
+    pub rounds: usize,
 }
 
 impl Default for Effort {
@@ -27,7 +31,21 @@ impl Default for Effort {
             prime_steps: 8_000,
             cover_steps: 4_000,
             cover_work: 2_000_000,
-            seeds: 512,
+            sweeps: 1,
+            seeds: 4,
+            rounds: 8,
+        }
+    }
+}
+
+impl Effort {
+    /// Just enough to tell cheap from dear.
+    #[must_use]
+    pub(super) fn quick(&self) -> Self {
+        Self {
+            sweeps: 1,
+            rounds: 0,
+            ..*self
         }
     }
 }

@@ -10,10 +10,14 @@ mod core;
 mod covering;
 pub mod cube;
 mod expand;
+mod improve;
 mod instance;
 pub mod list;
 pub mod minimise;
+mod pool;
 mod primes;
+mod random;
+mod sweep;
 mod transpose;
 mod whole;
 

@@ -1,20 +1,18 @@
 //! Minimisation of an instance as a whole: a pool of primes, and the cheapest choice among them.
 
-use super::bits::Bits;
-use super::covering::{Choice, cheapest, greedy};
-use super::cube::{Cover, Cube, Literal};
-use super::expand::{Scoring, expand};
+use super::covering::{Choice, cheapest};
+use super::cube::{Cover, Cube};
+use super::expand::Scoring;
+use super::improve::{cost, improve, irredundant};
 use super::instance::Instance;
 use super::minimise::{Effort, Solution};
+use super::pool::Pool;
 use super::primes::all_through;
-use rayon::prelude::*;
-use std::collections::BTreeMap;
-use std::collections::btree_map::Entry;
+use super::random::Random;
+use super::sweep::sweep;
 
 /// The most primes for an exact cover.
 const EXACT_PRIMES: usize = 1_500;
-/// Seeds that are expanded at a time.
-const BATCH: usize = 64;
 
 /// A cover of the instance.
 ///
@@ -34,45 +32,30 @@ pub(super) fn solve(instance: &Instance, effort: &Effort) -> Solution {
             proved: true,
         };
     }
-    let (pool, exact) = match all_primes(instance, effort) {
-        Some(primes) => (primes, true),
-        None => (expanded(instance, effort), false),
+    let (pool, chosen) = match all_primes(instance, effort) {
+        Some(primes) => {
+            let chosen = exact(instance, &primes, effort);
+            (primes, chosen)
+        }
+        None => heuristic(instance, effort),
     };
-    let on = instance.all_on();
-    let choices: Vec<Choice> = pool
-        .iter()
-        .map(|(cube, covers)| Choice {
-            covers: covers.clone(),
-            weight: cube.literals().len(),
-        })
-        .collect();
-    let chosen = if exact || choices.len() <= EXACT_PRIMES {
-        let each = on.count() * (1 + choices.len() / 8);
-        let steps = (effort.cover_work / each).clamp(20, effort.cover_steps);
-        cheapest(&on, &choices, steps)
-    } else {
-        greedy(&on, &choices)
-    };
-    let cubes: Vec<Cube> = pool.into_keys().collect();
+    let cubes = chosen.into_iter().filter_map(|at| pool.get(at));
     Solution {
-        cover: Cover::new(chosen.into_iter().filter_map(|i| cubes.get(i).cloned())),
+        cover: Cover::new(cubes.map(|prime| prime.cube.clone())),
         proved: false,
     }
 }
 
-/// Every prime with the ON rows on which it holds; `None` where there are too many.
-fn all_primes(instance: &Instance, effort: &Effort) -> Option<BTreeMap<Cube, Bits>> {
+/// Every prime that an ON row lies in; `None` where there are too many.
+fn all_primes(instance: &Instance, effort: &Effort) -> Option<Pool> {
     if instance.rows() > effort.exact_rows {
         return None;
     }
-    let mut primes = BTreeMap::new();
+    let mut primes = Pool::default();
     let mut budget = effort.prime_steps;
     for seed in 0..instance.on.rows() {
         for cube in all_through(instance, seed, &mut budget)? {
-            if let Entry::Vacant(new) = primes.entry(cube) {
-                let covers = instance.covered(new.key());
-                new.insert(covers);
-            }
+            primes.add(instance, cube);
         }
         if primes.len() > EXACT_PRIMES {
             return None;
@@ -81,34 +64,46 @@ fn all_primes(instance: &Instance, effort: &Effort) -> Option<BTreeMap<Cube, Bit
     Some(primes)
 }
 
-/// A pool of primes: from every ON row while there are few, then from rows that no prime holds on yet.
-fn expanded(instance: &Instance, effort: &Effort) -> BTreeMap<Cube, Bits> {
-    let mut pool = BTreeMap::new();
+fn exact(instance: &Instance, pool: &Pool, effort: &Effort) -> Vec<usize> {
     let on = instance.all_on();
-    let mut covered = Bits::empty(on.bound());
-    let mut next = 0;
-    while next < on.bound() {
-        let mut seeds = Vec::new();
-        while next < on.bound() && seeds.len() < BATCH {
-            if next < effort.seeds || !covered.contains(next) {
-                seeds.push(next);
-            }
-            next += 1;
-        }
-        let found = seeds.par_iter().flat_map_iter(|seed| {
-            let literals: Vec<Literal> = instance.on.literals_of(*seed).collect();
-            let on = &on;
-            Scoring::ALL
-                .into_iter()
-                .map(move |scoring| expand(instance, literals.clone(), on, scoring))
-        });
-        for cube in found.collect::<Vec<Cube>>() {
-            if let Entry::Vacant(new) = pool.entry(cube) {
-                let covers = instance.covered(new.key());
-                covered.unite(&covers);
-                new.insert(covers);
-            }
+    let choices: Vec<Choice> = pool
+        .primes()
+        .iter()
+        .map(|prime| Choice {
+            covers: prime.covers.clone(),
+            weight: prime.literals(),
+        })
+        .collect();
+    let each = on.count() * (1 + choices.len() / 8);
+    let steps = (effort.cover_work / each).clamp(20, effort.cover_steps);
+    cheapest(&on, &choices, steps)
+}
+
+fn heuristic(instance: &Instance, effort: &Effort) -> (Pool, Vec<usize>) {
+    let mut pool = Pool::default();
+    let mut random = Random::new(0);
+    let on = instance.all_on();
+    let rows = instance.on.rows();
+    let mut best: Option<Vec<usize>> = None;
+    for _ in 0..effort.sweeps {
+        let mut cover = sweep(
+            instance,
+            &mut pool,
+            &on,
+            effort.seeds,
+            &Scoring::ALL,
+            &mut random,
+        );
+        irredundant(&pool, &mut cover, rows);
+        if best
+            .as_ref()
+            .is_none_or(|best| cost(&pool, &cover) < cost(&pool, best))
+        {
+            best = Some(cover);
         }
     }
-    pool
+    let cover = best.unwrap_or_default();
+    let rounds = effort.rounds * cover.len();
+    let cover = improve(instance, &mut pool, cover, rounds, &mut random);
+    (pool, cover)
 }
