@@ -1,5 +1,6 @@
 //! `btc canonicalize`: any tree as a canonical one (paper, section IV), or as the policy table that it stands for.
 
+use super::export;
 use super::load::Loaded;
 use super::target;
 use crate::diagnostic::{Code, Diagnostic};
@@ -7,8 +8,6 @@ use crate::emit;
 use crate::ir::Program;
 use crate::ir::tree::{Atom, Node, Tree};
 use crate::policy::{Minterm, Policy, Row, decisions};
-use crate::source::Span;
-use crate::syntax::ast::{self, ItemKind, NodeKind};
 use crate::syntax::print;
 use crate::tree::atoms::atoms;
 use crate::tree::canonicalise::{Canonical, Irreducible, canonicalise};
@@ -38,7 +37,7 @@ pub fn canonicalize(
     if canonical.units.is_empty() {
         let note = format!("`{}` selects nothing in any minterm", tree.name);
         let message = format!("`{}` has no canonical form", tree.name);
-        return Err(Diagnostic::new(Code::E0819, place(loaded, tree, &[]), message).label(note));
+        return Err(Diagnostic::new(Code::E0819, export::place(loaded, tree, &[]), message).label(note));
     }
     match form {
         Form::Csv => Ok(table(&loaded.program, tree, &canonical)),
@@ -127,29 +126,5 @@ fn table(program: &Program, tree: &Tree, canonical: &Canonical) -> (String, Opti
 
 fn irreducible(loaded: &Loaded, tree: &Tree, why: &Irreducible) -> Diagnostic {
     let message = format!("`{}` has no canonical form", tree.name.trim_matches('`'));
-    Diagnostic::new(Code::E0819, place(loaded, tree, &why.path), message).label(why.message())
-}
-
-/// The place of a node in the text, or of the subtree that it stands in. `path` is the way to it from the root.
-fn place(loaded: &Loaded, tree: &Tree, path: &[usize]) -> Span {
-    let found = loaded.ast.items.iter().find_map(|item| match &item.kind {
-        ItemKind::Tree(found) if print::name(&found.name.name) == tree.name => Some(&found.root),
-        _ => None,
-    });
-    found.map_or_else(|| target::end_of_file(loaded), |root| node(root, path))
-}
-
-fn node(at: &ast::Node, path: &[usize]) -> Span {
-    let Some((child, rest)) = path.split_first() else {
-        return at.span;
-    };
-    match &at.kind {
-        NodeKind::Composite { children, .. } => {
-            let child = children.get(*child);
-            child.map_or(at.span, |child| node(child, rest))
-        }
-        NodeKind::Guarded { guard, .. } if *child == 0 => guard.span,
-        NodeKind::Guarded { node: guarded, .. } => node(guarded, rest),
-        NodeKind::Leaf(_) | NodeKind::Error => at.span,
-    }
+    Diagnostic::new(Code::E0819, export::place(loaded, tree, &why.path), message).label(why.message())
 }

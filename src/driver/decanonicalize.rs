@@ -134,6 +134,7 @@ pub fn decanonicalize(asked: Asked, options: &Options) -> Result<Made, Refused> 
         method: options.method,
         care: Care::Seen,
         order: options.order,
+        ..decanonicalise::Options::default()
     };
     let Asked {
         mut program,

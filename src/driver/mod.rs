@@ -5,6 +5,7 @@ pub mod check;
 pub mod compile;
 pub mod decanonicalize;
 pub mod explain;
+pub mod export;
 pub mod format;
 pub mod learn;
 pub mod load;

@@ -131,7 +131,7 @@ pub enum Decorator {
     Succeed,
     /// Turns success into failure.
     Fail,
-    /// After a failure, tries again (running), this many times at most.
+    /// After a failure, tries again (running), until it has failed this many times.
     Retry(u32),
     /// After a success, starts again (running), until it has succeeded this many times.
     Repeat(u32),

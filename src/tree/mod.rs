@@ -2,6 +2,7 @@
 
 pub mod atoms;
 pub mod canonicalise;
+mod circuit;
 pub mod decanonicalise;
 
 pub mod drawing;

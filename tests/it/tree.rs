@@ -3,7 +3,9 @@
 mod build;
 mod canonical;
 mod drawn;
+mod equivalence;
 mod files;
+mod grown;
 mod guards;
 mod proofs;
 mod random;
