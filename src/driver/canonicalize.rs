@@ -37,7 +37,9 @@ pub fn canonicalize(
     if canonical.units.is_empty() {
         let note = format!("`{}` selects nothing in any minterm", tree.name);
         let message = format!("`{}` has no canonical form", tree.name);
-        return Err(Diagnostic::new(Code::E0819, export::place(loaded, tree, &[]), message).label(note));
+        return Err(
+            Diagnostic::new(Code::E0819, export::place(loaded, tree, &[]), message).label(note),
+        );
     }
     match form {
         Form::Csv => Ok(table(&loaded.program, tree, &canonical)),
@@ -126,5 +128,6 @@ fn table(program: &Program, tree: &Tree, canonical: &Canonical) -> (String, Opti
 
 fn irreducible(loaded: &Loaded, tree: &Tree, why: &Irreducible) -> Diagnostic {
     let message = format!("`{}` has no canonical form", tree.name.trim_matches('`'));
-    Diagnostic::new(Code::E0819, export::place(loaded, tree, &why.path), message).label(why.message())
+    Diagnostic::new(Code::E0819, export::place(loaded, tree, &why.path), message)
+        .label(why.message())
 }

@@ -17,6 +17,8 @@ use crate::tree::prove::Refuted;
 
 mod report;
 
+pub(super) use report::rows;
+
 /// What a user may say beside the table.
 #[derive(Clone, Copy, Debug)]
 pub struct Options<'o> {
@@ -24,6 +26,8 @@ pub struct Options<'o> {
     pub method: Method,
     /// In which order its units stand.
     pub order: Order,
+    /// How much work the search may take; see [`decanonicalise::Options::effort`].
+    pub effort: u64,
     /// How much less than the table's decision another may be worth; 0 for a tree that is equal to the table.
     pub slack: f64,
     /// The name of the tree.
@@ -87,8 +91,7 @@ pub fn read(text: Text, recorded: Option<Recorded>, options: &Options) -> Result
         let help = "call the tree otherwise, with `--name NAME`";
         return Err(Refused::new(text, |file| vec![told(file).help(help)]));
     }
-    let (program, mut policy) = decisions::declared(&read, print::name);
-    decisions::expand(&mut policy).map_err(|at| table::wide(&read, text, at))?;
+    let (program, policy) = decisions::declared(&read, print::name);
     let mut asked = Asked {
         program,
         policy,
@@ -134,7 +137,7 @@ pub fn decanonicalize(asked: Asked, options: &Options) -> Result<Made, Refused> 
         method: options.method,
         care: Care::Seen,
         order: options.order,
-        ..decanonicalise::Options::default()
+        effort: options.effort,
     };
     let Asked {
         mut program,
@@ -200,7 +203,7 @@ fn doc(
     slack: Option<&Slack>,
     allowed: f64,
 ) -> String {
-    let of = report::rows(policy);
+    let of = rows(policy);
     if let Some(slack) = slack {
         let otherwise = slack.otherwise.len();
         return format!(

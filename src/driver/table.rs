@@ -55,15 +55,6 @@ pub fn read(text: Text) -> Result<Table, Refused> {
     Table::read(text.bytes, format).map_err(|errors| Refused::table(text, &errors))
 }
 
-/// The row of a table that stands for too many minterms.
-pub(super) fn wide(table: &Table, text: Text, at: usize) -> Refused {
-    let error = TableError {
-        span: table.place(text.bytes, at),
-        kind: TableErrorKind::Wide,
-    };
-    Refused::table(text, &[error])
-}
-
 /// Adds start minterms and greedy transitions to a policy. Those of `starts` come to the ones that `recorded` has.
 ///
 /// # Errors

@@ -199,7 +199,7 @@ pub(super) fn atoms(program: &Program) -> BTreeMap<String, Atom> {
 ///
 /// # Errors
 /// The number of a row that stands for too many.
-pub fn expand(policy: &mut Policy) -> Result<(), usize> {
+fn expand(policy: &mut Policy) -> Result<(), usize> {
     if policy.rows.iter().all(|row| row.free.is_none()) {
         return Ok(());
     }

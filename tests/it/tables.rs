@@ -19,6 +19,7 @@ use crate::program::{self, NoFiles};
 pub(crate) const USUAL: Options = Options {
     method: Method::Search,
     order: Order::Learned,
+    effort: 10,
     slack: 0.0,
     name: "learned",
     form: Form::Bt,

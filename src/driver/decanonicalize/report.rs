@@ -100,7 +100,7 @@ impl Subject<'_> {
 }
 
 /// How much of a table there is, in words.
-pub(super) fn rows(policy: &Policy) -> String {
+pub(in crate::driver) fn rows(policy: &Policy) -> String {
     let cubes = policy.rows.iter().filter(|row| row.free.is_some()).count();
     match cubes {
         0 => counted(policy.rows.len(), "minterm"),

@@ -3,13 +3,14 @@
 use super::{Proved, trace};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::driver::compile::counted;
+use crate::driver::decanonicalize::rows;
 use crate::driver::learn::minterm_text;
 use crate::driver::load::Loaded;
 use crate::driver::table::{self, Refused, Text};
 use crate::driver::target;
 use crate::ir::Program;
 use crate::policy::table::Table;
-use crate::policy::{Minterm, Policy, Row, decisions};
+use crate::policy::{Minterm, Policy, decisions};
 use crate::source::Span;
 use crate::syntax::print;
 use crate::tree::atoms::atoms;
@@ -45,7 +46,6 @@ pub fn table(
     if let Some((transitions, starts)) = recorded {
         table::record(&mut policy, &program, transitions, starts)?;
     }
-    decisions::expand(&mut policy).map_err(|at| table::wide(&read, text, at))?;
     let sides = Sides {
         program: &program,
         table: &read,
@@ -75,7 +75,7 @@ impl Sides<'_> {
             return self.apart(Refuted::Unknown(*atom));
         }
         let (tree, table) = (self.tree, self.text.name);
-        let rows = self.policy.rows.len();
+        let rows = rows(&self.policy);
         let mut otherwise = Vec::new();
         loop {
             let refuted = match prove(self.root, &self.policy) {
@@ -88,7 +88,7 @@ impl Sides<'_> {
                         holds: true,
                         text: format!(
                             "equal: `{tree}` takes the decisions of {table} in {}{taken}",
-                            counted(rows, "minterm")
+                            rows
                         ),
                     });
                 }
@@ -110,7 +110,7 @@ impl Sides<'_> {
                         does(policy),
                         selected.map_or("nothing", does),
                     ));
-                    self.policy.rows.retain(|row| row.minterm != minterm);
+                    self.policy.rows.retain(|row| !row.speaks_of(&minterm));
                     if otherwise.len() >= LISTED {
                         break;
                     }
@@ -126,7 +126,7 @@ impl Sides<'_> {
         let mut lines = vec![format!(
             "different: `{tree}` decides {more}{} of {} of {table} otherwise",
             otherwise.len(),
-            counted(rows, "minterm")
+            rows
         )];
         lines.append(&mut otherwise);
         Ok(Proved {
@@ -179,13 +179,8 @@ impl Sides<'_> {
 
     /// The line of the row that speaks of a minterm.
     fn line(&self, minterm: &Minterm) -> usize {
-        let speaks = |row: &Row| {
-            let free = row.free.as_ref();
-            let fixed = |i: usize| !free.is_some_and(|free| free.get(i));
-            (0..minterm.len()).all(|i| !fixed(i) || row.minterm.get(i) == minterm.get(i))
-        };
-        let rows = self.table.rows();
-        let at = rows.enumerate().find(|(_, row)| speaks(row));
+        let mut rows = self.table.rows().enumerate();
+        let at = rows.find(|(_, row)| row.speaks_of(minterm));
         let place = self
             .table
             .place(self.text.bytes, at.map_or(0, |(at, _)| at));
