@@ -1,12 +1,12 @@
 //! Trees from policies, and what is proved of them.
 
-mod build;
+pub(crate) mod build;
 mod canonical;
 mod drawn;
 mod files;
 mod guards;
 mod proofs;
-mod random;
+pub(crate) mod random;
 mod small_delivery;
 mod ticks;
 mod walk;
