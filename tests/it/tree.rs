@@ -1,6 +1,6 @@
 //! Trees from policies, and what is proved of them.
 
-mod build;
+pub(crate) mod build;
 mod canonical;
 mod drawn;
 mod equivalence;
@@ -8,7 +8,7 @@ mod files;
 mod grown;
 mod guards;
 mod proofs;
-mod random;
+pub(crate) mod random;
 mod small_delivery;
 mod ticks;
 mod walk;
