@@ -5,6 +5,7 @@
 
 mod check;
 mod compile;
+mod decanonicalize;
 mod explain;
 mod files;
 mod fmt;
@@ -42,6 +43,8 @@ enum Command {
     Compile(compile::Arguments),
     /// Learn a policy and print it as a proved tree.
     Learn(learn::Arguments),
+    /// Turn a policy table of any origin into a proved tree.
+    Decanonicalize(decanonicalize::Arguments),
     /// Run a tree or a policy in its world.
     Run(run::Arguments),
     /// Prove two trees equal, or show a shortest trace on which they part.
@@ -83,6 +86,7 @@ pub fn main() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments, &say),
         Command::Compile(arguments) => compile::run(&arguments, &say),
         Command::Learn(arguments) => learn::run(&arguments, &say),
+        Command::Decanonicalize(arguments) => decanonicalize::run(&arguments, &say),
         Command::Run(arguments) => run::run(&arguments, &say),
         Command::Verify(arguments) => verify::run(&arguments, &say),
         Command::Fmt(arguments) => fmt::run(&arguments, &say),

@@ -2,13 +2,16 @@
 
 pub mod check;
 pub mod compile;
+pub mod decanonicalize;
 pub mod explain;
+pub mod export;
 pub mod format;
 pub mod learn;
 pub mod load;
 pub mod picture;
 pub mod run;
 pub mod simplify;
+mod slack;
 pub mod table;
 pub mod target;
 pub mod verify;

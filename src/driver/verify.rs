@@ -1,19 +1,18 @@
 //! `btc verify`: proofs that two trees take the same decisions, and tests of what is claimed of events.
 
+mod tested;
+
 use super::learn::{Learned, minterm_text};
 use super::load::Loaded;
-use super::{run, table, target};
+use super::{table, target};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::law::Behavior;
-use crate::ir::task::{ClaimKind, Learner, Occurrence, Task, TreeRef};
+use crate::ir::task::{ClaimKind, Learner, Task, TreeRef};
 use crate::ir::tree::{Atom, Node};
 use crate::ir::{Id, Program};
-use crate::learn::binomial::{lower95, upper95};
-use crate::learn::episode::Episode;
-use crate::learn::simulated::Purpose;
 use crate::policy::Policy;
 use crate::tree::equivalence::{Environment, Side, Trace, Verdict, compare};
-use crate::world::Start;
+use tested::Tests;
 
 /// What came of a proof.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -68,6 +67,7 @@ pub fn claims(loaded: &Loaded) -> Result<Vec<Proved>, Vec<Diagnostic>> {
     let program = &loaded.program;
     let one = |mistake| vec![mistake];
     let mut results = Vec::new();
+    let mut tests = Tests::new(loaded);
     for claim in &program.claims {
         let TreeRef::Tree(id) = claim.tree else {
             results.push(not_learned(&claim.text));
@@ -82,7 +82,8 @@ pub fn claims(loaded: &Loaded) -> Result<Vec<Proved>, Vec<Diagnostic>> {
             ClaimKind::Never(occurrence) | ClaimKind::Reaches(occurrence) => {
                 let task = target::task_of(loaded, Some(id)).map_err(one)?;
                 let reaches = matches!(claim.kind, ClaimKind::Reaches(_));
-                event_claim(loaded, task, &tree.root, &claim.text, occurrence, reaches)
+                tests
+                    .event((task, &tree.root), &claim.text, occurrence, reaches)
                     .map_err(one)?
             }
         });
@@ -118,6 +119,7 @@ pub fn claims_of_learned(
         task,
         recorded: Some(&learned.policy),
     };
+    let mut tests = Tests::new(loaded);
     let mut results = Vec::new();
     for claim in &program.claims {
         let subject = side(program, learned, claim.tree);
@@ -133,64 +135,13 @@ pub fn claims_of_learned(
                 if own =>
             {
                 let reaches = matches!(claim.kind, ClaimKind::Reaches(_));
-                let tested = event_claim(loaded, task, root, &claim.text, occurrence, reaches);
+                let tested = tests.event((task, root), &claim.text, occurrence, reaches);
                 results.push(tested.map_err(|mistake| vec![mistake])?);
             }
             _ => {}
         }
     }
     Ok(results)
-}
-
-/// How many episodes a claim on an event is tested in.
-const EPISODES: u64 = 1000;
-
-/// Tests a claim on an event in simulation. It is refuted where the 95 % interval of the rate at which it fails lies
-/// above what it allows; it is never proved.
-fn event_claim(
-    loaded: &Loaded,
-    task: Id<Task>,
-    root: &Node,
-    text: &str,
-    occurrence: &Occurrence,
-    reaches: bool,
-) -> Result<Proved, Diagnostic> {
-    let whole = loaded.program.tasks[task].end_after;
-    let start = Start {
-        seed: 1,
-        stream: Purpose::Claim as u64,
-        limit: occurrence.within.unwrap_or(whole).min(whole),
-        ..Start::default()
-    };
-    let episodes = run::play_tree(loaded, task, root, EPISODES, start)?;
-    let fails = |episode: &&Episode| {
-        let count = episode.events.get(occurrence.event.index()).copied();
-        (count.unwrap_or(0) > 0) != reaches
-    };
-    let failed = episodes.iter().filter(fails).count() as u64;
-    let allowed = 1.0 - occurrence.probability;
-    let refuted = if allowed > 0.0 {
-        lower95(failed, EPISODES) > allowed
-    } else {
-        failed > 0
-    };
-    let (verdict, bound) = if refuted {
-        (
-            "refuted",
-            format!("above {:.2} %", 100.0 * lower95(failed, EPISODES)),
-        )
-    } else {
-        (
-            "not refuted",
-            format!("below {:.2} %", 100.0 * upper95(failed, EPISODES)),
-        )
-    };
-    Ok(Proved {
-        holds: !refuted,
-        text: format!(
-            "{text}: {verdict} in {EPISODES} episodes; it fails in {failed} of them, a rate {bound} at 95 %"
-        ),
-    })
 }
 
 /// Whether a claim speaks of the tree that was learned: by the learner, or by an accepted result of its name, which the

@@ -18,7 +18,21 @@ impl Bits {
 
     /// Every number below `len`.
     pub fn full(len: usize) -> Self {
-        Self::collect(len, 0..len)
+        let mut words = vec![u64::MAX; len.div_ceil(64)];
+        if let (Some(last), 1..) = (words.last_mut(), len % 64) {
+            *last = (1 << (len % 64)) - 1;
+        }
+        Self { words, len }
+    }
+
+    /// The set whose words these are, the number 0 in the lowest bit of the first.
+    pub(super) fn from_words(len: usize, words: Vec<u64>) -> Self {
+        Self { words, len }
+    }
+
+    /// The words, the number 0 in the lowest bit of the first; bits past the bound are 0.
+    pub(super) fn words(&self) -> &[u64] {
+        &self.words
     }
 
     /// These numbers below `len`; others are ignored.
@@ -120,6 +134,13 @@ impl Bits {
     #[must_use]
     pub fn minus(&self, other: &Self) -> Self {
         self.combine(other, |a, b| a & !b)
+    }
+
+    /// Adds the numbers of the other.
+    pub fn unite(&mut self, other: &Self) {
+        for (a, b) in self.words.iter_mut().zip(&other.words) {
+            *a |= b;
+        }
     }
 
     /// Drops the numbers of the other.

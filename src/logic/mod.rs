@@ -1,16 +1,28 @@
 //! Two-level logic: cubes, covers, and the smallest cover that holds on some rows of a table and on none of others.
 //!
-//! A table holds minterms transposed, a column of bits per atom. Rows that are neither in the ON set nor in the OFF
-//! set are free; so is every minterm that has no row. Don't-cares are never built.
+//! A table holds rows transposed, a column of bits per atom. Rows that are neither in the ON set nor in the OFF set are
+//! free; so is every minterm that no row holds. Don't-cares are never built.
 
+mod alive;
 pub mod bits;
 pub mod columns;
-pub mod covering;
+mod core;
+mod covering;
 pub mod cube;
+mod expand;
+mod improve;
+mod instance;
+pub mod list;
 pub mod minimise;
-pub mod primes;
+mod pool;
+mod primes;
+mod random;
+mod sweep;
+mod transpose;
+mod whole;
 
 pub use bits::Bits;
 pub use columns::Columns;
 pub use cube::{Cover, Cube, Literal};
-pub use minimise::minimise;
+pub use list::{Order, list};
+pub use minimise::{Effort, Solution, minimise, minimise_with};

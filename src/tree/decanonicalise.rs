@@ -1,18 +1,31 @@
 //! Policies to trees (paper, section VII).
 
+mod beam;
+mod covers;
+mod factor;
+mod list;
+mod memory;
+mod orders;
+mod pairs;
 mod paper;
 mod problem;
+mod rules;
 mod search;
+mod share;
 mod subunit;
 
 use super::Size;
-use super::prove::{Proof, Refuted, prove};
+use super::prove::{Proof, Refuted};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::{Node, Status};
 use crate::policy::{Minterm, Policy};
+use covers::Covers;
 use problem::Problem;
+use std::borrow::Cow;
 use std::collections::BTreeSet;
+
+pub use crate::logic::Order;
 
 /// How the tree is found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -34,27 +47,29 @@ pub enum Care {
     Reachable,
 }
 
-/// In which order the search lets the units of a selector stand.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Order {
-    /// As makes the tree smallest.
-    #[default]
-    Learned,
-    /// As the behaviours stand in the policy.
-    Given,
-    /// Behaviours with the fewest rows first.
-    Rarest,
-}
-
 /// What is asked of a tree.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
     /// How it is found.
     pub method: Method,
     /// Where it has to take the policy's decisions.
     pub care: Care,
-    /// In which order its units stand.
+    /// In which order the search lets its units stand.
     pub order: Order,
+    /// How much work the search may take beyond the list that it starts from, in millions of units. A unit is a word of
+    /// a set of rows, looked at once; the minimisation of a row counts as 256.
+    pub effort: u64,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            method: Method::default(),
+            care: Care::default(),
+            order: Order::default(),
+            effort: 100,
+        }
+    }
 }
 
 /// A tree that takes the decisions of a policy.
@@ -92,14 +107,17 @@ pub struct Failing {
 /// # Errors
 /// The policy has no rows, or the tree that was found is refuted: with the counterexample.
 pub fn decanonicalise(policy: &Policy, options: &Options) -> Result<Decanonicalised, Refuted> {
-    let policy = &cared(policy, options.care);
+    let policy = &*cared(policy, options.care);
     let problem = Problem::new(policy);
-    let paper = paper::tree(&problem);
+    let paper = paper::tree(&Covers::new(&problem, u64::MAX));
     let root = match options.method {
         Method::Paper => paper.clone(),
-        Method::Search => search::tree(&problem, &paper),
+        Method::Search => {
+            let effort = options.effort.saturating_mul(1_000_000);
+            search::tree(&problem, &paper, options.order, effort)
+        }
     };
-    let proof = prove(&root, policy)?;
+    let proof = problem.prover().prove(&root)?;
     Ok(Decanonicalised {
         size: Size::of(&root),
         paper_size: Size::of(&paper),
@@ -110,18 +128,19 @@ pub fn decanonicalise(policy: &Policy, options: &Options) -> Result<Decanonicali
 }
 
 /// The policy on its care set.
-fn cared(policy: &Policy, care: Care) -> Policy {
-    let mut policy = policy.clone();
-    if care == Care::Reachable && !policy.transitions.is_empty() {
-        let starts = policy.starts.iter().map(|(minterm, _)| minterm);
-        let transitions = policy.transitions.iter();
-        let reached: BTreeSet<Minterm> = starts
-            .chain(transitions.flat_map(|t| std::iter::once(&t.from).chain(&t.to)))
-            .cloned()
-            .collect();
-        policy.rows.retain(|row| reached.contains(&row.minterm));
+fn cared(policy: &Policy, care: Care) -> Cow<'_, Policy> {
+    if care == Care::Seen || policy.transitions.is_empty() {
+        return Cow::Borrowed(policy);
     }
-    policy
+    let starts = policy.starts.iter().map(|(minterm, _)| minterm);
+    let transitions = policy.transitions.iter();
+    let reached: BTreeSet<Minterm> = starts
+        .chain(transitions.flat_map(|t| std::iter::once(&t.from).chain(&t.to)))
+        .cloned()
+        .collect();
+    let mut policy = policy.clone();
+    policy.rows.retain(|row| reached.contains(&row.minterm));
+    Cow::Owned(policy)
 }
 
 fn failing(policy: &Policy, proof: &Proof) -> Vec<Failing> {

@@ -14,6 +14,7 @@ mod explain;
 mod house;
 mod learn;
 mod learning;
+mod logic;
 mod naive;
 mod program;
 mod reference;

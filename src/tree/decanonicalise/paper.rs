@@ -1,11 +1,13 @@
 //! Algorithm 1, made definite.
 
-use super::problem::Problem;
-use super::subunit::{Pair, Subunit, behaviors, canonical, pairs, replace};
+use super::covers::Covers;
+use super::pairs::{Pair, pairs};
+use super::subunit::{Subunit, behaviors, canonical, replace};
 use crate::ir::tree::Node;
 use crate::logic::{Bits, Cover, Cube, Literal};
 use crate::tree::Size;
 use crate::tree::formula::{guarded, literal, selector};
+use std::rc::Rc;
 
 /// Rounds of ordering and minimising after which the last is taken.
 const ROUNDS: usize = 32;
@@ -14,14 +16,14 @@ const ROUNDS: usize = 32;
 ///
 /// Memory nodes that are refuted once all parts are in their places are given up, the latest first; without any, the
 /// tree is right by its guards.
-pub(super) fn tree(problem: &Problem) -> Node {
+pub(super) fn tree(covers: &Covers) -> Node {
     let mut refused: Vec<(Bits, Bits)> = Vec::new();
     loop {
         let mut joined = Vec::new();
-        let subunits = rewrite(problem, &refused, &mut joined);
-        let root = place(problem, &subunits);
+        let subunits = rewrite(covers, &refused, &mut joined);
+        let root = place(covers, &subunits);
         match joined.pop() {
-            Some(last) if !problem.proves(&root) => refused.push(last),
+            Some(last) if !covers.problem.proves(&root) => refused.push(last),
             _ => return root,
         }
     }
@@ -29,15 +31,19 @@ pub(super) fn tree(problem: &Problem) -> Node {
 
 /// Lines 2–15: X, Y and Z while there are any.
 fn rewrite(
-    problem: &Problem,
+    covers: &Covers,
     refused: &[(Bits, Bits)],
     joined: &mut Vec<(Bits, Bits)>,
 ) -> Vec<Subunit> {
-    let mut subunits = behaviors(problem);
+    let mut subunits = behaviors(covers.problem);
+    if covers.problem.wide {
+        // A row that leaves a literal free stands on both of its sides.
+        return subunits;
+    }
     loop {
-        let next = memory(problem, &subunits, refused, joined, Pair::x)
-            .or_else(|| memory(problem, &subunits, refused, joined, Pair::y))
-            .or_else(|| z(problem, &subunits));
+        let next = memory(covers, &subunits, refused, joined, Pair::x)
+            .or_else(|| memory(covers, &subunits, refused, joined, Pair::y))
+            .or_else(|| z(covers, &subunits));
         match next {
             Some(next) => subunits = next,
             None => return subunits,
@@ -47,23 +53,23 @@ fn rewrite(
 
 /// The first X or Y that is proved.
 fn memory(
-    problem: &Problem,
+    covers: &Covers,
     subunits: &[Subunit],
     refused: &[(Bits, Bits)],
     joined: &mut Vec<(Bits, Bits)>,
-    form: impl Fn(&Pair, &Problem, &[Subunit]) -> Option<Subunit>,
+    form: impl Fn(&Pair, &Covers, &[Subunit]) -> Option<Subunit>,
 ) -> Option<Vec<Subunit>> {
-    for pair in pairs(problem, subunits) {
+    for pair in pairs(covers.problem, subunits) {
         let (first, second) = pair.of(subunits)?;
         let key = (first.rows.clone(), second.rows.clone());
-        if refused.contains(&key) || !pair.entered_properly(problem, subunits) {
+        if refused.contains(&key) || !pair.entered_properly(covers.problem, subunits) {
             continue;
         }
-        let Some(subunit) = form(&pair, problem, subunits) else {
+        let Some(subunit) = form(&pair, covers, subunits) else {
             continue;
         };
         let next = replace(subunits, pair.first, pair.second, subunit);
-        if problem.proves(&canonical(problem, &next)) {
+        if covers.problem.proves(&canonical(covers, &next)) {
             joined.push(key);
             return Some(next);
         }
@@ -72,7 +78,7 @@ fn memory(
 }
 
 /// Z: `selector { c => B_j, B_i }` for the first literal that tells two subunits apart.
-fn z(problem: &Problem, subunits: &[Subunit]) -> Option<Vec<Subunit>> {
+fn z(covers: &Covers, subunits: &[Subunit]) -> Option<Vec<Subunit>> {
     for (i, first) in subunits.iter().enumerate() {
         for (j, second) in subunits.iter().enumerate() {
             if i == j {
@@ -80,14 +86,15 @@ fn z(problem: &Problem, subunits: &[Subunit]) -> Option<Vec<Subunit>> {
             }
             let apart =
                 |column: &Bits| first.rows.is_disjoint(column) && second.rows.is_subset(column);
-            let Some((atom, _)) = problem.columns.iter().find(|(_, c)| apart(c)) else {
+            let mut columns = covers.problem.columns().iter();
+            let Some((atom, _)) = columns.find(|(_, column)| apart(column)) else {
                 continue;
             };
             let c = Literal {
                 atom,
                 positive: true,
             };
-            let guard = literal(c, &problem.policy.atoms);
+            let guard = literal(c, &covers.problem.policy.atoms);
             let subunit = Subunit {
                 body: selector(vec![
                     guarded(guard, second.body.clone()),
@@ -105,22 +112,22 @@ fn z(problem: &Problem, subunits: &[Subunit]) -> Option<Vec<Subunit>> {
 
 /// Lines 16–22: orders the subunits by the length of their guards and minimises them from the left, where what is
 /// already decided is free, until nothing changes.
-fn place(problem: &Problem, subunits: &[Subunit]) -> Node {
+fn place(covers: &Covers, subunits: &[Subunit]) -> Node {
     let against = |subunit: &Subunit, off: &Bits| match subunit.guards_itself {
-        true => Cover::new([Cube::default()]),
-        false => problem.cover(&subunit.rows, off),
+        true => Rc::new(Cover::new([Cube::default()])),
+        false => covers.cover(&subunit.rows, off),
     };
-    let mut units: Vec<(Cover, &Subunit)> = subunits
+    let mut units: Vec<(Rc<Cover>, &Subunit)> = subunits
         .iter()
-        .map(|s| (against(s, &problem.all().minus(&s.rows)), s))
+        .map(|s| (against(s, &covers.problem.all().minus(&s.rows)), s))
         .collect();
     for _ in 0..ROUNDS {
-        let before: Vec<Cover> = units.iter().map(|(guard, _)| guard.clone()).collect();
+        let before: Vec<Rc<Cover>> = units.iter().map(|(guard, _)| guard.clone()).collect();
         units.sort_by_key(|(guard, subunit)| match subunit.guards_itself {
             true => Size::of(&subunit.body).literals,
             false => guard.literals(),
         });
-        let mut left = problem.all();
+        let mut left = covers.problem.all();
         for (guard, subunit) in &mut units {
             left = left.minus(&subunit.rows);
             *guard = against(subunit, &left);
@@ -132,7 +139,7 @@ fn place(problem: &Problem, subunits: &[Subunit]) -> Node {
     selector(
         units
             .iter()
-            .map(|(guard, subunit)| subunit.under(problem, guard))
+            .map(|(guard, subunit)| subunit.under(covers.problem, guard))
             .collect(),
     )
 }

@@ -1,0 +1,66 @@
+//! A set of rows that shrinks: only its words that still have rows are gone through.
+
+use super::bits::Bits;
+
+/// The words of a set that are not zero, with their places in the columns.
+#[derive(Clone, Debug)]
+pub(super) struct Alive {
+    words: Vec<u64>,
+    places: Vec<u32>,
+}
+
+#[allow(
+    clippy::indexing_slicing,
+    reason = "places are below the number of words of a column of the same table"
+)]
+impl Alive {
+    /// All rows of a set.
+    pub(super) fn new(rows: &Bits) -> Self {
+        let words = rows.words().iter().zip(0..).filter(|(word, _)| **word != 0);
+        let (words, places) = words.unzip();
+        Self { words, places }
+    }
+
+    /// How many rows there are.
+    pub(super) fn count(&self) -> usize {
+        self.words.iter().map(|w| w.count_ones() as usize).sum()
+    }
+
+    /// Whether there are none.
+    pub(super) fn is_empty(&self) -> bool {
+        self.words.is_empty()
+    }
+
+    /// How many of the rows have the bit `value` in a column.
+    pub(super) fn count_in(&self, (column, value): (&Bits, bool)) -> usize {
+        let flip = if value { 0 } else { u64::MAX };
+        let column = column.words();
+        if self.words.len() == column.len() {
+            let both = self.words.iter().zip(column);
+            return both
+                .map(|(a, b)| (a & (b ^ flip)).count_ones() as usize)
+                .sum();
+        }
+        let both = self.words.iter().zip(&self.places);
+        both.map(|(a, at)| (a & (column[*at as usize] ^ flip)).count_ones() as usize)
+            .sum()
+    }
+
+    /// Keeps the rows that have the bit `value` in a column.
+    pub(super) fn keep(&mut self, (column, value): (&Bits, bool)) {
+        let flip = if value { 0 } else { u64::MAX };
+        let column = column.words();
+        let mut kept = 0;
+        for i in 0..self.words.len() {
+            let place = self.places[i];
+            let word = self.words[i] & (column[place as usize] ^ flip);
+            if word != 0 {
+                self.words[kept] = word;
+                self.places[kept] = place;
+                kept += 1;
+            }
+        }
+        self.words.truncate(kept);
+        self.places.truncate(kept);
+    }
+}

@@ -1,0 +1,102 @@
+//! The rows that decide a problem.
+//!
+//! Most rows of a large table say what others have said. A core is a few of them: what covers it is a guess at a cover
+//! of all, and the rows for which the guess is wrong join the core. A cover of the core that is proved smallest and
+//! holds on all rows is proved smallest for all rows.
+
+use super::bits::Bits;
+use super::columns::Columns;
+use super::cube::Cover;
+use super::instance::Instance;
+use super::minimise::{Effort, Solution};
+use super::random::{self, Random};
+use super::whole;
+
+/// Rows up to which a problem is its own core, and rows of ON and of OFF in the first core of a larger one.
+const WHOLE: usize = 512;
+const FIRST: usize = 128;
+/// Rounds after which the core is all rows.
+const ROUNDS: usize = 24;
+
+/// A problem with its core.
+#[derive(Clone, Debug)]
+pub(super) struct Core<'a> {
+    columns: &'a Columns,
+    effort: &'a Effort,
+    on: &'a Bits,
+    off: &'a Bits,
+    core_on: Bits,
+    core_off: Bits,
+    rounds: usize,
+    solution: Solution,
+}
+
+impl<'a> Core<'a> {
+    /// A problem with its first core, not yet solved.
+    pub(super) fn new(
+        columns: &'a Columns,
+        on: &'a Bits,
+        off: &'a Bits,
+        effort: &'a Effort,
+    ) -> Self {
+        let small = on.count() + off.count() <= WHOLE;
+        let first = |rows: &Bits| match small {
+            true => rows.clone(),
+            false => sample(rows, FIRST),
+        };
+        Self {
+            columns,
+            effort,
+            core_on: first(on),
+            core_off: first(off),
+            on,
+            off,
+            rounds: 0,
+            solution: Solution::default(),
+        }
+    }
+
+    /// The cover of the core.
+    pub(super) fn solution(&self) -> &Solution {
+        &self.solution
+    }
+
+    /// The cover of all rows under a greater effort, on the core that this one came to.
+    pub(super) fn finish(&self, effort: &'a Effort) -> Cover {
+        let mut core = Self {
+            effort,
+            rounds: 0,
+            ..self.clone()
+        };
+        while !core.refine() {}
+        core.solution.cover
+    }
+
+    /// Solves the core, and has the rows for which the cover is wrong join it. Whether there are none.
+    pub(super) fn refine(&mut self) -> bool {
+        let rows = |bits: &Bits| bits.iter().collect::<Vec<usize>>();
+        let instance = Instance::new(self.columns, &rows(&self.core_on), &rows(&self.core_off));
+        self.solution = whole::solve(&instance, self.effort);
+        self.rounds += 1;
+        let cover = &self.solution.cover;
+        let missed = self.on.minus(&self.columns.cover_rows(cover, self.on));
+        let met = self.columns.cover_meets(cover, self.off);
+        if missed.is_empty() && met.is_empty() {
+            return true;
+        }
+        let size = instance.rows();
+        self.core_on.unite(&sample(&missed, size / 2));
+        self.core_off.unite(&sample(&met, size / 2));
+        let all = self.on.count() + self.off.count();
+        if self.rounds >= ROUNDS || 2 * (self.core_on.count() + self.core_off.count()) > all {
+            self.core_on = self.on.clone();
+            self.core_off = self.off.clone();
+        }
+        false
+    }
+}
+
+fn sample(rows: &Bits, size: usize) -> Bits {
+    let picked = random::sample(rows.iter(), rows.count(), size, &mut Random::new(0));
+    Bits::collect(rows.bound(), picked)
+}

@@ -1,0 +1,179 @@
+//! Ruin and recreate: a part of a cover is taken out, and what it leaves is covered anew.
+//!
+//! The rows that only the removed cubes covered are few, so EXPAND finds for them what it could not see among all. It
+//! does the work of REDUCE, EXPAND and LASTGASP in Espresso at once.
+
+use super::bits::Bits;
+use super::cube::{Cube, Literal};
+use super::expand::{Scoring, expand};
+use super::instance::Instance;
+use super::pool::Pool;
+use super::random::Random;
+use super::sweep::sweep;
+
+/// Number of cubes, then of literals.
+pub(super) type Cost = (usize, usize);
+
+/// The cost of a cover of primes of the pool.
+pub(super) fn cost(pool: &Pool, cover: &[usize]) -> Cost {
+    let literals = cover.iter().filter_map(|at| pool.get(*at));
+    (cover.len(), literals.map(|prime| prime.literals()).sum())
+}
+
+/// How often each row is covered.
+fn multiplicity(pool: &Pool, cover: &[usize], rows: usize) -> Vec<u32> {
+    let mut times = vec![0; rows];
+    for prime in cover.iter().filter_map(|at| pool.get(*at)) {
+        for row in prime.covers.iter() {
+            if let Some(times) = times.get_mut(row) {
+                *times += 1;
+            }
+        }
+    }
+    times
+}
+
+/// Drops primes that the others make superfluous: long ones first, then those that cover fewest rows.
+pub(super) fn irredundant(pool: &Pool, cover: &mut Vec<usize>, rows: usize) {
+    let mut times = multiplicity(pool, cover, rows);
+    let mut order = cover.clone();
+    order.sort_by_key(|at| {
+        let prime = pool.get(*at);
+        let literals = prime.map_or(0, |prime| prime.literals());
+        let covers = prime.map_or(0, |prime| prime.covers.count());
+        (std::cmp::Reverse(literals), covers, *at)
+    });
+    for at in order {
+        let Some(prime) = pool.get(at) else { continue };
+        let twice = |row| times.get(row).is_some_and(|times| *times > 1);
+        if prime.covers.iter().all(twice) {
+            for row in prime.covers.iter() {
+                if let Some(times) = times.get_mut(row) {
+                    *times -= 1;
+                }
+            }
+            cover.retain(|other| *other != at);
+        }
+    }
+}
+
+/// Tries `rounds` changes, and as many after each that made the cover cheaper.
+pub(super) fn improve(
+    instance: &Instance,
+    pool: &mut Pool,
+    mut cover: Vec<usize>,
+    rounds: usize,
+    random: &mut Random,
+) -> Vec<usize> {
+    let rows = instance.on.rows();
+    irredundant(pool, &mut cover, rows);
+    let mut best = cost(pool, &cover);
+    let mut left = rounds;
+    while left > 0 && cover.len() > 1 {
+        left -= 1;
+        let mut next = cover.clone();
+        let removed = ruin(pool, &mut next, random);
+        let mut open = instance.all_on();
+        for prime in next.iter().filter_map(|at| pool.get(*at)) {
+            open.subtract(&prime.covers);
+        }
+        if removed.len() > 1 {
+            merge(instance, pool, &mut next, &mut open);
+        }
+        next.extend(recreate(instance, pool, &open, random));
+        irredundant(pool, &mut next, rows);
+        next.sort_unstable();
+        let reached = cost(pool, &next);
+        if reached < best {
+            left = rounds;
+        }
+        if reached <= best {
+            best = reached;
+            cover = next;
+        }
+    }
+    cover
+}
+
+/// Takes a few primes out: one at random, and those that share most rows with it or are next to it.
+fn ruin(pool: &Pool, cover: &mut Vec<usize>, random: &mut Random) -> Vec<usize> {
+    let count = 1 + random.below(3.min(cover.len()));
+    let mut removed = Vec::new();
+    for _ in 0..count {
+        let at = random.below(cover.len());
+        if at < cover.len() {
+            removed.push(cover.swap_remove(at));
+        }
+    }
+    let _ = pool;
+    removed
+}
+
+/// One cube for all open rows, where there is one.
+fn merge(instance: &Instance, pool: &mut Pool, cover: &mut Vec<usize>, open: &mut Bits) {
+    let Some(shared) = shared(instance, open) else {
+        return;
+    };
+    let cube = Cube::new(shared.iter().copied());
+    if !instance
+        .off
+        .cube_meets(&cube, &instance.all_off())
+        .is_empty()
+    {
+        return;
+    }
+    let cube = expand(instance, shared, open, Scoring::DropOff);
+    cover.push(pool.add(instance, cube));
+    *open = Bits::empty(open.bound());
+}
+
+/// The literals that hold on all of the rows.
+fn shared(instance: &Instance, rows: &Bits) -> Option<Vec<Literal>> {
+    let first = rows.first()?;
+    let holds = |literal: &Literal| match instance.on.inside(*literal) {
+        (Some(column), true) => rows.is_subset(column),
+        (Some(column), false) => rows.is_disjoint(column),
+        (None, _) => false,
+    };
+    Some(instance.on.literals_of(first).filter(holds).collect())
+}
+
+/// Primes for the open rows: new ones, and what the pool has.
+fn recreate(instance: &Instance, pool: &mut Pool, open: &Bits, random: &mut Random) -> Vec<usize> {
+    let all = Scoring::ALL;
+    let scoring = random.below(all.len());
+    let scoring = all.get(scoring).copied().unwrap_or(Scoring::Ratio);
+    let fresh = sweep(instance, pool, open, 2, &[scoring], random);
+    let chosen = choose(pool, open);
+    let covered = |cover: &[usize]| cost(pool, cover);
+    if covered(&chosen) < covered(&fresh) {
+        chosen
+    } else {
+        fresh
+    }
+}
+
+/// A greedy choice out of the whole pool.
+fn choose(pool: &Pool, rows: &Bits) -> Vec<usize> {
+    let mut open = rows.clone();
+    let mut cover = Vec::new();
+    while !open.is_empty() {
+        let gains = pool.primes().iter().enumerate().map(|(at, prime)| {
+            let gain = prime.covers.count_both(&open);
+            (
+                gain,
+                std::cmp::Reverse(prime.literals()),
+                std::cmp::Reverse(at),
+            )
+        });
+        let Some((gain, _, std::cmp::Reverse(at))) = gains.max() else {
+            break;
+        };
+        let Some(prime) = pool.get(at).filter(|_| gain > 0) else {
+            break;
+        };
+        open.subtract(&prime.covers);
+        cover.push(at);
+    }
+    cover
+}

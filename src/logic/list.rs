@@ -1,0 +1,119 @@
+//! Decision lists: classes of rows one after the other, each told from those after it.
+
+mod exchange;
+mod learned;
+
+use super::bits::Bits;
+use super::columns::Columns;
+use super::core::Core;
+use super::cube::Cover;
+use super::minimise::{Effort, minimise_with};
+use rayon::prelude::*;
+
+/// The order of a decision list.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Order {
+    /// Each time the class whose cover has the fewest literals, then the fewest cubes; neighbours change places where
+    /// that saves literals.
+    #[default]
+    Learned,
+    /// As the classes are given.
+    Given,
+    /// The class with the fewest rows first.
+    Rarest,
+}
+
+/// Covers of the classes from the left: each contains the rows of its class and meets none of a class to its right, so
+/// that the first cover that holds tells the class. The last one holds everywhere. Classes without rows are left out.
+///
+/// The classes are disjoint sets of rows, and no row of one meets a row of another.
+pub fn list(
+    columns: &Columns,
+    classes: &[Bits],
+    order: Order,
+    effort: &Effort,
+) -> Vec<(usize, Cover)> {
+    let there = classes
+        .iter()
+        .enumerate()
+        .filter(|(_, rows)| !rows.is_empty());
+    let mut classes: Vec<Class> = there.map(|(number, rows)| Class { number, rows }).collect();
+    let list = match order {
+        Order::Learned => learned::list(columns, classes, effort),
+        Order::Given => fixed(columns, &classes, effort),
+        Order::Rarest => {
+            classes.sort_by_key(|class| class.rows.count());
+            fixed(columns, &classes, effort)
+        }
+    };
+    let unit = |unit: Unit| (unit.class.number, unit.cover);
+    list.into_iter().map(unit).collect()
+}
+
+/// A class by its number.
+#[derive(Clone, Copy, Debug)]
+struct Class<'a> {
+    number: usize,
+    rows: &'a Bits,
+}
+
+/// A class with its cover.
+#[derive(Clone, Debug)]
+struct Unit<'a> {
+    class: Class<'a>,
+    cover: Cover,
+}
+
+impl Unit<'_> {
+    fn cost(&self) -> Cost {
+        cost(&self.cover)
+    }
+}
+
+/// Number of literals, then of cubes: what the order is chosen by.
+type Cost = (usize, usize);
+
+fn cost(cover: &Cover) -> Cost {
+    (cover.literals(), cover.cubes().len())
+}
+
+/// The list in this order.
+fn fixed<'a>(columns: &Columns, classes: &[Class<'a>], effort: &Effort) -> Vec<Unit<'a>> {
+    let unit = |(i, class): (usize, &Class<'a>)| {
+        let after = classes.iter().skip(i + 1);
+        let off = union(columns, after.map(|class| class.rows));
+        Unit {
+            class: *class,
+            cover: minimise_with(columns, class.rows, &off, effort).cover,
+        }
+    };
+    classes.par_iter().enumerate().map(unit).collect()
+}
+
+fn union<'a>(columns: &Columns, sets: impl Iterator<Item = &'a Bits>) -> Bits {
+    sets.fold(Bits::empty(columns.rows()), |mut all, set| {
+        all.unite(set);
+        all
+    })
+}
+
+/// The cover of a class against the rows of those after it, or `None` once it looks dearer than `limit`.
+fn within(
+    columns: &Columns,
+    class: Class,
+    off: &Bits,
+    limit: Cost,
+    effort: &Effort,
+) -> Option<Cover> {
+    let quick = effort.quick();
+    let mut core = Core::new(columns, class.rows, off, &quick);
+    loop {
+        let holds = core.refine();
+        if cost(&core.solution().cover) > limit {
+            return None;
+        }
+        if holds {
+            return Some(core.finish(effort));
+        }
+    }
+}

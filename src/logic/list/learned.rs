@@ -1,0 +1,56 @@
+//! The order that is learned: the cheapest first.
+
+use super::exchange::exchange;
+use super::{Class, Unit, cost, union};
+use crate::logic::bits::Bits;
+use crate::logic::columns::Columns;
+use crate::logic::core::Core;
+use crate::logic::cube::{Cover, Cube};
+use crate::logic::minimise::Effort;
+use rayon::prelude::*;
+
+/// The list that takes the class with the cheapest cover each time, with neighbours exchanged where that is cheaper.
+pub(super) fn list<'a>(
+    columns: &Columns,
+    mut classes: Vec<Class<'a>>,
+    effort: &Effort,
+) -> Vec<Unit<'a>> {
+    let mut list = Vec::new();
+    let mut left = union(columns, classes.iter().map(|class| class.rows));
+    while classes.len() > 1 {
+        let (at, cover) = cheapest(columns, &classes, &left, effort);
+        let class = classes.remove(at);
+        left.subtract(class.rows);
+        list.push(Unit { class, cover });
+    }
+    let last = classes.into_iter().map(|class| Unit {
+        class,
+        cover: Cover::new([Cube::default()]),
+    });
+    list.extend(last);
+    exchange(columns, &mut list, effort);
+    list
+}
+
+/// Which class is told most cheaply from the others, and its cover.
+///
+/// A cover of a core costs about what a cover of all rows costs, or less. So the class that looks cheapest is refined
+/// until one that holds on all of its rows looks cheapest: the others are never minimised in full.
+fn cheapest(columns: &Columns, classes: &[Class], left: &Bits, effort: &Effort) -> (usize, Cover) {
+    let quick = effort.quick();
+    let offs: Vec<Bits> = classes.par_iter().map(|c| left.minus(c.rows)).collect();
+    let cores = classes.par_iter().zip(&offs).map(|(class, off)| {
+        let mut core = Core::new(columns, class.rows, off, &quick);
+        let holds = core.refine();
+        (core, holds)
+    });
+    let mut cores: Vec<(Core, bool)> = cores.collect();
+    loop {
+        let looks = |(_, (core, _)): &(usize, &mut (Core, bool))| cost(&core.solution().cover);
+        match cores.iter_mut().enumerate().min_by_key(looks) {
+            Some((_, (core, holds))) if !*holds => *holds = core.refine(),
+            Some((at, (core, _))) => return (at, core.finish(effort)),
+            None => return (0, Cover::default()),
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! Guards for sets of rows, each minimised once, the work counted.
+
+use super::factor::{Cost, factored, nodes};
+use super::problem::Problem;
+use crate::ir::tree::{Composite, Guard};
+use crate::logic::{Bits, Cover, minimise};
+use crate::tree::formula::not;
+use rustc_hash::FxHashMap;
+use std::cell::{Cell, RefCell};
+use std::rc::Rc;
+
+/// Work that the minimisation of a row is counted as. A unit of work is a word of a set of rows, looked at once.
+const ROW: u64 = 256;
+
+/// A guard with what it costs under a sequence.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Priced {
+    pub(super) guard: Guard,
+    pub(super) cost: Cost,
+}
+
+impl Priced {
+    pub(super) fn new(guard: Guard) -> Self {
+        Self {
+            cost: nodes(&guard, true, Composite::Sequence),
+            guard,
+        }
+    }
+}
+
+/// What was minimised so far, and what it took.
+pub(super) struct Covers<'a> {
+    pub(super) problem: &'a Problem<'a>,
+    known: RefCell<FxHashMap<(Bits, Bits), Rc<Cover>>>,
+    priced: RefCell<FxHashMap<(Bits, Bits), Rc<Priced>>>,
+    work: Cell<u64>,
+    limit: u64,
+}
+
+impl<'a> Covers<'a> {
+    /// Covers for so much work.
+    pub(super) fn new(problem: &'a Problem<'a>, limit: u64) -> Self {
+        Self {
+            problem,
+            known: RefCell::default(),
+            priced: RefCell::default(),
+            work: Cell::new(0),
+            limit,
+        }
+    }
+
+    /// The words of a set of rows.
+    pub(super) fn words(&self) -> u64 {
+        1 + self.problem.columns().rows() as u64 / 64
+    }
+
+    /// Counts work.
+    pub(super) fn spend(&self, work: u64) {
+        self.work.set(self.work.get().saturating_add(work));
+    }
+
+    /// Whether so much more work is within the limit.
+    pub(super) fn affords(&self, work: u64) -> bool {
+        self.work.get().saturating_add(work) <= self.limit
+    }
+
+    /// What minimising these takes.
+    pub(super) fn price(&self, on: &Bits, off: &Bits) -> u64 {
+        match self.known.borrow().contains_key(&(on.clone(), off.clone())) {
+            true => 0,
+            false => ROW * (on.count() + off.count()) as u64,
+        }
+    }
+
+    /// A smallest cover of `on` against `off`.
+    pub(super) fn cover(&self, on: &Bits, off: &Bits) -> Rc<Cover> {
+        let key = (on.clone(), off.clone());
+        if let Some(cover) = self.known.borrow().get(&key) {
+            return cover.clone();
+        }
+        self.spend(ROW * (on.count() + off.count()) as u64);
+        let cover = Rc::new(minimise(self.problem.columns(), on, off));
+        self.known.borrow_mut().insert(key, cover.clone());
+        cover
+    }
+
+    /// A smallest guard: the cover with common literals taken out, or the negated cover of `off`.
+    pub(super) fn guard(&self, on: &Bits, off: &Bits) -> Rc<Priced> {
+        let key = (on.clone(), off.clone());
+        if let Some(priced) = self.priced.borrow().get(&key) {
+            return priced.clone();
+        }
+        let atoms = &self.problem.policy.atoms;
+        let cover = self.cover(on, off);
+        let mut best = Priced::new(factored(&cover, atoms));
+        if cover.cubes().len() > 1 && self.affords(self.price(off, on)) {
+            let other = Priced::new(not(factored(&self.cover(off, on), atoms)));
+            if other.cost < best.cost {
+                best = other;
+            }
+        }
+        let best = Rc::new(best);
+        self.priced.borrow_mut().insert(key, best.clone());
+        best
+    }
+}

@@ -1,0 +1,216 @@
+//! Pairs of subunits that a memory node joins (paper, Figure 6: X and Y).
+
+use super::covers::Covers;
+use super::problem::Problem;
+use super::subunit::Subunit;
+use crate::ir::tree::{Atom, Composite, Node, Status};
+use crate::logic::{Bits, Cover};
+use crate::policy::Minterm;
+use crate::tree::formula::{cover, guarded};
+
+/// Two subunits that a history literal tells apart, with the way in which a memory node joins them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Pair {
+    pub(super) first: usize,
+    pub(super) second: usize,
+    /// The termination of the first by which the second follows.
+    pub(super) by: Status,
+}
+
+/// The pairs that a history literal c tells apart: all minterms of the first have ¬c, all of the second have c.
+///
+/// Those whose first is nobody's second stand first, so that chains grow from their first member.
+pub(super) fn pairs(problem: &Problem, subunits: &[Subunit]) -> Vec<Pair> {
+    let mut pairs = following(problem, subunits);
+    pairs.retain(|pair| {
+        let column = pair.column(problem, subunits);
+        let first = pair.of(subunits).map(|(first, _)| first);
+        first
+            .zip(column)
+            .is_some_and(|(first, column)| first.rows.is_disjoint(column))
+    });
+    from_the_first(pairs)
+}
+
+/// The pairs of which all minterms of the second have c, in the same order. A window of several terminations may show c
+/// in the first as well: from the last time.
+pub(super) fn followers(problem: &Problem, subunits: &[Subunit]) -> Vec<Pair> {
+    from_the_first(following(problem, subunits))
+}
+
+fn from_the_first(mut pairs: Vec<Pair>) -> Vec<Pair> {
+    let seconds: Vec<usize> = pairs.iter().map(|pair| pair.second).collect();
+    pairs.sort_by_key(|pair| (seconds.contains(&pair.first), *pair));
+    pairs
+}
+
+fn following(problem: &Problem, subunits: &[Subunit]) -> Vec<Pair> {
+    let mut pairs = Vec::new();
+    for first in 0..subunits.len() {
+        for by in [Status::Success, Status::Failure] {
+            for (second, other) in subunits.iter().enumerate() {
+                let pair = Pair { first, second, by };
+                let guards_itself = |i| subunits.get(i).is_none_or(|s: &Subunit| s.guards_itself);
+                let follows = |column| other.rows.is_subset(column);
+                if first != second
+                    && !guards_itself(first)
+                    && !guards_itself(second)
+                    && pair.column(problem, subunits).is_some_and(follows)
+                {
+                    pairs.push(pair);
+                }
+            }
+        }
+    }
+    pairs
+}
+
+impl Pair {
+    /// The subunits of the pair.
+    pub(super) fn of<'a>(&self, subunits: &'a [Subunit]) -> Option<(&'a Subunit, &'a Subunit)> {
+        subunits.get(self.first).zip(subunits.get(self.second))
+    }
+
+    /// The rows with c.
+    fn column<'a>(&self, problem: &'a Problem, subunits: &[Subunit]) -> Option<&'a Bits> {
+        let last = subunits.get(self.first)?.last?;
+        problem.column(match self.by {
+            Status::Failure => Atom::Failed(last),
+            _ => Atom::Done(last),
+        })
+    }
+
+    /// What is left of both guards without the literal, c_i and c_j: each told from the others on its own side of c.
+    fn remainders(&self, covers: &Covers, subunits: &[Subunit]) -> Option<(Sided, Sided)> {
+        let (first, second) = self.of(subunits)?;
+        let column = self.column(covers.problem, subunits)?;
+        let off = |rows: &Bits| covers.problem.all().minus(rows);
+        let first = (first.rows.clone(), off(&first.rows).minus(column));
+        let second = (second.rows.clone(), off(&second.rows).and(column));
+        Some((first, second))
+    }
+
+    /// X: one guard for both, a memory node in it. `None` if the remainders are not equal.
+    pub(super) fn x(&self, covers: &Covers, subunits: &[Subunit]) -> Option<Subunit> {
+        let (first, second) = self.of(subunits)?;
+        let (c_i, c_j) = self.remainders(covers, subunits)?;
+        // Smallest covers are not unique: one that serves both sides makes the remainders equal.
+        let problem = covers.problem;
+        let rows = first.rows.or(&second.rows);
+        let exact = |(on, off): &Sided| {
+            let cover = covers.cover(on, off);
+            problem.columns().cover_rows(&cover, &problem.all()) == rows
+        };
+        if !exact(&c_i) && !exact(&c_j) {
+            return None;
+        }
+        self.joined(covers, subunits)
+    }
+
+    /// X where both have any guard in common: that of the union, which always exists.
+    pub(super) fn joined(&self, _: &Covers, subunits: &[Subunit]) -> Option<Subunit> {
+        let (first, second) = self.of(subunits)?;
+        let bodies = [first.body.clone(), second.body.clone()];
+        Some(self.memory(first, second, bodies, false))
+    }
+
+    /// Y: a memory sequence of two units. `None` where, after the first has ended, its guard would let it start over
+    /// outside the second's minterms.
+    pub(super) fn y(&self, covers: &Covers, subunits: &[Subunit]) -> Option<Subunit> {
+        // A memory selector goes past a unit whose guard does not hold, which the history does not tell.
+        if self.by == Status::Failure {
+            return None;
+        }
+        let problem = covers.problem;
+        let (first, second) = self.of(subunits)?;
+        let (c_i, c_j) = self.remainders(covers, subunits)?;
+        let (c_i, c_j) = (covers.cover(&c_i.0, &c_i.1), covers.cover(&c_j.0, &c_j.1));
+        let column = self.column(problem, subunits)?;
+        let after = problem.columns().cover_rows(&c_i, column);
+        if !after.is_subset(&second.rows) {
+            return None;
+        }
+        let unit = |c: &Cover, body: &Node| guarded(cover(c, &problem.policy.atoms), body.clone());
+        let bodies = [unit(&c_i, &first.body), unit(&c_j, &second.body)];
+        Some(self.memory(first, second, bodies, true))
+    }
+
+    /// A memory node under one guard, the second behind a guard of its own: both in the place of Y where the first is
+    /// ended by failures, whose memory node may pass nothing but its last child.
+    pub(super) fn inner(&self, covers: &Covers, subunits: &[Subunit]) -> Option<Subunit> {
+        let (first, second) = self.of(subunits)?;
+        let (_, (on, off)) = self.remainders(covers, subunits)?;
+        if off.is_empty() {
+            return None;
+        }
+        let guard = covers.guard(&on, &off).guard.clone();
+        let bodies = [first.body.clone(), guarded(guard, second.body.clone())];
+        Some(self.memory(first, second, bodies, false))
+    }
+
+    fn memory(
+        &self,
+        first: &Subunit,
+        second: &Subunit,
+        bodies: [Node; 2],
+        guards_itself: bool,
+    ) -> Subunit {
+        let kind = match self.by {
+            Status::Failure => Composite::Selector,
+            _ => Composite::Sequence,
+        };
+        let mut children = Vec::new();
+        for node in bodies {
+            match node {
+                // Chains are one memory node.
+                Node::Composite {
+                    kind: inner,
+                    memory: true,
+                    children: links,
+                } if inner == kind => children.extend(links),
+                node => children.push(node),
+            }
+        }
+        Subunit {
+            body: Node::Composite {
+                kind,
+                memory: true,
+                children,
+            },
+            rows: first.rows.or(&second.rows),
+            last: second.last,
+            guards_itself,
+        }
+    }
+
+    /// What X and Y need of the environment: the second is entered from the pair alone, never at a start, and by no
+    /// termination of its own that starts the memory node over.
+    pub(super) fn entered_properly(&self, problem: &Problem, subunits: &[Subunit]) -> bool {
+        let Some((first, second)) = self.of(subunits) else {
+            return false;
+        };
+        let policy = problem.policy;
+        // Without records, every minterm that the window allows may be a start.
+        if policy.starts.is_empty() && policy.transitions.is_empty() {
+            return false;
+        }
+        let within = |rows: &Bits, minterm: &Minterm| {
+            let at = policy.rows.binary_search_by(|row| row.minterm.cmp(minterm));
+            at.is_ok_and(|i| rows.contains(i))
+        };
+        let starts = policy.starts.iter().any(|(m, _)| within(&second.rows, m));
+        let enters = policy.transitions.iter().any(|t| {
+            let ends = t.status != Status::Running && t.status != self.by;
+            t.to.as_ref().is_some_and(|to| within(&second.rows, to))
+                && if within(&second.rows, &t.from) {
+                    ends
+                } else {
+                    !within(&first.rows, &t.from)
+                }
+        });
+        !starts && !enters
+    }
+}
+
+/// Rows to be told from others.
+type Sided = (Bits, Bits);

@@ -1,0 +1,37 @@
+//! Decision lists.
+
+use super::planted::{planted, size};
+use btc::logic::{Bits, Columns, Cover, Effort, Order, list};
+
+/// Every row meets first the cover of its own class.
+fn assert_decides(columns: &Columns, classes: &[Bits], list: &[(usize, Cover)]) {
+    let mut left = Bits::full(columns.rows());
+    for (class, cover) in list {
+        let taken = columns.cover_meets(cover, &left);
+        assert_eq!(taken, classes[*class], "class {class}");
+        left.subtract(&taken);
+    }
+    assert!(left.is_empty());
+}
+
+#[test]
+fn planted_lists_are_found() {
+    for (atoms, rows) in [(11, 61), (24, 10_000), (64, 10_000), (128, 10_000)] {
+        for seed in 0..10 {
+            let planted = planted(atoms, rows, seed);
+            let found = list(
+                &planted.columns,
+                &planted.classes,
+                Order::Learned,
+                &Effort::default(),
+            );
+            assert_decides(&planted.columns, &planted.classes, &found);
+            let covers: Vec<Cover> = found.into_iter().map(|(_, cover)| cover).collect();
+            let (found, known) = (size(&covers), planted.size());
+            assert!(
+                found.1 <= known.1,
+                "{atoms} × {rows}, seed {seed}: {found:?}, planted {known:?}"
+            );
+        }
+    }
+}
