@@ -7,6 +7,7 @@ mod equivalence;
 mod files;
 mod grown;
 mod guards;
+mod permuted;
 mod proofs;
 pub(crate) mod random;
 mod small_delivery;
