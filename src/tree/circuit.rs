@@ -4,6 +4,7 @@
 //! Two functions that come from similar trees share most of their gates, so that much of a question of equivalence is
 //! answered while it is asked. What is left is answered by bit-parallel [truth tables](truth) or a [SAT solver](sat).
 
+pub(super) mod guards;
 pub(super) mod sat;
 pub(super) mod truth;
 

@@ -8,6 +8,7 @@ pub mod decanonicalise;
 pub mod drawing;
 pub mod equivalence;
 pub mod formula;
+pub mod permute;
 pub mod program;
 pub mod prove;
 pub mod prune;

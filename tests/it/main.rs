@@ -11,6 +11,7 @@ mod check;
 mod cli;
 mod examples;
 mod explain;
+mod export;
 mod house;
 mod learn;
 mod learning;

@@ -1,4 +1,6 @@
 //! Truth tables: a circuit evaluated for 512 valuations at a time.
+//!
+//! Valuations are numbered: the last input is the lowest digit, so that they are counted in the order of minterms.
 
 use super::{Circuit, Gate, Signal};
 
@@ -24,14 +26,30 @@ pub(in crate::tree) fn least(
     goal: Signal,
     inputs: &[Signal],
 ) -> Option<Vec<bool>> {
-    let table = Table::new(circuit, goal, inputs);
-    let at = table.first()?;
-    let mut digit = table.read.len();
+    let cone = circuit.cone(&[goal]);
+    let reads = circuit.reads(&cone, inputs);
+    let read = inputs.iter().zip(&reads).filter(|(_, reads)| **reads);
+    let read: Vec<Signal> = read.map(|(input, _)| *input).collect();
+    let mut table = Table::new(circuit, &cone, goal, &read);
+    let at = (0..table.blocks()).find_map(|number| {
+        let block = table.block(number);
+        let lane = block.iter().position(|word| *word != 0)?;
+        let bit = block.get(lane)?.trailing_zeros();
+        Some(number * 64 * LANES as u64 + 64 * lane as u64 + u64::from(bit))
+    })?;
+    let mut digit = read.len();
     let value = |reads: &bool| {
         digit -= usize::from(*reads);
         *reads && at >> digit & 1 == 1
     };
-    Some(table.reads.iter().map(value).collect())
+    Some(reads.iter().map(value).collect())
+}
+
+/// Whether the signal holds in each of the valuations of `inputs`, a bit each; bits past the last repeat the first.
+pub(in crate::tree) fn column(circuit: &Circuit, signal: Signal, inputs: &[Signal]) -> Vec<u64> {
+    let mut table = Table::new(circuit, &circuit.cone(&[signal]), signal, inputs);
+    let blocks = 0..table.blocks();
+    blocks.flat_map(|number| table.block(number)).collect()
 }
 
 /// A conjunction of two earlier values, each flipped by a mask.
@@ -42,23 +60,19 @@ struct Step {
 
 /// The cone of a signal, ready to be evaluated.
 struct Table {
-    /// Whether each input is read.
-    reads: Vec<bool>,
-    /// Where the values of those that are stand, from the first.
-    read: Vec<usize>,
-    /// What is computed behind them.
+    /// Where the value of each input stands, from the first, if it is read.
+    inputs: Vec<Option<usize>>,
+    /// What is computed behind the inputs.
     steps: Vec<Step>,
-    /// How many values stand before those of the steps.
-    given: usize,
     goal: (usize, u64),
+    values: Vec<Block>,
 }
 
 impl Table {
-    fn new(circuit: &Circuit, goal: Signal, inputs: &[Signal]) -> Self {
-        let cone = circuit.cone(&[goal]);
-        let reads = circuit.reads(&cone, inputs);
+    fn new(circuit: &Circuit, cone: &[usize], goal: Signal, inputs: &[Signal]) -> Self {
         let is_gate = |gate: &usize| matches!(circuit.gates.get(*gate), Some(Gate::And(..)));
-        let (steps, given): (Vec<usize>, Vec<usize>) = cone.into_iter().partition(is_gate);
+        let (steps, given): (Vec<usize>, Vec<usize>) =
+            cone.iter().copied().partition(|gate| is_gate(gate));
         let mut places = vec![0; circuit.gates.len()];
         for (place, gate) in given.iter().chain(&steps).enumerate() {
             if let Some(slot) = places.get_mut(*gate) {
@@ -69,9 +83,13 @@ impl Table {
             let mask = if signal.is_negated() { u64::MAX } else { 0 };
             (places.get(signal.gate()).copied().unwrap_or(0), mask)
         };
-        let read = inputs.iter().zip(&reads).filter(|(_, reads)| **reads);
+        let reads = circuit.reads(cone, inputs);
+        let inputs = inputs.iter().zip(reads);
         Self {
-            read: read.map(|(input, _)| operand(*input).0).collect(),
+            inputs: inputs
+                .map(|(input, reads)| reads.then(|| operand(*input).0))
+                .collect(),
+            values: vec![[0; LANES]; given.len() + steps.len()],
             steps: steps
                 .iter()
                 .filter_map(|gate| match circuit.gates.get(*gate)? {
@@ -82,40 +100,36 @@ impl Table {
                     Gate::False | Gate::Input => None,
                 })
                 .collect(),
-            given: given.len(),
             goal: operand(goal),
-            reads,
         }
     }
 
-    /// The number of the first valuation in which the goal holds; the last input that is read is its lowest digit.
+    /// How many blocks hold all valuations.
+    fn blocks(&self) -> u64 {
+        let per_block = (64 * LANES).trailing_zeros() as usize;
+        1 << self.inputs.len().saturating_sub(per_block)
+    }
+
+    /// Whether the goal holds in the valuations of a block.
     #[allow(
         clippy::indexing_slicing,
         reason = "steps read what stands before them, and places are those of `values`"
     )]
-    fn first(&self) -> Option<u64> {
-        let mut values: Vec<Block> = vec![[0; LANES]; self.given + self.steps.len()];
-        let digits = self.read.len() as u32;
-        let per_block = (64 * LANES as u64).trailing_zeros();
-        let blocks = 1u64 << digits.saturating_sub(per_block);
-        for block in 0..blocks {
-            for (digit, place) in self.read.iter().rev().enumerate() {
-                values[*place] = pattern(digit, block);
-            }
-            for (k, step) in self.steps.iter().enumerate() {
-                let (before, after) = values.split_at_mut(self.given + k);
-                let (a, b) = (&before[step.left.0], &before[step.right.0]);
-                for (lane, value) in after[0].iter_mut().enumerate() {
-                    *value = (a[lane] ^ step.left.1) & (b[lane] ^ step.right.1);
-                }
-            }
-            let goal = &values[self.goal.0];
-            if let Some(lane) = (0..LANES).find(|lane| goal[*lane] ^ self.goal.1 != 0) {
-                let bit = (goal[lane] ^ self.goal.1).trailing_zeros();
-                return Some(block << per_block | (lane as u64) << 6 | u64::from(bit));
+    fn block(&mut self, number: u64) -> Block {
+        for (digit, place) in self.inputs.iter().rev().enumerate() {
+            if let Some(place) = place {
+                self.values[*place] = pattern(digit, number);
             }
         }
-        None
+        let given = self.values.len() - self.steps.len();
+        for (k, step) in self.steps.iter().enumerate() {
+            let (before, after) = self.values.split_at_mut(given + k);
+            let (a, b) = (&before[step.left.0], &before[step.right.0]);
+            for (lane, value) in after[0].iter_mut().enumerate() {
+                *value = (a[lane] ^ step.left.1) & (b[lane] ^ step.right.1);
+            }
+        }
+        self.values[self.goal.0].map(|word| word ^ self.goal.1)
     }
 }
 
@@ -124,10 +138,9 @@ fn pattern(digit: usize, block: u64) -> Block {
     if let Some(word) = PATTERNS.get(digit) {
         return [*word; LANES];
     }
-    let of = |lane: usize| match (block << LANES.trailing_zeros() | lane as u64) >> (digit - 6) & 1
-    {
+    let first = block * LANES as u64;
+    std::array::from_fn(|lane| match (first + lane as u64) >> (digit - 6) & 1 {
         1 => u64::MAX,
         _ => 0,
-    };
-    std::array::from_fn(of)
+    })
 }

@@ -2,7 +2,7 @@
 
 use super::build::{
     condition, decorated, done, failed, leaf, memory_selector, memory_sequence, not, p, parallel,
-    selector, sequence,
+    selector, sequence, when,
 };
 use super::random::Random;
 use btc::ir::tree::{Decorator, Guard, Node};
@@ -48,6 +48,47 @@ impl Soil {
                 decorated(kind, self.tree(random, depth - 1))
             }
         }
+    }
+
+    /// A tree as people write them: selectors of guarded units to any depth, with chains if there is memory. It has a
+    /// canonical form.
+    pub(crate) fn guarded(self, random: &mut Random, depth: usize) -> Node {
+        let mut children: Vec<Node> = (0..1 + random.below(3))
+            .map(|_| {
+                let guard = self.guard(random, 2);
+                match random.below(if depth == 0 { 2 } else { 4 }) {
+                    0 if self.memory => when(guard, self.chain(random)),
+                    0 | 1 => when(guard, leaf(random.below(self.behaviors))),
+                    2 => decorated(
+                        Decorator::Fail,
+                        when(guard, self.guarded(random, depth - 1)),
+                    ),
+                    _ => when(guard, self.guarded(random, depth - 1)),
+                }
+            })
+            .collect();
+        if random.chance(40) {
+            children.push(leaf(random.below(self.behaviors)));
+        }
+        selector(children)
+    }
+
+    /// Memory nodes, nested as in Figure 5, over different behaviours.
+    fn chain(self, random: &mut Random) -> Node {
+        let mut free: Vec<usize> = (0..self.behaviors).collect();
+        let mut ends = |random: &mut Random| leaf(free.swap_remove(random.below(free.len())));
+        let mut node = ends(random);
+        for _ in 0..1 + random.below(self.behaviors - 1) {
+            let mut children = vec![node, ends(random)];
+            if random.chance(50) {
+                children.swap(0, 1);
+            }
+            node = match random.chance(50) {
+                true => memory_sequence(children),
+                false => memory_selector(children),
+            };
+        }
+        node
     }
 
     fn trees(self, random: &mut Random, depth: usize) -> Vec<Node> {
