@@ -142,7 +142,8 @@ fn a_tree_that_decides_otherwise_is_told_the_lines() {
         let refused = verify::table(&loaded, tree, table, None).unwrap_err();
         refused.diagnostics[0].code
     };
-    assert_eq!(code("hasty"), Code::E0819);
+    let hasty = verify::table(&loaded, "hasty", table, None).unwrap();
+    assert!(hasty.text.contains("t.csv:3: "), "{}", hasty.text);
     assert_eq!(code("asks"), Code::E0610);
     assert_eq!(code("nobody"), Code::E0504);
 }
