@@ -6,6 +6,7 @@
 use crate::ir::law::Behavior;
 use crate::ir::tree::{Atom, Node};
 use crate::ir::{Id, Program};
+use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What a leaf asks or does.
@@ -217,9 +218,9 @@ impl Words {
             keys.into_iter().partition(|key| self.legal(&key.1));
         let mut ids = BTreeMap::new();
         for key in legal.into_iter().chain(others) {
-            if !ids.contains_key(&key) {
-                let id = self.new_id(&key.1);
-                ids.insert(key, id);
+            if let Entry::Vacant(place) = ids.entry(key) {
+                let id = self.new_id(&place.key().1);
+                place.insert(id);
             }
         }
         ids
