@@ -16,6 +16,7 @@ use btc::ir::tree::{Decorator, Node as Root, Status};
 use roxmltree::{Document, Node as Element};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 enum Kind {
     Condition(usize),
@@ -158,10 +159,10 @@ impl Node {
                 failures,
             } => {
                 for (i, child) in self.children.iter_mut().enumerate() {
-                    if !self.finished.contains_key(&i) {
+                    if let Entry::Vacant(place) = self.finished.entry(i) {
                         let status = child.tick(world);
                         if status != Status::Running {
-                            self.finished.insert(i, status);
+                            place.insert(status);
                         }
                     }
                     let count = |s| self.finished.values().filter(|f| **f == s).count();
