@@ -38,7 +38,7 @@ impl Subject {
             family: family.to_owned(),
             arguments: vec![Argument {
                 parameter: Some("behavior".to_owned()),
-                value: unquoted(&program.behaviors[id].name).to_owned(),
+                value: argument(&program.behaviors[id].name).to_owned(),
             }],
         };
         match self {
@@ -264,6 +264,15 @@ pub(super) fn unquoted(name: &str) -> &str {
     inner.filter(|n| !n.contains('`')).unwrap_or(name)
 }
 
+/// A name as an argument: without its backquotes, unless it would look like a call, or like an entry of the blackboard
+/// of BehaviorTree.CPP.
+fn argument(name: &str) -> &str {
+    match unquoted(name) {
+        inner if inner.contains(['(', '{']) => name,
+        inner => inner,
+    }
+}
+
 /// A name with its arguments, as the language writes it.
 #[derive(Clone, Debug)]
 struct Call {
@@ -327,17 +336,17 @@ impl Argument {
         {
             return Self {
                 parameter: Some(parameter.to_owned()),
-                value: value.trim().to_owned(),
+                value: argument(value.trim()).to_owned(),
             };
         }
         Self {
             parameter: None,
-            value: unquoted(text).to_owned(),
+            value: argument(text).to_owned(),
         }
     }
 }
 
-/// The parts of a list, at the commas outside brackets and quotes; `None` if the brackets do not match.
+/// The parts of a list, at the commas outside brackets and quotes; `None` if it is no list of arguments.
 fn split(list: &str) -> Option<Vec<&str>> {
     let mut parts = Vec::new();
     let (mut depth, mut quoted, mut start) = (0_u32, false, 0);
@@ -355,5 +364,6 @@ fn split(list: &str) -> Option<Vec<&str>> {
         }
     }
     parts.push(list.get(start..)?.trim());
-    (depth == 0 && !quoted && parts.iter().all(|part| !part.is_empty())).then_some(parts)
+    let sound = |part: &&str| !part.is_empty() && !part.starts_with('{');
+    (depth == 0 && !quoted && parts.iter().all(sound)).then_some(parts)
 }
