@@ -168,6 +168,15 @@ impl Policy {
 }
 
 impl Row {
+    /// Whether it stands for this minterm.
+    pub fn speaks_of(&self, minterm: &Minterm) -> bool {
+        let free = self.free.iter().flat_map(|free| free.words());
+        let words = self.minterm.words().iter().zip(minterm.words());
+        words
+            .zip(free.copied().chain(std::iter::repeat(0)))
+            .all(|((own, other), free)| (own ^ other) & !free == 0)
+    }
+
     /// How much better the best behaviour looks than the second; `None` if only one was tried.
     pub fn q_gap(&self) -> Option<f64> {
         let mut values: Vec<f64> = self.values.iter().flatten().map(|value| value.q).collect();

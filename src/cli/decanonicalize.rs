@@ -5,8 +5,9 @@ use super::report::{Reporter, tell};
 use super::{Failure, files};
 use crate::driver::compile::Form;
 use crate::driver::decanonicalize::{self, Options, Recorded};
+use crate::driver::export::Runtime;
 use crate::driver::table::Text;
-use crate::tree::decanonicalise::{Method, Order};
+use crate::tree::decanonicalise::{self, Method, Order};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -30,6 +31,9 @@ pub(super) struct Arguments {
     /// In which order behaviours stand in the tree.
     #[arg(long, value_name = "ORDER", default_value = "learned")]
     order: UnitOrder,
+    /// How much work the search may take, in millions of units; the tree is the same on every machine.
+    #[arg(long, value_name = "N", default_value_t = decanonicalise::Options::default().effort)]
+    effort: u64,
     /// The name of the tree.
     #[arg(long, value_name = "NAME", default_value = "learned", value_parser = name)]
     name: String,
@@ -81,6 +85,11 @@ enum Emit {
     Svg,
     /// JSON.
     Json,
+    /// XML for BehaviorTree.CPP 4, Groot2 and Nav2.
+    Btcpp,
+    /// A Python module for py_trees 2.
+    #[value(name = "py_trees")]
+    PyTrees,
 }
 
 fn slack(text: &str) -> Result<f64, String> {
@@ -109,6 +118,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
             UnitOrder::Given => Order::Given,
             UnitOrder::Rarest => Order::Rarest,
         },
+        effort: arguments.effort,
         slack: arguments.slack,
         name: &arguments.name,
         form: match arguments.emit {
@@ -116,6 +126,8 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
             Emit::Dot => Form::Dot,
             Emit::Svg => Form::Svg,
             Emit::Json => Form::Json,
+            Emit::Btcpp => Form::Robot(Runtime::BtCpp),
+            Emit::PyTrees => Form::Robot(Runtime::PyTrees),
         },
     };
     let bar = Progress::new();

@@ -211,7 +211,8 @@ fn shape(shape: &Shape) -> String {
     }
 }
 
-fn counted(n: usize, what: &str) -> String {
+/// How many there are, in words.
+pub(super) fn counted(n: usize, what: &str) -> String {
     match n {
         0 => format!("no {what}s"),
         1 => format!("1 {what}"),

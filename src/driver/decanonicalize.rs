@@ -7,8 +7,7 @@ use super::table::{self, Refused, Text};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::emit;
 use crate::ir::Program;
-use crate::ir::tree::{Node, Tree};
-use crate::policy::error::{TableError, TableErrorKind};
+use crate::ir::tree::Tree;
 use crate::policy::table::{AtomName, Table};
 use crate::policy::{Policy, decisions};
 use crate::source::{FileId, Span};
@@ -18,6 +17,8 @@ use crate::tree::prove::Refuted;
 
 mod report;
 
+pub(super) use report::rows;
+
 /// What a user may say beside the table.
 #[derive(Clone, Copy, Debug)]
 pub struct Options<'o> {
@@ -25,6 +26,8 @@ pub struct Options<'o> {
     pub method: Method,
     /// In which order its units stand.
     pub order: Order,
+    /// How much work the search may take; see [`decanonicalise::Options::effort`].
+    pub effort: u64,
     /// How much less than the table's decision another may be worth; 0 for a tree that is equal to the table.
     pub slack: f64,
     /// The name of the tree.
@@ -67,12 +70,12 @@ pub struct Made {
 /// # Errors
 /// What is wrong with the texts, with the places.
 pub fn read(text: Text, recorded: Option<Recorded>, options: &Options) -> Result<Asked, Refused> {
-    let table = table::read(text)?;
+    let read = table::read(text)?;
     let at_header = |code, message: String| {
-        let span = |file| Span::new(file, table.header.start, table.header.end);
+        let span = |file| Span::new(file, read.header.start, read.header.end);
         move |file: FileId| Diagnostic::new(code, span(file), message)
     };
-    if options.slack > 0.0 && !table.has_values() {
+    if options.slack > 0.0 && !read.has_values() {
         let told = at_header(
             Code::E0817,
             "slack needs the values of the behaviours".to_owned(),
@@ -80,7 +83,7 @@ pub fn read(text: Text, recorded: Option<Recorded>, options: &Options) -> Result
         let help = "a column `q:NAME` for each behaviour says what it is worth";
         return Err(Refused::new(text, |file| vec![told(file).help(help)]));
     }
-    if let Some(what) = names(&table, options.name) {
+    if let Some(what) = names(&read, options.name) {
         let told = at_header(
             Code::E0816,
             format!("`{}` is the tree and {what}", options.name),
@@ -88,14 +91,7 @@ pub fn read(text: Text, recorded: Option<Recorded>, options: &Options) -> Result
         let help = "call the tree otherwise, with `--name NAME`";
         return Err(Refused::new(text, |file| vec![told(file).help(help)]));
     }
-    let (program, mut policy) = decisions::declared(&table, print::name);
-    decisions::expand(&mut policy).map_err(|at| {
-        let error = TableError {
-            span: table.place(text.bytes, at),
-            kind: TableErrorKind::Wide,
-        };
-        Refused::table(text, &[error])
-    })?;
+    let (program, policy) = decisions::declared(&read, print::name);
     let mut asked = Asked {
         program,
         policy,
@@ -141,7 +137,7 @@ pub fn decanonicalize(asked: Asked, options: &Options) -> Result<Made, Refused> 
         method: options.method,
         care: Care::Seen,
         order: options.order,
-        ..decanonicalise::Options::default()
+        effort: options.effort,
     };
     let Asked {
         mut program,
@@ -207,7 +203,7 @@ fn doc(
     slack: Option<&Slack>,
     allowed: f64,
 ) -> String {
-    let of = report::rows(policy);
+    let of = rows(policy);
     if let Some(slack) = slack {
         let otherwise = slack.otherwise.len();
         return format!(
@@ -218,11 +214,6 @@ fn doc(
         "Made from {source}: proved on {}.",
         report::proved(policy, found)
     )
-}
-
-/// Whether a tree has memory.
-fn remembers(node: &Node) -> bool {
-    matches!(node, Node::Composite { memory: true, .. }) || node.children().iter().any(remembers)
 }
 
 /// The program needs no other files.

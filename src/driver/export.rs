@@ -43,21 +43,22 @@ pub fn tree(
 /// A node that the runtime has no counterpart for.
 pub fn of_program(loaded: &Loaded, id: Id<Tree>, runtime: Runtime) -> Result<String, Diagnostic> {
     let exported = &loaded.program.trees[id];
-    let written = loaded.ast.items.iter().find_map(|item| match &item.kind {
-        ItemKind::Tree(tree) if crate::syntax::print::name(&tree.name.name) == exported.name => {
-            Some(&tree.root)
-        }
-        _ => None,
-    });
-    let place = |path: &[usize]| match written {
-        Some(root) => place(root, path),
-        None => target::end_of_file(loaded),
-    };
+    let place = |path: &[usize]| place(loaded, exported, path);
     tree(&loaded.program, exported, runtime, place)
 }
 
-/// Where the node at a path is written; a subtree is one leaf.
-fn place(root: &Node, path: &[usize]) -> Span {
+/// Where the node at a path of child positions is written; a subtree is one leaf.
+pub(super) fn place(loaded: &Loaded, tree: &Tree, path: &[usize]) -> Span {
+    let written = loaded.ast.items.iter().find_map(|item| match &item.kind {
+        ItemKind::Tree(item) if crate::syntax::print::name(&item.name.name) == tree.name => {
+            Some(&item.root)
+        }
+        _ => None,
+    });
+    written.map_or_else(|| target::end_of_file(loaded), |root| node_at(root, path))
+}
+
+fn node_at(root: &Node, path: &[usize]) -> Span {
     let mut at = root;
     for &position in path {
         let child = match &at.kind {

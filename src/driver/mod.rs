@@ -1,5 +1,6 @@
 //! What each command does, as functions from text to results: nothing is printed, no file is touched.
 
+pub mod canonicalize;
 pub mod check;
 pub mod compile;
 pub mod decanonicalize;
@@ -11,6 +12,7 @@ pub mod load;
 pub mod picture;
 pub mod run;
 pub mod simplify;
+pub mod size;
 mod slack;
 pub mod table;
 pub mod target;

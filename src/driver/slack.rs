@@ -14,6 +14,9 @@ use crate::tree::decanonicalise::{Decanonicalised, Options, decanonicalise};
 /// How often minterms that a tree decides as they may not be decided are taken back before all are.
 const ROUNDS: usize = 6;
 
+/// The part of the work that the search of one of many trees may take.
+const SHARE: u64 = 20;
+
 /// How many trees are tried for a table of one row, and at least and at most for any.
 const TRIES: (usize, usize, usize) = (400_000, 8, 200);
 
@@ -53,15 +56,19 @@ pub(super) fn loosen(
             .iter()
             .map(|row| allowed(policy, row, slack))
             .collect(),
-        options,
+        options: Options {
+            effort: options.effort / SHARE,
+            ..*options
+        },
         left: (all / policy.rows.len().max(1)).clamp(least, most),
     };
     if search.allowed.iter().all(|choices| choices.len() == 1) {
         return None;
     }
+    let own: Vec<_> = policy.rows.iter().map(|row| Some(row.behavior)).collect();
     let mut best = Taken {
-        behaviors: policy.rows.iter().map(|row| row.behavior).collect(),
-        found: exact.clone(),
+        found: search.tree(&own)?,
+        behaviors: own.into_iter().flatten().collect(),
     };
     let fewest = search.fewest();
     search.improve(&mut best, fewest.iter().map(|b| Some(*b)).collect());
@@ -76,9 +83,13 @@ pub(super) fn loosen(
             break;
         }
     }
-    (best.found.size < exact.size).then(|| Slack {
+    search.options = *options;
+    search.left = 1;
+    let taken: Vec<_> = best.behaviors.iter().map(|b| Some(*b)).collect();
+    let found = search.tree(&taken)?;
+    (found.size < exact.size).then(|| Slack {
         otherwise: changes(policy, &best.behaviors),
-        found: best.found,
+        found,
     })
 }
 
@@ -124,7 +135,7 @@ struct Search<'a> {
     policy: &'a Policy,
     /// What may be done in each row.
     allowed: Vec<Vec<Id<Behavior>>>,
-    options: &'a Options,
+    options: Options,
     /// How many trees may still be tried.
     left: usize,
 }
@@ -237,6 +248,6 @@ impl Search<'_> {
             history: self.policy.history,
             ..Policy::default()
         };
-        decanonicalise(&policy, self.options).ok()
+        decanonicalise(&policy, &self.options).ok()
     }
 }

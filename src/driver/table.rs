@@ -166,8 +166,11 @@ fn located(file: FileId, error: &TableError) -> Diagnostic {
 
 fn code(kind: &TableErrorKind) -> Code {
     match kind {
+        TableErrorKind::NoText => Code::E0130,
         TableErrorKind::Malformed(_) | TableErrorKind::Empty => Code::E0811,
-        TableErrorKind::Ragged { .. } | TableErrorKind::MissingKey(_) => Code::E0812,
+        TableErrorKind::Ragged { .. }
+        | TableErrorKind::MissingKey(_)
+        | TableErrorKind::UnknownKey(_) => Code::E0812,
         TableErrorKind::RepeatedColumn(_)
         | TableErrorKind::SecondBehavior(_)
         | TableErrorKind::MissingColumn { .. }

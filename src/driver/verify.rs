@@ -1,17 +1,21 @@
 //! `btc verify`: proofs that two trees take the same decisions, and tests of what is claimed of events.
 
+mod rows;
 mod tested;
+mod trace;
 
-use super::learn::{Learned, minterm_text};
+pub use rows::table;
+
+use super::learn::Learned;
 use super::load::Loaded;
-use super::{table, target};
+use super::target;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::ir::law::Behavior;
-use crate::ir::task::{ClaimKind, Learner, Task, TreeRef};
+use crate::ir::Program;
+use crate::ir::task::{ClaimKind, History, Learner, TreeRef};
 use crate::ir::tree::{Atom, Node};
-use crate::ir::{Id, Program};
 use crate::policy::Policy;
-use crate::tree::equivalence::{Environment, Side, Trace, Verdict, compare};
+use crate::tree::atoms::atoms;
+use crate::tree::equivalence::{Environment, Side, Verdict, compare};
 use tested::Tests;
 
 /// What came of a proof.
@@ -34,6 +38,14 @@ pub fn trees(loaded: &Loaded, left: &str, right: &str) -> Result<Proved, Vec<Dia
     let right_id = target::tree(loaded, right).map_err(one)?;
     let program = &loaded.program;
     let (a, b) = (&program.trees[left_id], &program.trees[right_id]);
+    if program.tasks.is_empty() {
+        let pair = Pair {
+            loaded,
+            history: assumed(&[&a.root, &b.root]),
+            recorded: None,
+        };
+        return pair.prove((left, &a.root), (right, &b.root));
+    }
     let task = target::task_of(loaded, Some(left_id)).map_err(one)?;
     let other = target::task_of(loaded, Some(right_id)).map_err(one)?;
     if task != other {
@@ -49,11 +61,11 @@ pub fn trees(loaded: &Loaded, left: &str, right: &str) -> Result<Proved, Vec<Dia
     }
     let recorded = match loaded.tables.as_slice() {
         [] => None,
-        [(file, _), ..] => Some(table::environment(loaded, *file, task)?),
+        [(file, _), ..] => Some(super::table::environment(loaded, *file, task)?),
     };
     let pair = Pair {
         loaded,
-        task,
+        history: program.tasks[task].history,
         recorded: recorded.as_ref(),
     };
     pair.prove((left, &a.root), (right, &b.root))
@@ -116,7 +128,7 @@ pub fn claims_of_learned(
     let task = program.learners[learned.learner].task;
     let pair = Pair {
         loaded,
-        task,
+        history: program.tasks[task].history,
         recorded: Some(&learned.policy),
     };
     let mut tests = Tests::new(loaded);
@@ -174,7 +186,7 @@ fn side<'a>(
 /// Two trees in their environment.
 struct Pair<'a> {
     loaded: &'a Loaded,
-    task: Id<Task>,
+    history: History,
     recorded: Option<&'a Policy>,
 }
 
@@ -187,7 +199,7 @@ impl Pair<'_> {
         let program = &self.loaded.program;
         let environment = match self.recorded {
             Some(policy) => Environment::Greedy(policy),
-            None => Environment::Any(program.tasks[self.task].history),
+            None => Environment::Any(self.history),
         };
         let verdict = compare(Side::Tree(a), Side::Tree(b), environment).map_err(|unknown| {
             vec![
@@ -223,14 +235,21 @@ impl Pair<'_> {
                     }
                     None => format!(
                         "equal: `{left}` and `{right}` select the same behaviour in every environment that is \
-                         consistent with the history window ({})",
+                         consistent with {} ({})",
+                        self.window(),
                         explored.means_text()
                     ),
                 },
             },
             Verdict::Differ(trace) => Proved {
                 holds: false,
-                text: self.trace(left, right, &trace),
+                text: {
+                    let along = match self.recorded {
+                        Some(_) => "along the greedy transitions".to_owned(),
+                        None => format!("in an environment consistent with {}", self.window()),
+                    };
+                    trace::text(program, (left, right), &along, &trace)
+                },
             },
             Verdict::Undecided(explored) => Proved {
                 holds: false,
@@ -247,51 +266,24 @@ impl Pair<'_> {
         self.loaded.tables.first().map_or(end, |(_, span)| *span)
     }
 
-    fn trace(&self, left: &str, right: &str, trace: &Trace) -> String {
-        let program = &self.loaded.program;
-        let name = |behavior: &Option<Id<Behavior>>| {
-            behavior
-                .map_or("nothing", |id| &program.behaviors[id].name)
-                .to_owned()
-        };
-        let atoms: Vec<Atom> = trace.atoms.clone();
-        let policy = Policy {
-            atoms,
-            ..Policy::default()
-        };
-        let held = |minterm| minterm_text(program, &policy, minterm);
-        let environment = match self.recorded {
-            Some(_) => "along the greedy transitions",
-            None => "in an environment consistent with the history window",
-        };
-        let mut lines = vec![format!(
-            "different: `{left}` and `{right}` part after {} ticks {environment}",
-            trace.steps.len()
-        )];
-        let mut first = 1;
-        for alike in trace.steps.chunk_by(|a, b| a == b) {
-            let Some(step) = alike.first() else { continue };
-            let last = first + alike.len() - 1;
-            let ticks = if first == last {
-                format!("tick {first:<3}")
-            } else {
-                format!("ticks {first} to {last}")
-            };
-            lines.push(format!(
-                "  {ticks} {}: both select {}, which answers {}",
-                held(&step.valuation),
-                name(&step.behavior),
-                step.status.name()
-            ));
-            first = last + 1;
+    /// The history window in words.
+    fn window(&self) -> String {
+        if self.loaded.program.tasks.is_empty() {
+            let window = self.history.window;
+            return format!("a history of {window}, as no task says another");
         }
-        lines.push(format!(
-            "  tick {:<3} {}: `{left}` selects {}, `{right}` selects {}",
-            trace.steps.len() + 1,
-            held(&trace.valuation),
-            name(&trace.left),
-            name(&trace.right)
-        ));
-        lines.join("\n")
+        "the history window".to_owned()
+    }
+}
+
+/// The window of a program without a task: the paper's if these trees remember anything, else none.
+fn assumed(trees: &[&Node]) -> History {
+    let asks = |atom: &Atom| !matches!(atom, Atom::Predicate(_));
+    let remembered = |root: &&Node| root.remembers() || atoms(root).iter().any(asks);
+    let remembers = trees.iter().any(remembered);
+    History {
+        window: usize::from(remembers),
+        success: remembers,
+        failure: remembers,
     }
 }

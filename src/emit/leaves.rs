@@ -227,11 +227,10 @@ impl Words {
 
     /// An identifier near to `name` that is not among `taken`, and joins them.
     fn free(&self, name: &str, taken: &mut BTreeSet<String>) -> String {
-        let mut id: String = unquoted(name)
-            .chars()
-            .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })
-            .skip_while(|c| *c == '_')
-            .collect();
+        let text = unquoted(name);
+        let parts = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
+        let parts: Vec<&str> = parts.filter(|part| !part.is_empty()).collect();
+        let mut id = parts.join("_").trim_start_matches('_').to_owned();
         if !id.starts_with(|c: char| c.is_ascii_alphabetic()) {
             id.insert(0, 'x');
         }

@@ -163,6 +163,12 @@ impl Node {
         }
     }
 
+    /// Whether it, or a node below it, is a memory node.
+    pub fn remembers(&self) -> bool {
+        let memory = matches!(self, Node::Composite { memory: true, .. });
+        memory || self.children().iter().any(Node::remembers)
+    }
+
     /// Calls `visit` for every atom of every condition, from the left.
     pub fn visit_atoms(&self, visit: &mut impl FnMut(Atom)) {
         if let Node::Condition(guard) = self {

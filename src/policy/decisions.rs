@@ -33,12 +33,31 @@ pub fn write(policy: &Policy, program: &Program) -> String {
             shown(row.q_gap()),
         ];
         let values = row.values.iter().map(|value| shown(value.map(|v| v.q)));
-        sheet::cells(&row.minterm)
-            .chain(decided)
-            .chain(values)
-            .collect()
+        cells(row).chain(decided).chain(values).collect()
     });
     sheet::write(std::iter::once(header).chain(rows))
+}
+
+/// The decisions alone as text, under names without backquotes: a table as anybody writes it.
+pub fn write_bare(policy: &Policy, program: &Program) -> String {
+    let atoms = policy.atoms.iter();
+    let atoms = atoms.map(|atom| AtomName::of(&program.atom_name(*atom)).to_string());
+    let header = atoms.chain(["behavior".to_owned()]).collect();
+    let rows = policy.rows.iter().map(|row| {
+        let behavior = names::plain(&program.behaviors[row.behavior].name);
+        cells(row).chain([behavior.to_owned()]).collect()
+    });
+    sheet::write(std::iter::once(header).chain(rows))
+}
+
+/// The values of a row's atoms as cells, `-` where they are free.
+fn cells(row: &Row) -> impl Iterator<Item = String> {
+    let free = row.free.as_ref();
+    row.minterm.values().enumerate().map(move |(i, value)| {
+        let digit = if value { "1" } else { "0" };
+        let free = free.is_some_and(|free| free.get(i));
+        if free { "-" } else { digit }.to_owned()
+    })
 }
 
 /// Reads the decisions of a policy of a program; its transitions and the evidence behind its values come from other
@@ -102,7 +121,10 @@ pub fn of_program(
     if !unknown.is_empty() {
         return Err(unknown);
     }
-    let chosen = task.map_or_else(|| ids.clone(), |task| program.tasks[task].choose.clone());
+    let chosen = task.map_or_else(
+        || chosen(table, &ids),
+        |task| program.tasks[task].choose.clone(),
+    );
     let history = task.map(|task| program.tasks[task].history);
     Ok(table.policy(atoms, &ids, chosen, history))
 }
@@ -111,26 +133,45 @@ pub fn of_program(
 /// and says nothing more.
 pub fn declared(table: &Table, spelled: impl Fn(&str) -> String) -> (Program, Policy) {
     let mut program = Program::default();
+    let policy = joined(table, &mut program, spelled);
+    (program, policy)
+}
+
+/// The policy in a table beside a program, which is let declare the names that it does not have, as `spelled` writes
+/// them in the language.
+pub fn joined(table: &Table, program: &mut Program, spelled: impl Fn(&str) -> String) -> Policy {
+    let known: BTreeMap<String, Id<Behavior>> = behaviors(program)
+        .into_iter()
+        .map(|(name, id)| (name.to_owned(), id))
+        .collect();
     let ids = table.behaviors.iter().map(|(name, _)| {
-        let name = spelled(name);
-        program.behaviors.push(Behavior { name, law: None })
+        known.get(name).copied().unwrap_or_else(|| {
+            let name = spelled(name);
+            program.behaviors.push(Behavior { name, law: None })
+        })
     });
     let ids: Vec<Id<Behavior>> = ids.collect();
-    let of = |name: &str| {
-        let at = table.behaviors.iter().position(|(known, _)| known == name);
-        at.and_then(|at| ids.get(at)).copied()
-    };
-    let atoms = table.atoms.iter().filter_map(|(name, _)| match name {
-        AtomName::Predicate(name) => Some(Atom::Predicate(program.predicates.push(Predicate {
-            name: spelled(name),
-            when: None,
-        }))),
-        AtomName::Done(name) => of(name).map(Atom::Done),
-        AtomName::Failed(name) => of(name).map(Atom::Failed),
+    let known = atoms(program);
+    let atoms = table.atoms.iter().filter_map(|(name, _)| {
+        let found = known.get(&name.to_string()).copied();
+        found.or_else(|| match name {
+            AtomName::Predicate(name) => {
+                Some(Atom::Predicate(program.predicates.push(Predicate {
+                    name: spelled(name),
+                    when: None,
+                })))
+            }
+            // Every behaviour that the history knows is among those of the table.
+            AtomName::Done(_) | AtomName::Failed(_) => None,
+        })
     });
     let atoms: Vec<Atom> = atoms.collect();
-    let policy = table.policy(atoms, &ids, ids.clone(), None);
-    (program, policy)
+    table.policy(atoms, &ids, chosen(table, &ids), None)
+}
+
+/// The behaviours that a table chooses, in its order.
+fn chosen(table: &Table, ids: &[Id<Behavior>]) -> Vec<Id<Behavior>> {
+    ids.iter().take(table.chosen).copied().collect()
 }
 
 /// The names of a program's behaviours, without backquotes around them.
@@ -158,7 +199,7 @@ pub(super) fn atoms(program: &Program) -> BTreeMap<String, Atom> {
 ///
 /// # Errors
 /// The number of a row that stands for too many.
-pub fn expand(policy: &mut Policy) -> Result<(), usize> {
+fn expand(policy: &mut Policy) -> Result<(), usize> {
     if policy.rows.iter().all(|row| row.free.is_none()) {
         return Ok(());
     }

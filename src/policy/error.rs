@@ -17,6 +17,8 @@ pub struct TableError {
 pub enum TableErrorKind {
     /// It is not comma-separated text, or a line is no object of JSON.
     Malformed(String),
+    /// Bytes that are no characters (UTF-8).
+    NoText,
     /// It has no rows.
     Empty,
     /// A row has another number of cells than the header.
@@ -28,7 +30,9 @@ pub enum TableErrorKind {
     },
     /// A row does not say what the first one does.
     MissingKey(String),
-    /// A column names nothing that the program has, or that the first row has.
+    /// A row says what the first one does not.
+    UnknownKey(String),
+    /// A column names nothing that the program has.
     UnknownColumn(String),
     /// A column stands twice.
     RepeatedColumn(String),
@@ -78,11 +82,15 @@ impl fmt::Display for TableError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.kind {
             TableErrorKind::Malformed(why) => write!(f, "this is no table: {why}"),
+            TableErrorKind::NoText => write!(f, "this is not text (UTF-8)"),
             TableErrorKind::Empty => write!(f, "the table has no rows"),
             TableErrorKind::Ragged { found, expected } => {
                 write!(f, "this row has {found} cells, the header has {expected}")
             }
             TableErrorKind::MissingKey(name) => write!(f, "this row does not say `{name}`"),
+            TableErrorKind::UnknownKey(name) => {
+                write!(f, "the first row does not say `{name}`, this one does")
+            }
             TableErrorKind::UnknownColumn(name) => write!(f, "unknown column `{name}`"),
             TableErrorKind::RepeatedColumn(name) => write!(f, "column `{name}` stands twice"),
             TableErrorKind::SecondBehavior(name) => {

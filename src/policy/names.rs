@@ -36,12 +36,6 @@ impl AtomName {
     /// Whether the language can call something so.
     pub(super) fn check(&self) -> Result<(), TableErrorKind> {
         match self {
-            Self::Predicate(name) if matches!(name.as_str(), "done" | "failed") => {
-                Err(TableErrorKind::UnusableName {
-                    name: name.clone(),
-                    why: "it asks the history, in the language as in a table",
-                })
-            }
             Self::Predicate(name) | Self::Done(name) | Self::Failed(name) => check(name),
         }
     }
@@ -66,7 +60,9 @@ pub(super) fn plain(name: &str) -> &str {
 
 /// Whether the language can call something so, in backquotes where it has to.
 pub(super) fn check(name: &str) -> Result<(), TableErrorKind> {
-    let why = if name.is_empty() {
+    let why = if matches!(name, "done" | "failed") {
+        "it asks the history, in the language as in a table"
+    } else if name.is_empty() {
         "a name has at least one character"
     } else if name.contains('`') {
         "a backquote ends a name"

@@ -26,16 +26,14 @@ impl<'t> Records<'t> {
         Self { text, at }
     }
 
-    /// Puts the places of the next record's cells, quotes included, into `cells`; false at the end. Lines without any
-    /// character are no records.
+    /// Puts the places of the next record's cells, quotes included, into `cells`; false at the end. Blank lines are no
+    /// records.
     ///
     /// # Errors
     /// A quote that is never closed, or one that is closed within a cell. Nothing can be read behind it.
     pub(super) fn next(&mut self, cells: &mut Vec<Range<usize>>) -> Result<bool, TableError> {
         cells.clear();
-        while let Some(b'\r' | b'\n') = self.text.get(self.at) {
-            self.at += 1;
-        }
+        self.skip_blank_lines();
         if self.at >= self.text.len() {
             return Ok(false);
         }
@@ -52,6 +50,20 @@ impl<'t> Records<'t> {
             match self.text.get(self.at) {
                 Some(b',') => self.at += 1,
                 _ => return Ok(true),
+            }
+        }
+    }
+
+    fn skip_blank_lines(&mut self) {
+        while let Some(first) = self.text.get(self.at)
+            && matches!(first, b'\r' | b'\n' | b' ' | b'\t')
+        {
+            let rest = self.text.get(self.at..).unwrap_or_default();
+            let blank = rest.iter().position(|b| !matches!(b, b' ' | b'\t'));
+            match blank.and_then(|length| rest.get(length).map(|byte| (length, byte))) {
+                Some((length, b'\r' | b'\n')) => self.at += length + 1,
+                Some(_) => return,
+                None => self.at = self.text.len(),
             }
         }
     }

@@ -27,6 +27,7 @@ use crate::ir::tree::Atom;
 use behaviors::Behaviors;
 use columns::Role;
 use rows::{Draft, Rows, Truth};
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// After so many mistakes the rest of a table is not looked at.
@@ -75,6 +76,8 @@ pub struct Table {
     pub behaviors: Vec<(String, Range<usize>)>,
     /// The place of the header.
     pub header: Range<usize>,
+    /// How many of the behaviours are chosen, or could be.
+    pub chosen: usize,
     /// The behaviour of each column of values, by its number.
     values: Vec<u32>,
     rows: Rows,
@@ -114,6 +117,15 @@ impl Table {
     /// Whether it has values of behaviours.
     pub fn has_values(&self) -> bool {
         !self.values.is_empty()
+    }
+
+    /// The rows in the order of a policy; their behaviours are those of the table by number.
+    pub fn rows(&self) -> impl Iterator<Item = Row> {
+        self.order.iter().map(|row| {
+            let row = *row as usize;
+            let number = self.rows.behavior.get(row).copied().unwrap_or(0);
+            self.rows.row(row, number as usize, &[])
+        })
     }
 
     /// The place of the row that stands `at` in the policy.
@@ -241,6 +253,15 @@ impl Reading {
         }
     }
 
+    /// The characters in a cell.
+    fn text(&mut self, bytes: &[u8], place: &Range<usize>) -> String {
+        let text = String::from_utf8_lossy(bytes);
+        if matches!(text, Cow::Owned(_)) {
+            self.tell(place, TableErrorKind::NoText);
+        }
+        text.into_owned()
+    }
+
     /// What a cell says is done.
     fn decided(&mut self, name: &[u8], place: &Range<usize>) {
         match self.behaviors.cell(name, place) {
@@ -263,6 +284,7 @@ impl Reading {
     }
 
     fn finish(mut self, text: &[u8]) -> Result<Table, Vec<TableError>> {
+        let chosen = self.behaviors.names.len();
         for (atom, place) in &self.atoms {
             if let Some(name) = atom.behavior() {
                 self.behaviors.number(name, place.clone());
@@ -291,6 +313,7 @@ impl Reading {
             atoms: self.atoms,
             behaviors: self.behaviors.names,
             header: self.header,
+            chosen,
             values: self.values,
             rows: self.rows,
             order,

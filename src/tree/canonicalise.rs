@@ -5,8 +5,10 @@
 
 mod reduce;
 mod shorten;
+mod table;
 
 pub(super) use shorten::shorten;
+pub use table::Decided;
 
 use super::circuit::Signal;
 use super::circuit::guards::Guards;

@@ -1,6 +1,6 @@
 //! Trees from policies, and what is proved of them.
 
-mod build;
+pub(crate) mod build;
 mod canonical;
 mod drawn;
 mod equivalence;
@@ -9,7 +9,7 @@ mod grown;
 mod guards;
 mod permuted;
 mod proofs;
-mod random;
+pub(crate) mod random;
 mod small_delivery;
 mod ticks;
 mod walk;

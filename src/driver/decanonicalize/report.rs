@@ -1,6 +1,6 @@
 //! What a person wants to know of a tree that was made from a table.
 
-use super::remembers;
+use crate::driver::compile::counted;
 use crate::driver::learn::minterm_text;
 use crate::driver::slack::Slack;
 use crate::ir::Program;
@@ -100,7 +100,7 @@ impl Subject<'_> {
 }
 
 /// How much of a table there is, in words.
-pub(super) fn rows(policy: &Policy) -> String {
+pub(in crate::driver) fn rows(policy: &Policy) -> String {
     let cubes = policy.rows.iter().filter(|row| row.free.is_some()).count();
     match cubes {
         0 => counted(policy.rows.len(), "minterm"),
@@ -127,7 +127,7 @@ pub(super) fn proved(policy: &Policy, found: &Decanonicalised) -> String {
         );
     }
     let of = format!("{} of the table", rows(policy));
-    if remembers(&found.root) {
+    if found.root.remembers() {
         let window = policy.history.window;
         return format!(
             "{of}, with memory in any environment consistent with a history of {window}"
@@ -138,14 +138,9 @@ pub(super) fn proved(policy: &Policy, found: &Decanonicalised) -> String {
 
 fn size(size: &Size) -> String {
     format!(
-        "{} nodes, {} literals, depth {}",
-        size.nodes, size.literals, size.depth
+        "{}, {}, depth {}",
+        counted(size.nodes, "node"),
+        counted(size.literals, "literal"),
+        size.depth
     )
-}
-
-fn counted(n: usize, what: &str) -> String {
-    match n {
-        1 => format!("1 {what}"),
-        n => format!("{n} {what}s"),
-    }
 }

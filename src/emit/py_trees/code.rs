@@ -1,7 +1,7 @@
 //! Expressions of Python, laid out as the formatter black lays them out.
 
 /// The longest line.
-const WIDTH: usize = 88;
+pub(super) const WIDTH: usize = 88;
 
 /// An expression.
 #[derive(Clone, Debug)]
@@ -73,23 +73,27 @@ fn joined(parts: &[Code]) -> String {
 
 /// A string of Python.
 pub(super) fn string(text: &str) -> Code {
-    Code::Plain(format!("\"{}\"", escaped(text)))
+    Code::Plain(quoted(text))
 }
 
-/// The inside of a string in double quotes.
-pub(super) fn escaped(text: &str) -> String {
-    let mut out = String::new();
+/// A text in double quotes, or in single ones if that saves escapes.
+pub(super) fn quoted(text: &str) -> String {
+    let quote = match text.contains('"') && !text.contains('\'') {
+        true => '\'',
+        false => '"',
+    };
+    let mut out = String::from(quote);
     for c in text.chars() {
         match c {
-            '\\' => out.push_str("\\\\"),
-            '"' => out.push_str("\\\""),
             '\n' => out.push_str("\\n"),
             '\t' => out.push_str("\\t"),
             '\r' => out.push_str("\\r"),
+            c if c == '\\' || c == quote => out.extend(['\\', c]),
             c if c.is_control() => out.push_str(&format!("\\u{:04x}", u32::from(c))),
             c => out.push(c),
         }
     }
+    out.push(quote);
     out
 }
 
@@ -107,6 +111,3 @@ pub(super) fn wrapped(text: &str, width: usize) -> String {
     }
     lines.join("\n")
 }
-
-/// The widest paragraph of a docstring at the left margin.
-pub(super) const PARAGRAPH: usize = WIDTH;

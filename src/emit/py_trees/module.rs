@@ -1,6 +1,6 @@
 //! What stands around the tree in its module: imports, the class to derive from, a way to draw it.
 
-use super::code::{Code, PARAGRAPH, escaped, wrapped};
+use super::code::{Code, WIDTH, quoted, wrapped};
 use crate::emit::leaves::{Family, Leaves, Subject, unquoted};
 use crate::emit::notes;
 use crate::ir::Program;
@@ -21,7 +21,12 @@ impl Imports {
     fn lines(&self) -> String {
         let lines = self.0.iter().map(|(module, names)| {
             let names: Vec<&str> = names.iter().copied().collect();
-            format!("from py_trees.{module} import {}\n", names.join(", "))
+            let line = format!("from py_trees.{module} import {}", names.join(", "));
+            if line.chars().count() <= WIDTH {
+                return format!("{line}\n");
+            }
+            let names: String = names.iter().map(|name| format!("    {name},\n")).collect();
+            format!("from py_trees.{module} import (\n{names})\n")
         });
         lines.collect()
     }
@@ -100,7 +105,7 @@ impl Parts<'_> {
             _ => format!("A new `{name}`."),
         };
         format!(
-            "    @abc.abstractmethod\n    {}\n        \"\"\"{}\"\"\"\n\n",
+            "    @abc.abstractmethod\n{}        \"\"\"{}\"\"\"\n\n",
             head(family),
             in_docstring(&says)
         )
@@ -113,23 +118,22 @@ fn is_action(family: &Family) -> bool {
 
 /// `def goto(self, target: str) -> Behaviour:`
 fn head(family: &Family) -> String {
-    let mut parameters = vec!["self".to_owned()];
+    let mut parameters = vec![Code::Plain("self".to_owned())];
     // A parameter with a default stands behind those without.
     let mut left_out = false;
     for parameter in &family.parameters {
         left_out |= parameter.optional;
-        parameters.push(if left_out {
-            format!("{}: str | None = None", parameter.id)
-        } else {
-            format!("{}: str", parameter.id)
-        });
+        let ty = if left_out { "str | None = None" } else { "str" };
+        parameters.push(Code::Plain(format!("{}: {ty}", parameter.id)));
     }
     let answer = if is_action(family) {
-        "Behaviour"
+        " -> Behaviour:"
     } else {
-        "bool"
+        " -> bool:"
     };
-    format!("def {}({}) -> {answer}:", family.id, parameters.join(", "))
+    let mut out = String::new();
+    Code::call(&format!("def {}", family.id), parameters).write(4, answer, &mut out);
+    out
 }
 
 /// `goto(target)`, by its name in the language.
@@ -159,15 +163,16 @@ fn sketched(family: &Family, program: &Program) -> String {
             .map(|parameter| format!("{{{}}}", parameter.id))
             .collect();
         if parameters.is_empty() {
-            format!("return Dummy(\"{}\")", escaped(&name))
+            format!("return Dummy({})", quoted(&name))
         } else {
-            let name = escaped(&name).replace('{', "{{").replace('}', "}}");
-            format!("return Dummy(f\"{name}({})\")", parameters.join(", "))
+            let name = name.replace('{', "{{").replace('}', "}}");
+            let name = quoted(&format!("{name}({})", parameters.join(", ")));
+            format!("return Dummy(f{name})")
         }
     } else {
         "return False".to_owned()
     };
-    format!("    {}\n        {body}\n\n", head(family))
+    format!("{}        {body}\n\n", head(family))
 }
 
 /// What a reader of the module has to know.
@@ -183,7 +188,7 @@ fn docstring(tree: &Tree, tick: Option<f64>) -> String {
         || "each tick".to_owned(),
         |milliseconds| format!("every {milliseconds} ms"),
     );
-    let mut say = |text: &str| paragraphs.push(wrapped(text, PARAGRAPH));
+    let mut say = |text: &str| paragraphs.push(wrapped(text, WIDTH));
     say(&format!(
         "Derive a class from `Robot` and tick `create_root(robot)` {often}. Run as a program, this module draws the tree."
     ));

@@ -1,5 +1,6 @@
 //! The behaviours of a table, numbered as they are met.
 
+use crate::policy::error::TableErrorKind;
 use crate::policy::names;
 use rustc_hash::FxHashMap;
 use std::ops::Range;
@@ -33,12 +34,12 @@ impl Behaviors {
         &mut self,
         text: &[u8],
         place: &Range<usize>,
-    ) -> Result<u32, crate::policy::error::TableErrorKind> {
+    ) -> Result<u32, TableErrorKind> {
         if !text.is_empty() && self.last.0 == text {
             return Ok(self.last.1);
         }
-        let name = String::from_utf8_lossy(text);
-        let name = names::plain(&name);
+        let name = std::str::from_utf8(text).map_err(|_| TableErrorKind::NoText)?;
+        let name = names::plain(name);
         if !self.numbers.contains_key(name) {
             names::check(name)?;
         }

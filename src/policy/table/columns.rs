@@ -38,7 +38,7 @@ impl Reading {
             let role = if known.insert(bare(name)) {
                 self.role(name, place, &mut decides)
             } else {
-                Err(TableErrorKind::RepeatedColumn(name.clone()))
+                Err(TableErrorKind::RepeatedColumn(bare(name)))
             };
             roles.push(role.unwrap_or_else(|kind| {
                 self.tell(place, kind);

@@ -16,17 +16,15 @@ pub(super) fn read(text: &[u8], reading: &mut Reading) {
     }
     let names = cells.iter().map(|cell| {
         let name = records::value(text, cell);
-        (String::from_utf8_lossy(&name).into_owned(), cell.clone())
+        (reading.text(&name, cell), cell.clone())
     });
-    let roles = reading.columns(names.collect(), records::whole(&cells));
-    loop {
+    let names = names.collect();
+    let roles = reading.columns(names, records::whole(&cells));
+    while !reading.is_full() {
         match records.next(&mut cells) {
             Ok(true) => row(text, &cells, &roles, reading),
             Ok(false) => return,
             Err(error) => return reading.stop(error),
-        }
-        if reading.is_full() {
-            return;
         }
     }
 }

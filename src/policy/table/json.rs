@@ -43,6 +43,9 @@ pub(super) fn read(text: &[u8], reading: &mut Reading) {
         };
         let line = Line { text: line, start };
         let keys = keys.get_or_insert_with(|| Keys::of(&object, &line, reading));
+        if reading.is_full() {
+            return;
+        }
         line.row(&object, keys, reading);
     }
 }
@@ -151,7 +154,7 @@ impl Line<'_> {
             Some(keys.add(name, column))
         });
         let Some(number) = number else {
-            let kind = TableErrorKind::UnknownColumn(name.to_owned());
+            let kind = TableErrorKind::UnknownKey(name.to_owned());
             return reading.tell(&self.place(shown), kind);
         };
         let (Some((_, role)), Some(said)) = (keys.roles.get(number), keys.said.get_mut(number))
