@@ -34,9 +34,14 @@ const SHAPES: [Shape; 2] = [
 /// Trees that are put to the proof, smallest first.
 const PROOFS: usize = 256;
 
-/// The smallest tree that was found and proved. Where the order is to be learned, that of Algorithm 1 is the first to
-/// be found.
-pub(super) fn tree(problem: &Problem, paper: &Node, order: Order, effort: u64) -> Node {
+/// The smallest tree that was found and proved; `None` if none was proved. Where the order is to be learned, that of
+/// Algorithm 1 is the first to be found, if it is known.
+pub(super) fn tree(
+    problem: &Problem,
+    paper: Option<&Node>,
+    order: Order,
+    effort: u64,
+) -> Option<Node> {
     let configurations = configurations(&Covers::new(problem, u64::MAX));
     let share = effort / configurations.len().max(1) as u64;
     let found: Vec<Vec<Node>> = configurations
@@ -48,17 +53,14 @@ pub(super) fn tree(problem: &Problem, paper: &Node, order: Order, effort: u64) -
         .flatten()
         .map(|node| (Size::of(&node), node))
         .collect();
-    if order == Order::Learned {
+    if let (Order::Learned, Some(paper)) = (order, paper) {
         found.insert(0, (Size::of(paper), paper.clone()));
     }
     // Stable: of equal sizes the first found stands first.
     found.sort_by_key(|(size, _)| *size);
     found.dedup_by(|a, b| a.1 == b.1);
-    let smallest = found.into_iter().take(PROOFS);
-    let mut proved = smallest
-        .map(|(_, node)| node)
-        .filter(|node| problem.proves(node));
-    proved.next().unwrap_or_else(|| paper.clone())
+    let mut smallest = found.into_iter().take(PROOFS).map(|(_, node)| node);
+    smallest.find(|node| problem.proves(node))
 }
 
 /// Trees over the subunits of one configuration.
