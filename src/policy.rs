@@ -1,11 +1,15 @@
 //! What learning hands to the tree: minterm → behaviour with its evidence, start minterms, greedy transitions.
 //!
 //! Three files hold it: the decisions in [`decisions`], the greedy process in [`transitions`], the evidence in
-//! [`evidence`].
+//! [`evidence`]. Decisions of any origin are read by [`table`].
 
 pub mod decisions;
+pub mod error;
 pub mod evidence;
-pub mod sheet;
+mod names;
+mod records;
+mod sheet;
+pub mod table;
 pub mod transitions;
 
 use crate::ir::Id;
@@ -42,6 +46,14 @@ impl Minterm {
         }
     }
 
+    /// The minterm of `len` atoms in these words, atom 0 in the lowest bit of the first.
+    fn from_words(words: impl Iterator<Item = u64>, len: usize) -> Self {
+        Self {
+            words: words.collect(),
+            len,
+        }
+    }
+
     /// The number of atoms.
     pub fn len(&self) -> usize {
         self.len
@@ -72,12 +84,11 @@ impl Minterm {
 
 impl Ord for Minterm {
     fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        let reversed = |m: &Self| m.words.iter().map(|w| w.reverse_bits()).collect::<Vec<_>>();
-        if self.words.len() == 1 && other.words.len() == 1 {
-            let bits = |m: &Self| m.words.first().map_or(0, |w| w.reverse_bits());
-            return (bits(self), self.len).cmp(&(bits(other), other.len));
-        }
-        (reversed(self), self.len).cmp(&(reversed(other), other.len))
+        let mirrored = |word: &u64| word.reverse_bits();
+        let words = self.words.iter().map(mirrored);
+        words
+            .cmp(other.words.iter().map(mirrored))
+            .then(self.len.cmp(&other.len))
     }
 }
 
@@ -157,6 +168,15 @@ impl Policy {
 }
 
 impl Row {
+    /// Whether it stands for this minterm.
+    pub fn speaks_of(&self, minterm: &Minterm) -> bool {
+        let free = self.free.iter().flat_map(|free| free.words());
+        let words = self.minterm.words().iter().zip(minterm.words());
+        words
+            .zip(free.copied().chain(std::iter::repeat(0)))
+            .all(|((own, other), free)| (own ^ other) & !free == 0)
+    }
+
     /// How much better the best behaviour looks than the second; `None` if only one was tried.
     pub fn q_gap(&self) -> Option<f64> {
         let mut values: Vec<f64> = self.values.iter().flatten().map(|value| value.q).collect();

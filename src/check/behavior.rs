@@ -84,6 +84,7 @@ impl<'a> Checker<'a> {
                     BehaviorBody::Clauses(clauses) => checker.law(clauses, locals).map(Some),
                 },
             );
+        self.keeps_parameters(&behavior.name, behavior.params.as_ref());
         let id = law.flatten().map(|law| {
             self.program.behaviors.push(Behavior {
                 name: name.clone(),
@@ -234,6 +235,15 @@ impl<'a> Checker<'a> {
             span: name.span,
         });
         known
+    }
+
+    /// Keeps what the parameters of a family are called, for those who write its instances in other languages.
+    pub(super) fn keeps_parameters(&mut self, family: &ast::Ident, params: Option<&ast::Params>) {
+        if let Some(params) = params {
+            let names = params.params.iter().map(|param| param.name.name.clone());
+            let family = spelled(&family.name);
+            self.program.parameters.insert(family, names.collect());
+        }
     }
 
     /// A reference with its arguments as they are printed: by position as long as none is left out, then by name;

@@ -54,6 +54,17 @@ impl<'a> Decl<'a> {
         }
     }
 
+    /// Whether it may be called as what is built in: a tree asks it by name, and nothing else can mention it. What asks
+    /// the history stays what it is.
+    fn shadows(self, name: &str) -> bool {
+        let only_declared = match self {
+            Decl::Predicate(decl) => decl.value.is_none(),
+            Decl::Behavior(decl) => matches!(decl.body, ast::BehaviorBody::Declared),
+            _ => false,
+        };
+        only_declared && !matches!(name, "done" | "failed")
+    }
+
     /// Where its name is declared.
     pub fn ident(self) -> Option<&'a Ident> {
         Some(match self {
@@ -157,7 +168,7 @@ impl<'a> Names<'a> {
             if let Some(name) = decl.ident() {
                 let starts =
                     matches!(decl, Decl::State(_)) && START_WORDS.contains(&name.name.as_str());
-                if super::world::is_built_in(&name.name) || starts {
+                if super::world::is_built_in(&name.name) && !decl.shadows(&name.name) || starts {
                     diagnostics.push(
                         Diagnostic::new(
                             Code::E0204,

@@ -3,6 +3,7 @@
 use super::report::Reporter;
 use super::{Failure, files};
 use crate::driver::compile::{self, Form};
+use crate::driver::export::Runtime;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -35,6 +36,11 @@ enum Emit {
     Json,
     /// A picture.
     Svg,
+    /// XML for BehaviorTree.CPP 4, Groot2 and Nav2.
+    Btcpp,
+    /// A Python module for py_trees 2.
+    #[value(name = "py_trees")]
+    PyTrees,
 }
 
 pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {
@@ -49,6 +55,8 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
                 Emit::Dot => Form::Dot,
                 Emit::Json => Form::Json,
                 Emit::Svg => Form::Svg,
+                Emit::Btcpp => Form::Robot(Runtime::BtCpp),
+                Emit::PyTrees => Form::Robot(Runtime::PyTrees),
             };
             compile::emit(&loaded, form, arguments.tree.as_deref())
                 .map_err(|mistake| say.one(&loaded.sources, mistake))?

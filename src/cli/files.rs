@@ -1,7 +1,7 @@
 //! Reading programs, writing results.
 
-use super::Failure;
 use super::report::{Reporter, tell};
+use super::{Failure, interrupt};
 use crate::driver::load::{self, Loaded, Reader};
 use std::io::{self, Read, Write};
 use std::path::{Component, Path, PathBuf};
@@ -69,14 +69,13 @@ pub(super) fn write(path: &Path, text: &str) -> Result<(), Failure> {
         // A temporary file is its owner's alone; a result is anybody's to read.
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
-        let mut file = builder.tempfile_in(folder)?;
+        let mut file = interrupt::begin(|| builder.tempfile_in(folder))?;
         file.write_all(text.as_bytes())?;
         if let Some(old) = old {
             file.as_file().set_permissions(old.permissions())?;
         }
         file.as_file().sync_all()?;
-        file.persist(path).map_err(|error| error.error)?;
-        Ok(())
+        interrupt::end(file, path)
     };
     attempt().map_err(|error| complain(&format!("{}: {error}", path.display())))
 }

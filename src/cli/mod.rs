@@ -1,17 +1,21 @@
 //! Arguments, files, progress, exit codes: one file per command.
 //!
 //! Results go to standard output, diagnostics and reports to standard error. Exit codes: 0 for success, 1 for a program
-//! with mistakes or a refuted claim, 2 for a bad command line.
+//! with mistakes or a refuted claim, 2 for a bad command line, 130 for an interrupt.
 
+mod canonicalize;
 mod check;
 mod compile;
+mod decanonicalize;
 mod explain;
 mod files;
 mod fmt;
+mod interrupt;
 mod learn;
 mod progress;
 mod report;
 mod run;
+mod size;
 mod verify;
 
 use clap::{Parser, Subcommand};
@@ -42,10 +46,16 @@ enum Command {
     Compile(compile::Arguments),
     /// Learn a policy and print it as a proved tree.
     Learn(learn::Arguments),
+    /// Turn a policy table of any origin into a proved tree.
+    Decanonicalize(decanonicalize::Arguments),
+    /// Turn a tree into its canonical form, or into its policy table.
+    Canonicalize(canonicalize::Arguments),
     /// Run a tree or a policy in its world.
     Run(run::Arguments),
-    /// Prove two trees equal, or show a shortest trace on which they part.
+    /// Prove two trees, or a tree and a policy table, equal, or show where they part.
     Verify(verify::Arguments),
+    /// Say how large trees are.
+    Size(size::Arguments),
     /// Lay files out.
     Fmt(fmt::Arguments),
     /// Explain a diagnostic code.
@@ -78,13 +88,17 @@ pub fn main() -> ExitCode {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads));
         let _ = pool.build_global();
     }
+    interrupt::watch();
     let say = report::Reporter::new(arguments.color);
     let result = match arguments.command {
         Command::Check(arguments) => check::run(&arguments, &say),
         Command::Compile(arguments) => compile::run(&arguments, &say),
         Command::Learn(arguments) => learn::run(&arguments, &say),
+        Command::Decanonicalize(arguments) => decanonicalize::run(&arguments, &say),
+        Command::Canonicalize(arguments) => canonicalize::run(&arguments, &say),
         Command::Run(arguments) => run::run(&arguments, &say),
         Command::Verify(arguments) => verify::run(&arguments, &say),
+        Command::Size(arguments) => size::run(&arguments, &say),
         Command::Fmt(arguments) => fmt::run(&arguments, &say),
         Command::Explain(arguments) => explain::run(&arguments),
     };

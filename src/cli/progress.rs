@@ -1,51 +1,76 @@
-//! A progress bar on standard error, on a terminal only.
+//! A progress bar on standard error, on a terminal only, where a command takes longer than two seconds.
 
 use crate::driver::learn::Stage;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
+use std::sync::mpsc::{self, RecvTimeoutError, Sender};
+use std::time::Duration;
 
-/// Shows how far the learning has come.
+/// A command that takes no longer shows no bar.
+const PATIENCE: Duration = Duration::from_secs(2);
+/// How often a bar is drawn that nothing moves.
+const BEAT: Duration = Duration::from_millis(200);
+
+/// Shows how far a command has come.
 #[derive(Debug)]
-pub(super) struct Progress(ProgressBar);
+pub(super) struct Progress {
+    bar: ProgressBar,
+    /// Dropped when the command is done, which ends the wait for the bar.
+    _done: Sender<()>,
+}
 
 impl Progress {
-    /// A bar that is not there if standard error is no terminal.
+    /// A bar that comes when the command takes long, and never if standard error is no terminal.
     pub(super) fn new() -> Self {
-        let bar = if std::io::stderr().is_terminal() {
-            ProgressBar::with_draw_target(Some(1), ProgressDrawTarget::stderr())
-        } else {
-            ProgressBar::hidden()
-        };
-        if let Ok(style) = ProgressStyle::with_template("{msg:12} {wide_bar} {percent:>3} %  {eta}")
-        {
+        let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
+        let (done, wait) = mpsc::channel::<()>();
+        if std::io::stderr().is_terminal() {
+            let bar = bar.clone();
+            std::thread::spawn(move || {
+                if wait.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout) {
+                    bar.set_draw_target(ProgressDrawTarget::stderr());
+                    bar.enable_steady_tick(BEAT);
+                }
+            });
+        }
+        if let Ok(style) = ProgressStyle::with_template("{msg:14} {spinner} {elapsed}") {
             bar.set_style(style);
         }
-        Self(bar)
+        Self { bar, _done: done }
     }
 
-    /// Shows a stage.
+    /// Shows a stage whose length is not known.
+    pub(super) fn stage(&self, name: &'static str) {
+        self.bar.set_message(name);
+    }
+
+    /// Shows a stage of learning.
     pub(super) fn show(&self, stage: Stage) {
         match stage {
             Stage::Learning(done, all) => {
                 if done == 1 {
-                    self.0.set_message("learning");
-                    self.0.set_length(all);
+                    let template = "{msg:14} {wide_bar} {percent:>3} %  {eta}";
+                    if let Ok(style) = ProgressStyle::with_template(template) {
+                        self.bar.set_style(style);
+                    }
+                    self.bar.set_message("learning");
+                    self.bar.set_length(all);
                 }
                 // A redraw takes longer than an episode.
                 if done % 64 == 0 || done == all {
-                    self.0.set_position(done);
+                    self.bar.set_position(done);
                 }
             }
-            Stage::Validating => self.0.set_message("validating"),
-            Stage::RollingOut => self.0.set_message("rolling out"),
-            Stage::Proving => self.0.set_message("proving"),
-            Stage::Simplifying => self.0.set_message("simplifying"),
-            Stage::Testing => self.0.set_message("testing"),
+            Stage::Validating => self.stage("validating"),
+            Stage::RollingOut => self.stage("rolling out"),
+            Stage::Proving => self.stage("proving"),
+            Stage::Simplifying => self.stage("simplifying"),
+            Stage::Testing => self.stage("testing"),
         }
     }
 
     /// Takes the bar away.
     pub(super) fn finish(&self) {
-        self.0.finish_and_clear();
+        self.bar.finish_and_clear();
     }
 }

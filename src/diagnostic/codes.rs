@@ -1,8 +1,8 @@
 //! The codes of diagnostics, each with its title and its explanation.
 //!
 //! E01xx syntax, E02xx names, E03xx types and units, E04xx the world, E05xx tasks and learning, E06xx trees,
-//! W… warnings. An explanation is a file of its own under `explain/`, with a wrong and a right example that the
-//! tests run.
+//! E080x PLA files, E081x tables of any origin, E082x trees for robots, W… warnings. An explanation is a file of its own
+//! under `explain/`, with a wrong and a right example that the tests run.
 
 use super::Severity;
 use std::fmt;
@@ -121,6 +121,18 @@ codes! {
     E0610 "a table that does not fit",
 
     E0701 "not built yet",
+
+    E0811 "a text that is no table",
+    E0812 "a row that is not whole",
+    E0813 "a column that is missing or does not belong there",
+    E0814 "a value that a cell cannot have",
+    E0815 "rows that contradict each other",
+    E0816 "a name that the language cannot have",
+    E0817 "a table without the values that slack needs",
+    E0818 "no minterm in which an episode starts",
+    E0819 "a tree without canonical form",
+    E0821 "a node that the robot's library does not have",
+    E0822 "a time that the robot's library cannot keep",
 
     W0201 "a name that nothing reads",
     W0301 "a plain number for a ratio",

@@ -1,5 +1,6 @@
 //! `btc compile`: what was built, in a summary or in a form of its own.
 
+use super::export::{self, Runtime};
 use super::load::Loaded;
 use super::target;
 use crate::diagnostic::{Code, Diagnostic};
@@ -24,12 +25,14 @@ pub enum Form {
     Json,
     /// A picture of a tree.
     Svg,
+    /// A tree for a robot.
+    Robot(Runtime),
 }
 
 /// Writes a program, or one of its trees, in a form.
 ///
 /// # Errors
-/// There is no such tree, or it is not said which one of several.
+/// There is no such tree, it is not said which one of several, or a robot's library has no counterpart for a node.
 pub fn emit(loaded: &Loaded, form: Form, tree: Option<&str>) -> Result<String, Diagnostic> {
     let program = &loaded.program;
     let named = tree.map(|name| target::tree(loaded, name)).transpose()?;
@@ -52,6 +55,9 @@ pub fn emit(loaded: &Loaded, form: Form, tree: Option<&str>) -> Result<String, D
         (Form::Svg, named) => {
             let tree = &program.trees[one_tree(loaded, named)?];
             emit::svg::tree::tree(&tree.name, &tree.root, program)
+        }
+        (Form::Robot(runtime), named) => {
+            export::of_program(loaded, one_tree(loaded, named)?, runtime)?
         }
         (Form::Json, named) => emit::json::program(program, named),
     })
@@ -205,7 +211,8 @@ fn shape(shape: &Shape) -> String {
     }
 }
 
-fn counted(n: usize, what: &str) -> String {
+/// How many there are, in words.
+pub(super) fn counted(n: usize, what: &str) -> String {
     match n {
         0 => format!("no {what}s"),
         1 => format!("1 {what}"),

@@ -183,7 +183,7 @@ pub fn learn(
         simplified,
         tested,
     };
-    Ok(results::write(&bench, loaded, options, learner_id, results))
+    results::write(&bench, loaded, options, learner_id, results)
 }
 
 /// The runs of so many seeds, on all threads.

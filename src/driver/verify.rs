@@ -1,19 +1,22 @@
 //! `btc verify`: proofs that two trees take the same decisions, and tests of what is claimed of events.
 
-use super::learn::{Learned, minterm_text};
+mod rows;
+mod tested;
+mod trace;
+
+pub use rows::table;
+
+use super::learn::Learned;
 use super::load::Loaded;
-use super::{run, table, target};
+use super::target;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::ir::law::Behavior;
-use crate::ir::task::{ClaimKind, Learner, Occurrence, Task, TreeRef};
+use crate::ir::Program;
+use crate::ir::task::{ClaimKind, History, Learner, TreeRef};
 use crate::ir::tree::{Atom, Node};
-use crate::ir::{Id, Program};
-use crate::learn::binomial::{lower95, upper95};
-use crate::learn::episode::Episode;
-use crate::learn::simulated::Purpose;
 use crate::policy::Policy;
-use crate::tree::equivalence::{Environment, Side, Trace, Verdict, compare};
-use crate::world::Start;
+use crate::tree::atoms::atoms;
+use crate::tree::equivalence::{Environment, Side, Verdict, compare};
+use tested::Tests;
 
 /// What came of a proof.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -35,6 +38,14 @@ pub fn trees(loaded: &Loaded, left: &str, right: &str) -> Result<Proved, Vec<Dia
     let right_id = target::tree(loaded, right).map_err(one)?;
     let program = &loaded.program;
     let (a, b) = (&program.trees[left_id], &program.trees[right_id]);
+    if program.tasks.is_empty() {
+        let pair = Pair {
+            loaded,
+            history: assumed(&[&a.root, &b.root]),
+            recorded: None,
+        };
+        return pair.prove((left, &a.root), (right, &b.root));
+    }
     let task = target::task_of(loaded, Some(left_id)).map_err(one)?;
     let other = target::task_of(loaded, Some(right_id)).map_err(one)?;
     if task != other {
@@ -50,11 +61,11 @@ pub fn trees(loaded: &Loaded, left: &str, right: &str) -> Result<Proved, Vec<Dia
     }
     let recorded = match loaded.tables.as_slice() {
         [] => None,
-        [(file, _), ..] => Some(table::environment(loaded, *file, task)?),
+        [(file, _), ..] => Some(super::table::environment(loaded, *file, task)?),
     };
     let pair = Pair {
         loaded,
-        task,
+        history: program.tasks[task].history,
         recorded: recorded.as_ref(),
     };
     pair.prove((left, &a.root), (right, &b.root))
@@ -68,6 +79,7 @@ pub fn claims(loaded: &Loaded) -> Result<Vec<Proved>, Vec<Diagnostic>> {
     let program = &loaded.program;
     let one = |mistake| vec![mistake];
     let mut results = Vec::new();
+    let mut tests = Tests::new(loaded);
     for claim in &program.claims {
         let TreeRef::Tree(id) = claim.tree else {
             results.push(not_learned(&claim.text));
@@ -82,7 +94,8 @@ pub fn claims(loaded: &Loaded) -> Result<Vec<Proved>, Vec<Diagnostic>> {
             ClaimKind::Never(occurrence) | ClaimKind::Reaches(occurrence) => {
                 let task = target::task_of(loaded, Some(id)).map_err(one)?;
                 let reaches = matches!(claim.kind, ClaimKind::Reaches(_));
-                event_claim(loaded, task, &tree.root, &claim.text, occurrence, reaches)
+                tests
+                    .event((task, &tree.root), &claim.text, occurrence, reaches)
                     .map_err(one)?
             }
         });
@@ -115,9 +128,10 @@ pub fn claims_of_learned(
     let task = program.learners[learned.learner].task;
     let pair = Pair {
         loaded,
-        task,
+        history: program.tasks[task].history,
         recorded: Some(&learned.policy),
     };
+    let mut tests = Tests::new(loaded);
     let mut results = Vec::new();
     for claim in &program.claims {
         let subject = side(program, learned, claim.tree);
@@ -133,64 +147,13 @@ pub fn claims_of_learned(
                 if own =>
             {
                 let reaches = matches!(claim.kind, ClaimKind::Reaches(_));
-                let tested = event_claim(loaded, task, root, &claim.text, occurrence, reaches);
+                let tested = tests.event((task, root), &claim.text, occurrence, reaches);
                 results.push(tested.map_err(|mistake| vec![mistake])?);
             }
             _ => {}
         }
     }
     Ok(results)
-}
-
-/// How many episodes a claim on an event is tested in.
-const EPISODES: u64 = 1000;
-
-/// Tests a claim on an event in simulation. It is refuted where the 95 % interval of the rate at which it fails lies
-/// above what it allows; it is never proved.
-fn event_claim(
-    loaded: &Loaded,
-    task: Id<Task>,
-    root: &Node,
-    text: &str,
-    occurrence: &Occurrence,
-    reaches: bool,
-) -> Result<Proved, Diagnostic> {
-    let whole = loaded.program.tasks[task].end_after;
-    let start = Start {
-        seed: 1,
-        stream: Purpose::Claim as u64,
-        limit: occurrence.within.unwrap_or(whole).min(whole),
-        ..Start::default()
-    };
-    let episodes = run::play_tree(loaded, task, root, EPISODES, start)?;
-    let fails = |episode: &&Episode| {
-        let count = episode.events.get(occurrence.event.index()).copied();
-        (count.unwrap_or(0) > 0) != reaches
-    };
-    let failed = episodes.iter().filter(fails).count() as u64;
-    let allowed = 1.0 - occurrence.probability;
-    let refuted = if allowed > 0.0 {
-        lower95(failed, EPISODES) > allowed
-    } else {
-        failed > 0
-    };
-    let (verdict, bound) = if refuted {
-        (
-            "refuted",
-            format!("above {:.2} %", 100.0 * lower95(failed, EPISODES)),
-        )
-    } else {
-        (
-            "not refuted",
-            format!("below {:.2} %", 100.0 * upper95(failed, EPISODES)),
-        )
-    };
-    Ok(Proved {
-        holds: !refuted,
-        text: format!(
-            "{text}: {verdict} in {EPISODES} episodes; it fails in {failed} of them, a rate {bound} at 95 %"
-        ),
-    })
 }
 
 /// Whether a claim speaks of the tree that was learned: by the learner, or by an accepted result of its name, which the
@@ -223,7 +186,7 @@ fn side<'a>(
 /// Two trees in their environment.
 struct Pair<'a> {
     loaded: &'a Loaded,
-    task: Id<Task>,
+    history: History,
     recorded: Option<&'a Policy>,
 }
 
@@ -236,7 +199,7 @@ impl Pair<'_> {
         let program = &self.loaded.program;
         let environment = match self.recorded {
             Some(policy) => Environment::Greedy(policy),
-            None => Environment::Any(program.tasks[self.task].history),
+            None => Environment::Any(self.history),
         };
         let verdict = compare(Side::Tree(a), Side::Tree(b), environment).map_err(|unknown| {
             vec![
@@ -272,14 +235,21 @@ impl Pair<'_> {
                     }
                     None => format!(
                         "equal: `{left}` and `{right}` select the same behaviour in every environment that is \
-                         consistent with the history window ({} states explored)",
-                        explored.states
+                         consistent with {} ({})",
+                        self.window(),
+                        explored.means_text()
                     ),
                 },
             },
             Verdict::Differ(trace) => Proved {
                 holds: false,
-                text: self.trace(left, right, &trace),
+                text: {
+                    let along = match self.recorded {
+                        Some(_) => "along the greedy transitions".to_owned(),
+                        None => format!("in an environment consistent with {}", self.window()),
+                    };
+                    trace::text(program, (left, right), &along, &trace)
+                },
             },
             Verdict::Undecided(explored) => Proved {
                 holds: false,
@@ -296,51 +266,24 @@ impl Pair<'_> {
         self.loaded.tables.first().map_or(end, |(_, span)| *span)
     }
 
-    fn trace(&self, left: &str, right: &str, trace: &Trace) -> String {
-        let program = &self.loaded.program;
-        let name = |behavior: &Option<Id<Behavior>>| {
-            behavior
-                .map_or("nothing", |id| &program.behaviors[id].name)
-                .to_owned()
-        };
-        let atoms: Vec<Atom> = trace.atoms.clone();
-        let policy = Policy {
-            atoms,
-            ..Policy::default()
-        };
-        let held = |minterm| minterm_text(program, &policy, minterm);
-        let environment = match self.recorded {
-            Some(_) => "along the greedy transitions",
-            None => "in an environment consistent with the history window",
-        };
-        let mut lines = vec![format!(
-            "different: `{left}` and `{right}` part after {} ticks {environment}",
-            trace.steps.len()
-        )];
-        let mut first = 1;
-        for alike in trace.steps.chunk_by(|a, b| a == b) {
-            let Some(step) = alike.first() else { continue };
-            let last = first + alike.len() - 1;
-            let ticks = if first == last {
-                format!("tick {first:<3}")
-            } else {
-                format!("ticks {first} to {last}")
-            };
-            lines.push(format!(
-                "  {ticks} {}: both select {}, which answers {}",
-                held(&step.valuation),
-                name(&step.behavior),
-                step.status.name()
-            ));
-            first = last + 1;
+    /// The history window in words.
+    fn window(&self) -> String {
+        if self.loaded.program.tasks.is_empty() {
+            let window = self.history.window;
+            return format!("a history of {window}, as no task says another");
         }
-        lines.push(format!(
-            "  tick {:<3} {}: `{left}` selects {}, `{right}` selects {}",
-            trace.steps.len() + 1,
-            held(&trace.valuation),
-            name(&trace.left),
-            name(&trace.right)
-        ));
-        lines.join("\n")
+        "the history window".to_owned()
+    }
+}
+
+/// The window of a program without a task: the paper's if these trees remember anything, else none.
+fn assumed(trees: &[&Node]) -> History {
+    let asks = |atom: &Atom| !matches!(atom, Atom::Predicate(_));
+    let remembered = |root: &&Node| root.remembers() || atoms(root).iter().any(asks);
+    let remembers = trees.iter().any(remembered);
+    History {
+        window: usize::from(remembers),
+        success: remembers,
+        failure: remembers,
     }
 }

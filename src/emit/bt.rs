@@ -31,6 +31,29 @@ pub fn tree(
     laid_out(text)
 }
 
+/// A program of declared names and its trees as a file, with a `//!` line each of `docs`.
+pub fn declared(program: &Program, docs: &[String]) -> String {
+    let mut text = String::new();
+    for line in docs {
+        text.push_str(&format!("//! {line}\n"));
+    }
+    for predicate in program.predicates.values() {
+        text.push_str(&format!("\npredicate {}", predicate.name));
+    }
+    text.push('\n');
+    for behavior in program.behaviors.values() {
+        text.push_str(&format!("\nbehavior {}", behavior.name));
+    }
+    text.push('\n');
+    for tree in program.trees.values() {
+        text.push('\n');
+        text.push_str(&self::tree(
+            program, &tree.name, &tree.docs, None, &tree.root,
+        ));
+    }
+    laid_out(text)
+}
+
 /// A guard on one line.
 pub fn guard(program: &Program, guard: &Guard) -> String {
     let mut text = String::new();

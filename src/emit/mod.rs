@@ -2,7 +2,12 @@
 
 pub mod ast;
 pub mod bt;
+pub mod btcpp;
 pub mod dot;
 pub mod ir;
 pub mod json;
+mod leaves;
+mod notes;
+pub mod py_trees;
+pub mod refusal;
 pub mod svg;

@@ -6,6 +6,7 @@ use super::table::{Id, Table};
 use super::task::{Claim, Learner, Task};
 use super::tree::{Atom, Tree};
 use super::world::World;
+use std::collections::BTreeMap;
 
 /// A checked program.
 #[derive(Clone, Debug, Default)]
@@ -28,6 +29,8 @@ pub struct Program {
     pub predicates: Table<Predicate>,
     /// The behaviours.
     pub behaviors: Table<Behavior>,
+    /// The parameters of the families that predicates and behaviours are of, by the family's name as it is written.
+    pub parameters: BTreeMap<String, Vec<String>>,
     /// The tasks.
     pub tasks: Table<Task>,
     /// The learners.

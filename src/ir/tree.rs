@@ -131,7 +131,7 @@ pub enum Decorator {
     Succeed,
     /// Turns success into failure.
     Fail,
-    /// After a failure, tries again (running), this many times at most.
+    /// After a failure, tries again (running), until it has failed this many times.
     Retry(u32),
     /// After a success, starts again (running), until it has succeeded this many times.
     Repeat(u32),
@@ -161,6 +161,12 @@ impl Node {
             Node::Composite { children, .. } | Node::Parallel { children, .. } => children,
             Node::Decorator { child, .. } => std::slice::from_ref(child),
         }
+    }
+
+    /// Whether it, or a node below it, is a memory node.
+    pub fn remembers(&self) -> bool {
+        let memory = matches!(self, Node::Composite { memory: true, .. });
+        memory || self.children().iter().any(Node::remembers)
     }
 
     /// Calls `visit` for every atom of every condition, from the left.

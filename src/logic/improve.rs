@@ -4,12 +4,16 @@
 //! does the work of REDUCE, EXPAND and LASTGASP in Espresso at once.
 
 use super::bits::Bits;
-use super::cube::{Cube, Literal};
-use super::expand::{Scoring, expand};
+use super::cube::Literal;
+use super::expand::Scoring;
 use super::instance::Instance;
 use super::pool::Pool;
 use super::random::Random;
+use super::shortest::shortest;
 use super::sweep::sweep;
+
+/// Steps of the search for one short cube.
+const SHORTEST: usize = 64;
 
 /// Number of cubes, then of literals.
 pub(super) type Cost = (usize, usize);
@@ -37,7 +41,7 @@ fn multiplicity(pool: &Pool, cover: &[usize], rows: usize) -> Vec<u32> {
 pub(super) fn irredundant(pool: &Pool, cover: &mut Vec<usize>, rows: usize) {
     let mut times = multiplicity(pool, cover, rows);
     let mut order = cover.clone();
-    order.sort_by_key(|at| {
+    order.sort_by_cached_key(|at| {
         let prime = pool.get(*at);
         let literals = prime.map_or(0, |prime| prime.literals());
         let covers = prime.map_or(0, |prime| prime.covers.count());
@@ -72,15 +76,12 @@ pub(super) fn improve(
     while left > 0 && cover.len() > 1 {
         left -= 1;
         let mut next = cover.clone();
-        let removed = ruin(pool, &mut next, random);
+        let removed = ruin(&mut next, random);
         let mut open = instance.all_on();
         for prime in next.iter().filter_map(|at| pool.get(*at)) {
             open.subtract(&prime.covers);
         }
-        if removed.len() > 1 {
-            merge(instance, pool, &mut next, &mut open);
-        }
-        next.extend(recreate(instance, pool, &open, random));
+        next.extend(recreate(instance, pool, &open, &removed, random));
         irredundant(pool, &mut next, rows);
         next.sort_unstable();
         let reached = cost(pool, &next);
@@ -95,36 +96,14 @@ pub(super) fn improve(
     cover
 }
 
-/// Takes a few primes out: one at random, and those that share most rows with it or are next to it.
-fn ruin(pool: &Pool, cover: &mut Vec<usize>, random: &mut Random) -> Vec<usize> {
+/// Takes one to three primes out.
+fn ruin(cover: &mut Vec<usize>, random: &mut Random) -> Vec<usize> {
     let count = 1 + random.below(3.min(cover.len()));
     let mut removed = Vec::new();
-    for _ in 0..count {
-        let at = random.below(cover.len());
-        if at < cover.len() {
-            removed.push(cover.swap_remove(at));
-        }
+    while removed.len() < count {
+        removed.push(cover.swap_remove(random.below(cover.len())));
     }
-    let _ = pool;
     removed
-}
-
-/// One cube for all open rows, where there is one.
-fn merge(instance: &Instance, pool: &mut Pool, cover: &mut Vec<usize>, open: &mut Bits) {
-    let Some(shared) = shared(instance, open) else {
-        return;
-    };
-    let cube = Cube::new(shared.iter().copied());
-    if !instance
-        .off
-        .cube_meets(&cube, &instance.all_off())
-        .is_empty()
-    {
-        return;
-    }
-    let cube = expand(instance, shared, open, Scoring::DropOff);
-    cover.push(pool.add(instance, cube));
-    *open = Bits::empty(open.bound());
 }
 
 /// The literals that hold on all of the rows.
@@ -138,8 +117,26 @@ fn shared(instance: &Instance, rows: &Bits) -> Option<Vec<Literal>> {
     Some(instance.on.literals_of(first).filter(holds).collect())
 }
 
-/// Primes for the open rows: new ones, and what the pool has.
-fn recreate(instance: &Instance, pool: &mut Pool, open: &Bits, random: &mut Random) -> Vec<usize> {
+/// Primes for the open rows: one for all, where there is one shorter than what was removed; else new ones, or what the
+/// pool has.
+fn recreate(
+    instance: &Instance,
+    pool: &mut Pool,
+    open: &Bits,
+    removed: &[usize],
+    random: &mut Random,
+) -> Vec<usize> {
+    let Some(shared) = shared(instance, open) else {
+        return Vec::new();
+    };
+    let (_, literals) = cost(pool, removed);
+    let limit = match removed {
+        [_] => literals,
+        _ => usize::MAX,
+    };
+    if let Some(cube) = shortest(instance, &shared, limit, &mut { SHORTEST }) {
+        return vec![pool.add(instance, cube)];
+    }
     let all = Scoring::ALL;
     let scoring = random.below(all.len());
     let scoring = all.get(scoring).copied().unwrap_or(Scoring::Ratio);

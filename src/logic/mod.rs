@@ -17,6 +17,7 @@ pub mod minimise;
 mod pool;
 mod primes;
 mod random;
+mod shortest;
 mod sweep;
 mod transpose;
 mod whole;

@@ -3,17 +3,20 @@
 //! The header has the names of the atoms (`done(goto(A))` and `failed(goto(A))` are history), then `behavior`, then, as
 //! far as they are known, `visits`, `q_gap` and `q:NAME` for each behaviour that could be chosen.
 
-use super::sheet::{self, Cell, Sheet, TableError, TableErrorKind};
-use super::{Minterm, Policy, Row, Value};
+use super::error::{TableError, TableErrorKind};
+use super::sheet;
+use super::table::{Format, Table};
+use super::{Minterm, Policy, Row};
 use crate::ir::law::Behavior;
-use crate::ir::task::{History, Task};
+use crate::ir::program::Predicate;
+use crate::ir::task::Task;
 use crate::ir::tree::Atom;
 use crate::ir::{Id, Program};
+use crate::policy::names::{self, AtomName};
 use std::collections::BTreeMap;
-use std::ops::Range;
 
-/// The most minterms that a row with `-` may stand for.
-const WIDEST: u32 = 16;
+/// The most minterms that a row with `-` may stand for, as a power of two.
+const WIDEST: usize = 16;
 
 /// The decisions of a policy as text.
 pub fn write(policy: &Policy, program: &Program) -> String {
@@ -30,191 +33,199 @@ pub fn write(policy: &Policy, program: &Program) -> String {
             shown(row.q_gap()),
         ];
         let values = row.values.iter().map(|value| shown(value.map(|v| v.q)));
-        sheet::cells(&row.minterm)
-            .chain(decided)
-            .chain(values)
-            .collect()
+        cells(row).chain(decided).chain(values).collect()
     });
     sheet::write(std::iter::once(header).chain(rows))
 }
 
-/// Reads the decisions of a policy; its transitions and the evidence behind its values come from other files.
-///
-/// A task says in which order its behaviours stand and what its history window holds. Without one, behaviours stand as
-/// in the program, and the window is as long as the rows need.
-///
-/// # Errors
-/// What is wrong with the table, with the place.
-pub fn read(text: &str, program: &Program, task: Option<Id<Task>>) -> Result<Policy, TableError> {
-    let sheet = Sheet::read(text)?;
-    let columns = Columns::of(&sheet, program)?;
-    let mut rows: BTreeMap<Minterm, (Row, Range<usize>)> = BTreeMap::new();
-    let behaviors = columns.behaviors(&sheet, program, task)?;
-    let names = sheet::behaviors(program);
-    for cells in &sheet.rows {
-        let place = sheet::whole(cells);
-        let cell = |i: usize| cells.get(i);
-        let Some(decided) = cell(columns.behavior) else {
-            continue;
-        };
-        let behavior = sheet::behavior(decided, &names)?;
-        let visits = match columns.visits.and_then(cell) {
-            Some(cell) => cell.number("a count")?,
-            None => 0,
-        };
-        let mut values = vec![None; behaviors.len()];
-        for (id, column) in &columns.values {
-            let known = cell(*column).filter(|cell| !cell.text.is_empty());
-            let at = behaviors.iter().position(|b| b == id);
-            if let (Some(cell), Some(slot)) = (known, at.and_then(|at| values.get_mut(at))) {
-                *slot = Some(Value {
-                    visits: 0,
-                    q: cell.number("a number")?,
-                    squares: 0.0,
-                });
-            }
-        }
-        for minterm in minterms(cells, &columns, &place)? {
-            let row = Row {
-                minterm: minterm.clone(),
-                free: None,
-                behavior,
-                visits,
-                values: values.clone(),
-            };
-            match rows.get(&minterm) {
-                Some((known, earlier)) if known.behavior != behavior => {
-                    return Err(TableError {
-                        span: place,
-                        kind: TableErrorKind::Contradiction {
-                            earlier: earlier.clone(),
-                        },
-                    });
-                }
-                Some(_) => {}
-                None => {
-                    rows.insert(minterm, (row, place.clone()));
-                }
-            }
-        }
-    }
-    let rows: Vec<Row> = rows.into_values().map(|(row, _)| row).collect();
-    let atoms: Vec<Atom> = columns.atoms.iter().map(|(atom, _)| *atom).collect();
-    let history = match task {
-        Some(task) => program.tasks[task].history,
-        None => window(&atoms, &rows),
-    };
-    Ok(Policy {
-        atoms,
-        behaviors,
-        history,
-        rows,
-        starts: Vec::new(),
-        transitions: Vec::new(),
+/// The decisions alone as text, under names without backquotes: a table as anybody writes it.
+pub fn write_bare(policy: &Policy, program: &Program) -> String {
+    let atoms = policy.atoms.iter();
+    let atoms = atoms.map(|atom| AtomName::of(&program.atom_name(*atom)).to_string());
+    let header = atoms.chain(["behavior".to_owned()]).collect();
+    let rows = policy.rows.iter().map(|row| {
+        let behavior = names::plain(&program.behaviors[row.behavior].name);
+        cells(row).chain([behavior.to_owned()]).collect()
+    });
+    sheet::write(std::iter::once(header).chain(rows))
+}
+
+/// The values of a row's atoms as cells, `-` where they are free.
+fn cells(row: &Row) -> impl Iterator<Item = String> {
+    let free = row.free.as_ref();
+    row.minterm.values().enumerate().map(move |(i, value)| {
+        let digit = if value { "1" } else { "0" };
+        let free = free.is_some_and(|free| free.get(i));
+        if free { "-" } else { digit }.to_owned()
     })
 }
 
-/// What the columns of a table are.
-struct Columns {
-    atoms: Vec<(Atom, usize)>,
-    behavior: usize,
-    visits: Option<usize>,
-    values: Vec<(Id<Behavior>, usize)>,
-}
-
-impl Columns {
-    fn of(sheet: &Sheet, program: &Program) -> Result<Self, TableError> {
-        let known = sheet::atoms(program);
-        let names = sheet::behaviors(program);
-        let mut columns = Self {
-            atoms: Vec::new(),
-            behavior: sheet.column("behavior")?,
-            visits: sheet.find("visits"),
-            values: Vec::new(),
-        };
-        for (i, cell) in sheet.header.iter().enumerate() {
-            let name = cell.text.trim();
-            if i == columns.behavior || ["visits", "q_gap"].contains(&name) {
-                continue;
-            }
-            let value = name.strip_prefix("q:").and_then(|name| names.get(name));
-            match (known.get(name), value) {
-                (Some(atom), _) => columns.atoms.push((*atom, i)),
-                (None, Some(id)) => columns.values.push((*id, i)),
-                (None, None) => {
-                    return Err(cell.error(TableErrorKind::UnknownColumn(name.to_owned())));
-                }
-            }
-        }
-        Ok(columns)
-    }
-
-    /// The behaviours that could be chosen, in order.
-    fn behaviors(
-        &self,
-        sheet: &Sheet,
-        program: &Program,
-        task: Option<Id<Task>>,
-    ) -> Result<Vec<Id<Behavior>>, TableError> {
-        if let Some(task) = task {
-            return Ok(program.tasks[task].choose.clone());
-        }
-        if !self.values.is_empty() {
-            return Ok(self.values.iter().map(|(id, _)| *id).collect());
-        }
-        let names = sheet::behaviors(program);
-        let cells = sheet.rows.iter().filter_map(|row| row.get(self.behavior));
-        let mut found = cells
-            .map(|cell| sheet::behavior(cell, &names))
-            .collect::<Result<Vec<_>, _>>()?;
-        found.sort_unstable();
-        found.dedup();
-        Ok(found)
-    }
-}
-
-/// The minterms that a row stands for.
-fn minterms(
-    cells: &[Cell],
-    columns: &Columns,
-    place: &Range<usize>,
-) -> Result<Vec<Minterm>, TableError> {
-    let values = columns.atoms.iter().filter_map(|(_, i)| cells.get(*i));
-    let values = values.map(Cell::truth).collect::<Result<Vec<_>, _>>()?;
-    let free = values.iter().filter(|value| value.is_none()).count();
-    if free > WIDEST as usize {
-        return Err(TableError {
-            span: place.clone(),
+/// Reads the decisions of a policy of a program; its transitions and the evidence behind its values come from other
+/// files.
+///
+/// A task says in which order its behaviours stand and what its history window holds. Without one, behaviours stand as
+/// in the table, and the window is as long as the rows need.
+///
+/// # Errors
+/// What is wrong with the table, with the places.
+pub fn read(
+    text: &str,
+    program: &Program,
+    task: Option<Id<Task>>,
+) -> Result<Policy, Vec<TableError>> {
+    let table = Table::read(text.as_bytes(), Format::of("", text.as_bytes()))?;
+    let mut policy = of_program(&table, program, task)?;
+    expand(&mut policy).map_err(|at| {
+        vec![TableError {
+            span: table.place(text.as_bytes(), at),
             kind: TableErrorKind::Wide,
-        });
-    }
-    let every = 0..1_u32 << free;
-    Ok(every
-        .map(|mut bits| {
-            Minterm::new(values.iter().map(|value| {
-                value.unwrap_or_else(|| {
-                    let bit = bits & 1 == 1;
-                    bits >>= 1;
-                    bit
-                })
-            }))
-        })
-        .collect())
+        }]
+    })?;
+    Ok(policy)
 }
 
-/// The shortest window under which these rows can be seen.
-fn window(atoms: &[Atom], rows: &[Row]) -> History {
-    let remembered = |row: &Row| {
-        let held = atoms.iter().zip(row.minterm.values());
-        held.filter(|(atom, value)| *value && !matches!(atom, Atom::Predicate(_)))
-            .count()
-    };
-    let success = atoms.iter().any(|atom| matches!(atom, Atom::Done(_)));
-    let failure = atoms.iter().any(|atom| matches!(atom, Atom::Failed(_)));
-    let needed = rows.iter().map(remembered).max().unwrap_or(0);
-    History {
-        window: if success || failure { needed.max(1) } else { 0 },
-        success,
-        failure,
+/// The policy in a table whose names are those of a program.
+///
+/// # Errors
+/// Names that the program does not have, with their places.
+pub fn of_program(
+    table: &Table,
+    program: &Program,
+    task: Option<Id<Task>>,
+) -> Result<Policy, Vec<TableError>> {
+    let mut unknown = Vec::new();
+    let known = atoms(program);
+    let atoms = table.atoms.iter().filter_map(|(name, place)| {
+        let atom = known.get(&name.to_string());
+        if atom.is_none() {
+            unknown.push(TableError {
+                span: place.clone(),
+                kind: TableErrorKind::UnknownColumn(name.to_string()),
+            });
+        }
+        atom.copied()
+    });
+    let atoms: Vec<Atom> = atoms.collect();
+    let known = behaviors(program);
+    let ids = table.behaviors.iter().filter_map(|(name, place)| {
+        let id = known.get(name.as_str());
+        if id.is_none() {
+            unknown.push(TableError {
+                span: place.clone(),
+                kind: TableErrorKind::UnknownBehavior(name.clone()),
+            });
+        }
+        id.copied()
+    });
+    let ids: Vec<Id<Behavior>> = ids.collect();
+    if !unknown.is_empty() {
+        return Err(unknown);
     }
+    let chosen = task.map_or_else(
+        || chosen(table, &ids),
+        |task| program.tasks[task].choose.clone(),
+    );
+    let history = task.map(|task| program.tasks[task].history);
+    Ok(table.policy(atoms, &ids, chosen, history))
+}
+
+/// The policy in a table of its own names, with a program that declares them, as `spelled` writes them in the language,
+/// and says nothing more.
+pub fn declared(table: &Table, spelled: impl Fn(&str) -> String) -> (Program, Policy) {
+    let mut program = Program::default();
+    let policy = joined(table, &mut program, spelled);
+    (program, policy)
+}
+
+/// The policy in a table beside a program, which is let declare the names that it does not have, as `spelled` writes
+/// them in the language.
+pub fn joined(table: &Table, program: &mut Program, spelled: impl Fn(&str) -> String) -> Policy {
+    let known: BTreeMap<String, Id<Behavior>> = behaviors(program)
+        .into_iter()
+        .map(|(name, id)| (name.to_owned(), id))
+        .collect();
+    let ids = table.behaviors.iter().map(|(name, _)| {
+        known.get(name).copied().unwrap_or_else(|| {
+            let name = spelled(name);
+            program.behaviors.push(Behavior { name, law: None })
+        })
+    });
+    let ids: Vec<Id<Behavior>> = ids.collect();
+    let known = atoms(program);
+    let atoms = table.atoms.iter().filter_map(|(name, _)| {
+        let found = known.get(&name.to_string()).copied();
+        found.or_else(|| match name {
+            AtomName::Predicate(name) => {
+                Some(Atom::Predicate(program.predicates.push(Predicate {
+                    name: spelled(name),
+                    when: None,
+                })))
+            }
+            // Every behaviour that the history knows is among those of the table.
+            AtomName::Done(_) | AtomName::Failed(_) => None,
+        })
+    });
+    let atoms: Vec<Atom> = atoms.collect();
+    table.policy(atoms, &ids, chosen(table, &ids), None)
+}
+
+/// The behaviours that a table chooses, in its order.
+fn chosen(table: &Table, ids: &[Id<Behavior>]) -> Vec<Id<Behavior>> {
+    ids.iter().take(table.chosen).copied().collect()
+}
+
+/// The names of a program's behaviours, without backquotes around them.
+pub(super) fn behaviors(program: &Program) -> BTreeMap<&str, Id<Behavior>> {
+    let behaviors = program.behaviors.iter();
+    behaviors
+        .map(|(id, b)| (names::plain(&b.name), id))
+        .collect()
+}
+
+/// The names of a program's atoms, without backquotes around what they name.
+pub(super) fn atoms(program: &Program) -> BTreeMap<String, Atom> {
+    let predicates = program.predicates.ids().map(Atom::Predicate);
+    let history = program
+        .behaviors
+        .ids()
+        .flat_map(|b| [Atom::Done(b), Atom::Failed(b)]);
+    predicates
+        .chain(history)
+        .map(|atom| (AtomName::of(&program.atom_name(atom)).to_string(), atom))
+        .collect()
+}
+
+/// Puts the minterms that a policy's rows stand for in their place, sorted, each once.
+///
+/// # Errors
+/// The number of a row that stands for too many.
+fn expand(policy: &mut Policy) -> Result<(), usize> {
+    if policy.rows.iter().all(|row| row.free.is_none()) {
+        return Ok(());
+    }
+    let mut all = Vec::new();
+    for (at, row) in policy.rows.iter().enumerate() {
+        let free: Vec<usize> = match &row.free {
+            Some(free) => (0..free.len()).filter(|i| free.get(*i)).collect(),
+            None => Vec::new(),
+        };
+        if free.len() > WIDEST {
+            return Err(at);
+        }
+        for bits in 0..1_u32 << free.len() {
+            let values = row.minterm.values().enumerate().map(|(atom, value)| {
+                let at = free.iter().position(|i| *i == atom);
+                at.map_or(value, |at| bits >> at & 1 == 1)
+            });
+            all.push(Row {
+                minterm: Minterm::new(values),
+                free: None,
+                ..row.clone()
+            });
+        }
+    }
+    all.sort_by(|a, b| a.minterm.cmp(&b.minterm));
+    all.dedup_by(|a, b| a.minterm == b.minterm);
+    policy.rows = all;
+    Ok(())
 }

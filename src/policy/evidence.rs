@@ -3,7 +3,9 @@
 //! The header has the names of the atoms, `behavior`, `visits`, `q` and `squares`, the sum of the squares of the
 //! targets that the value was moved towards.
 
-use super::sheet::{self, Sheet, TableError, TableErrorKind};
+use super::decisions;
+use super::error::{TableError, TableErrorKind};
+use super::sheet::{self, Sheet};
 use super::{Policy, Value};
 use crate::ir::Program;
 
@@ -49,7 +51,7 @@ pub fn read(text: &str, program: &Program, policy: &mut Policy) -> Result<(), Ta
     for row in &mut policy.rows {
         row.values = vec![None; policy.behaviors.len()];
     }
-    let names = sheet::behaviors(program);
+    let names = decisions::behaviors(program);
     for cells in &sheet.rows {
         let [Some(name), Some(visits), Some(q), Some(squares)] = fixed.map(|i| cells.get(i)) else {
             continue;

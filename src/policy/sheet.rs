@@ -1,87 +1,15 @@
 //! Comma-separated tables with places: what the files of a policy have in common.
 
 use super::Minterm;
+use super::error::{TableError, TableErrorKind};
+use super::names::{self, AtomName};
+use super::records::{self, Records};
 use crate::ir::law::Behavior;
 use crate::ir::tree::Atom;
 use crate::ir::{Id, Program};
 use std::collections::BTreeMap;
-use std::fmt;
 use std::ops::Range;
 use std::str::FromStr;
-
-/// What is wrong with a table, and where.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct TableError {
-    /// The bytes of the text that it is about.
-    pub span: Range<usize>,
-    /// What is wrong.
-    pub kind: TableErrorKind,
-}
-
-/// What can be wrong with a table.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum TableErrorKind {
-    /// It is not comma-separated text.
-    Malformed(String),
-    /// A row has another number of cells than the header.
-    Ragged {
-        /// Cells in the row.
-        found: usize,
-        /// Cells in the header.
-        expected: usize,
-    },
-    /// A column names nothing that the program has.
-    UnknownColumn(String),
-    /// A column stands twice.
-    RepeatedColumn(String),
-    /// A column that has to be there is not.
-    MissingColumn(String),
-    /// A cell holds something else than it may.
-    UnknownValue {
-        /// What it holds.
-        found: String,
-        /// What it may hold.
-        expected: &'static str,
-    },
-    /// A behaviour that the program does not have, or the policy cannot choose.
-    UnknownBehavior(String),
-    /// One minterm, two behaviours.
-    Contradiction {
-        /// The row that says otherwise.
-        earlier: Range<usize>,
-    },
-    /// A minterm without a row among the decisions.
-    Unseen,
-    /// A row with so many `-` that it stands for too many minterms.
-    Wide,
-}
-
-impl fmt::Display for TableError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.kind {
-            TableErrorKind::Malformed(why) => {
-                write!(f, "this is not a comma-separated table: {why}")
-            }
-            TableErrorKind::Ragged { found, expected } => {
-                write!(f, "this row has {found} cells, the header has {expected}")
-            }
-            TableErrorKind::UnknownColumn(name) => write!(f, "unknown column `{name}`"),
-            TableErrorKind::RepeatedColumn(name) => write!(f, "column `{name}` stands twice"),
-            TableErrorKind::MissingColumn(name) => write!(f, "column `{name}` is missing"),
-            TableErrorKind::UnknownValue { found, expected } => {
-                write!(f, "`{found}` is not {expected}")
-            }
-            TableErrorKind::UnknownBehavior(name) => write!(f, "unknown behavior `{name}`"),
-            TableErrorKind::Contradiction { .. } => {
-                write!(f, "an earlier row does something else in this minterm")
-            }
-            TableErrorKind::Unseen => write!(f, "no decision is known in this minterm"),
-            TableErrorKind::Wide => write!(f, "this row stands for too many minterms"),
-        }
-    }
-}
-
-impl std::error::Error for TableError {}
 
 /// A cell with its place.
 #[derive(Clone, Debug)]
@@ -106,46 +34,26 @@ impl Cell {
 
     /// The cell as a number of this kind.
     pub(super) fn number<T: FromStr>(&self, expected: &'static str) -> Result<T, TableError> {
-        self.text.trim().parse().map_err(|_| {
+        self.text.parse().map_err(|_| {
             self.error(TableErrorKind::UnknownValue {
                 found: self.text.clone(),
                 expected,
             })
         })
     }
-
-    /// `0`, `1`, or `-` for either.
-    pub(super) fn truth(&self) -> Result<Option<bool>, TableError> {
-        match self.text.trim() {
-            "0" => Ok(Some(false)),
-            "1" => Ok(Some(true)),
-            "-" => Ok(None),
-            _ => Err(self.error(TableErrorKind::UnknownValue {
-                found: self.text.clone(),
-                expected: "`0`, `1` or `-`",
-            })),
-        }
-    }
 }
 
 impl Sheet {
     /// Reads a table.
     pub(super) fn read(text: &str) -> Result<Self, TableError> {
-        let mut reader = csv::ReaderBuilder::new()
-            .has_headers(false)
-            .flexible(true)
-            .from_reader(text.as_bytes());
+        let text = text.as_bytes();
+        let mut records = Records::new(text);
+        let mut places = Vec::new();
         let mut rows: Vec<Vec<Cell>> = Vec::new();
-        for record in reader.records() {
-            let record = record.map_err(|error| malformed(text, &error))?;
-            let start = record.position().map_or(0, |p| p.byte() as usize);
-            // The position of a record is that of the line end before it, where there are blank lines.
-            let rest = text.get(start..).unwrap_or_default();
-            let start = start + (rest.len() - rest.trim_start_matches(['\r', '\n']).len());
-            let spans = spans(text, start);
-            let cells = record.iter().zip(spans).map(|(cell, span)| Cell {
-                text: cell.to_owned(),
-                span,
+        while records.next(&mut places)? {
+            let cells = places.iter().map(|place| Cell {
+                text: String::from_utf8_lossy(&records::value(text, place)).into_owned(),
+                span: place.clone(),
             });
             rows.push(cells.collect());
         }
@@ -175,17 +83,20 @@ impl Sheet {
         Ok(Self { header, rows })
     }
 
-    /// The position of a column.
-    pub(super) fn find(&self, name: &str) -> Option<usize> {
-        self.header.iter().position(|cell| cell.text.trim() == name)
-    }
-
     /// The position of a column that has to be there.
     pub(super) fn column(&self, name: &str) -> Result<usize, TableError> {
-        self.find(name).ok_or_else(|| TableError {
+        let found = self.header.iter().position(|cell| cell.text == name);
+        found.ok_or_else(|| self.missing(name))
+    }
+
+    fn missing(&self, name: &str) -> TableError {
+        TableError {
             span: whole(&self.header),
-            kind: TableErrorKind::MissingColumn(name.to_owned()),
-        })
+            kind: TableErrorKind::MissingColumn {
+                name: name.to_owned(),
+                likely: None,
+            },
+        }
     }
 
     /// The positions of a column for each of these atoms.
@@ -195,10 +106,19 @@ impl Sheet {
         atoms: &[Atom],
         program: &Program,
     ) -> Result<Vec<usize>, TableError> {
-        let names = atoms
-            .iter()
-            .map(|atom| format!("{prefix}{}", program.atom_name(*atom)));
-        names.map(|name| self.column(&name)).collect()
+        let mut known = BTreeMap::new();
+        for (i, cell) in self.header.iter().enumerate() {
+            if let Some(name) = cell.text.strip_prefix(prefix) {
+                known.insert(AtomName::of(name).to_string(), i);
+            }
+        }
+        let names = atoms.iter().map(|atom| program.atom_name(*atom));
+        names
+            .map(|name| {
+                let found = known.get(&AtomName::of(&name).to_string()).copied();
+                found.ok_or_else(|| self.missing(&format!("{prefix}{name}")))
+            })
+            .collect()
     }
 }
 
@@ -209,13 +129,13 @@ pub(super) fn at<'a>(row: &'a [Cell], columns: &[usize]) -> Vec<&'a Cell> {
 
 /// The minterm in these cells; each has a value.
 pub(super) fn minterm(cells: &[&Cell]) -> Result<Minterm, TableError> {
-    let values = cells.iter().map(|cell| {
-        cell.truth()?.ok_or_else(|| {
-            cell.error(TableErrorKind::UnknownValue {
-                found: cell.text.clone(),
-                expected: "`0` or `1`",
-            })
-        })
+    let values = cells.iter().map(|cell| match cell.text.as_str() {
+        "0" => Ok(false),
+        "1" => Ok(true),
+        _ => Err(cell.error(TableErrorKind::UnknownValue {
+            found: cell.text.clone(),
+            expected: "`0` or `1`",
+        })),
     });
     Ok(Minterm::new(values.collect::<Result<Vec<bool>, _>>()?))
 }
@@ -226,31 +146,12 @@ pub(super) fn whole(row: &[Cell]) -> Range<usize> {
     start..row.last().map_or(start, |cell| cell.span.end)
 }
 
-/// The names of a program's behaviours.
-pub(super) fn behaviors(program: &Program) -> BTreeMap<String, Id<Behavior>> {
-    let behaviors = program.behaviors.iter();
-    behaviors.map(|(id, b)| (b.name.clone(), id)).collect()
-}
-
-/// The names of a program's atoms.
-pub(super) fn atoms(program: &Program) -> BTreeMap<String, Atom> {
-    let predicates = program.predicates.ids().map(Atom::Predicate);
-    let history = program
-        .behaviors
-        .ids()
-        .flat_map(|b| [Atom::Done(b), Atom::Failed(b)]);
-    predicates
-        .chain(history)
-        .map(|atom| (program.atom_name(atom), atom))
-        .collect()
-}
-
 /// The behaviour that a cell names.
 pub(super) fn behavior(
     cell: &Cell,
-    names: &BTreeMap<String, Id<Behavior>>,
+    names: &BTreeMap<&str, Id<Behavior>>,
 ) -> Result<Id<Behavior>, TableError> {
-    let name = cell.text.trim();
+    let name = names::plain(&cell.text);
     names
         .get(name)
         .copied()
@@ -275,36 +176,4 @@ pub(super) fn write(rows: impl IntoIterator<Item = Vec<String>>) -> String {
 /// The values of a minterm as cells.
 pub(super) fn cells(minterm: &Minterm) -> impl Iterator<Item = String> {
     minterm.values().map(|value| u8::from(value).to_string())
-}
-
-fn malformed(text: &str, error: &csv::Error) -> TableError {
-    let start = error.position().map_or(0, |p| p.byte() as usize);
-    TableError {
-        span: start.min(text.len())..text.len(),
-        kind: TableErrorKind::Malformed(error.to_string()),
-    }
-}
-
-/// Where the cells of the record that starts at `start` stand, quotes included (RFC 4180).
-fn spans(text: &str, start: usize) -> Vec<Range<usize>> {
-    let mut spans = Vec::new();
-    let mut from = start;
-    let mut quoted = false;
-    let bytes = text.bytes().enumerate().skip(start);
-    for (i, byte) in bytes.chain([(text.len(), b'\n')]) {
-        match byte {
-            b'"' => quoted = !quoted,
-            b',' if !quoted => {
-                spans.push(from..i);
-                from = i + 1;
-            }
-            b'\r' | b'\n' if !quoted => {
-                spans.push(from..i);
-                return spans;
-            }
-            _ => {}
-        }
-    }
-    spans.push(from..text.len());
-    spans
 }

@@ -3,7 +3,9 @@
 //! The header has the names of the atoms, `behavior`, `status`, the names again as `next:NAME`, and `count`. A start
 //! minterm is a row with status `start` whose `next` it is; an ended episode has no next minterm.
 
-use super::sheet::{self, Cell, Sheet, TableError, TableErrorKind};
+use super::decisions;
+use super::error::{TableError, TableErrorKind};
+use super::sheet::{self, Cell, Sheet};
 use super::{Policy, Transition};
 use crate::ir::Program;
 use crate::ir::tree::Status;
@@ -57,7 +59,7 @@ pub fn read(text: &str, program: &Program, policy: &mut Policy) -> Result<(), Ta
             return Err(cell.error(TableErrorKind::UnknownColumn(cell.text.clone())));
         }
     }
-    let names = sheet::behaviors(program);
+    let names = decisions::behaviors(program);
     let (mut starts, mut transitions) = (Vec::new(), Vec::new());
     for row in &sheet.rows {
         let [Some(behavior), Some(status), Some(count)] = fixed.map(|i| row.get(i)) else {
@@ -86,6 +88,31 @@ pub fn read(text: &str, program: &Program, policy: &mut Policy) -> Result<(), Ta
     transitions.sort();
     policy.starts = starts;
     policy.transitions = transitions;
+    Ok(())
+}
+
+/// Reads start minterms into a policy, beside those that it has: a column for every atom, and `count` if it is known how
+/// many episodes start there.
+///
+/// # Errors
+/// What is wrong with the table, with the place.
+pub fn read_starts(text: &str, program: &Program, policy: &mut Policy) -> Result<(), TableError> {
+    let sheet = Sheet::read(text)?;
+    let atoms = sheet.columns("", &policy.atoms, program)?;
+    let count = sheet.header.iter().position(|cell| cell.text == "count");
+    for (i, cell) in sheet.header.iter().enumerate() {
+        if !atoms.contains(&i) && count != Some(i) {
+            return Err(cell.error(TableErrorKind::UnknownColumn(cell.text.clone())));
+        }
+    }
+    for row in &sheet.rows {
+        let known = count.and_then(|i| row.get(i));
+        let count = known.map_or(Ok(1), |cell| cell.number("a count"))?;
+        policy
+            .starts
+            .push((sheet::minterm(&sheet::at(row, &atoms))?, count));
+    }
+    policy.starts.sort();
     Ok(())
 }
 

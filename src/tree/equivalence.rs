@@ -1,10 +1,14 @@
 //! When two sides take the same decisions: the product automaton of their memories and the environment.
 
+mod choices;
 mod environment;
 mod oracle;
 mod product;
+mod symbolic;
+mod unfold;
 
 pub use environment::Environment;
+use environment::Follow;
 
 use crate::ir::Id;
 use crate::ir::law::Behavior;
@@ -32,9 +36,29 @@ pub enum Verdict {
     Undecided(Explored),
 }
 
+/// How an answer was found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Means {
+    /// By going through every state of the product automaton.
+    #[default]
+    Paths,
+    /// Neither side has memory: by a truth table over the atoms on which their difference depends.
+    Table {
+        /// How many these are.
+        atoms: usize,
+    },
+    /// Neither side has memory: by a SAT solver.
+    Solver {
+        /// As for a table.
+        atoms: usize,
+    },
+}
+
 /// What was explored.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Explored {
+    /// How.
+    pub means: Means,
     /// States of both memories and the environment.
     pub states: usize,
     /// Ticks that were tried.
@@ -48,6 +72,17 @@ pub struct Explored {
     pub open: usize,
     /// What the left side ticks in the same tick after the behaviour that it selected has failed, by minterm.
     pub after_failure: BTreeMap<Minterm, BTreeSet<Option<Id<Behavior>>>>,
+}
+
+impl Explored {
+    /// How an answer was found, in words.
+    pub fn means_text(&self) -> String {
+        match self.means {
+            Means::Paths => format!("{} states explored", self.states),
+            Means::Table { atoms } => format!("by a truth table over {atoms} predicates"),
+            Means::Solver { atoms } => format!("by a SAT solver over {atoms} predicates"),
+        }
+    }
 }
 
 /// A shortest way to a tick in which the sides select differently.
@@ -85,5 +120,18 @@ pub struct Unknown(pub Atom);
 /// # Errors
 /// An atom that a tree asks and the environment's table does not have.
 pub fn compare(left: Side, right: Side, environment: Environment) -> Result<Verdict, Unknown> {
-    product::explore(left, right, environment)
+    match (left, right, environment) {
+        (Side::Tree(left), Side::Tree(right), Environment::Any(history)) => {
+            symbolic::explore(left, right, history)
+        }
+        (_, _, Environment::Greedy(table)) => {
+            product::explore(left, right, table, Follow::Recorded)
+        }
+        // A table decides on its own minterms only.
+        (_, _, Environment::Observed(table))
+        | (Side::Policy(table), _, Environment::Any(_))
+        | (_, Side::Policy(table), Environment::Any(_)) => {
+            product::explore(left, right, table, Follow::Consistent)
+        }
+    }
 }

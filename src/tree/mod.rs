@@ -2,11 +2,13 @@
 
 pub mod atoms;
 pub mod canonicalise;
+mod circuit;
 pub mod decanonicalise;
 
 pub mod drawing;
 pub mod equivalence;
 pub mod formula;
+pub mod permute;
 pub mod program;
 pub mod prove;
 pub mod prune;

@@ -1,8 +1,9 @@
 //! Smaller trees that decide almost as a given one: the moves of a search that simulation judges.
 //!
 //! Nothing here knows what a tree is worth. Each move rewrites one place of the tree, and what comes of it is tidied;
-//! a candidate is well formed, drives something, and is strictly smaller.
+//! a candidate is well formed, drives something, and costs strictly less to read.
 
+mod flat;
 mod guards;
 mod memory;
 mod plain;
@@ -17,13 +18,14 @@ use crate::ir::tree::{Atom, Node};
 use std::collections::BTreeSet;
 use std::fmt;
 
-pub use plain::{oddities, plainer};
+pub use flat::{Decided, flat};
+pub use plain::{Cost, oddities, plainer};
 pub use tidy::tidy;
 
 /// A predicate outside of which a behaviour fails outright, such as `vis(A)` for `goto(A)`.
 pub type Possible = (Id<Behavior>, Atom);
 
-/// A smaller tree.
+/// A tree that a move makes of another.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Candidate {
     /// What was done.
@@ -32,6 +34,19 @@ pub struct Candidate {
     pub root: Node,
     /// Its size.
     pub size: Size,
+    /// What it takes to read it.
+    pub cost: Cost,
+}
+
+impl Candidate {
+    fn new(change: Change, root: Node, possible: &[Possible]) -> Self {
+        Self {
+            change,
+            size: Size::of(&root),
+            cost: Cost::of(&root, possible),
+            root,
+        }
+    }
 }
 
 /// The moves.
@@ -47,7 +62,7 @@ pub enum Change {
     Merged,
     /// Two units became a sequence with memory.
     Joined,
-    /// A guard became the predicate outside of which its behaviour fails.
+    /// A guard asks for the predicate outside of which its behaviour fails.
     Possible,
     /// Units changed places and a guard was loosened.
     Reordered,
@@ -55,6 +70,8 @@ pub enum Change {
     Turned,
     /// What units of a selector had in common was put before them.
     Factored,
+    /// One unit for each behaviour, with what was seen to hold where the tree chose it.
+    Flattened,
 }
 
 impl fmt::Display for Change {
@@ -69,6 +86,7 @@ impl fmt::Display for Change {
             Change::Reordered => "reordered",
             Change::Turned => "turned",
             Change::Factored => "factored",
+            Change::Flattened => "flattened",
         })
     }
 }
@@ -76,21 +94,16 @@ impl fmt::Display for Change {
 /// A rewriting of one node.
 type Move = (Change, Node);
 
-/// Every tree that one move makes of this one and that is strictly smaller ([`Size`]), without repetitions, in an order
-/// that depends on the tree alone.
+/// Every tree that one move makes of this one and that costs strictly less to read ([`Cost`]), without repetitions, in
+/// an order that depends on the tree alone.
 pub fn candidates(root: &Node, possible: &[Possible]) -> Vec<Candidate> {
-    let size = Size::of(root);
+    let cost = Cost::of(root, possible);
     let mut found: Vec<Candidate> = Vec::new();
     for (change, moved) in everywhere(root, possible) {
-        let moved = tidy(moved);
-        let smaller = Size::of(&moved);
-        let known = |c: &Candidate| c.size == smaller && c.root == moved;
-        if smaller < size && drives(&moved) && !found.iter().any(known) {
-            found.push(Candidate {
-                change,
-                root: moved,
-                size: smaller,
-            });
+        let candidate = Candidate::new(change, tidy(moved), possible);
+        let known = |c: &Candidate| c.cost == candidate.cost && c.root == candidate.root;
+        if candidate.cost < cost && drives(&candidate.root) && !found.iter().any(known) {
+            found.push(candidate);
         }
     }
     found

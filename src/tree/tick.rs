@@ -217,7 +217,7 @@ impl<S: Surroundings> Tick<'_, S> {
             (Decorator::Invert, Status::Failure) | (Decorator::Succeed, Status::Failure) => {
                 Status::Success
             }
-            (Decorator::Retry(times), Status::Failure) if count < u64::from(times) => {
+            (Decorator::Retry(times), Status::Failure) if count + 1 < u64::from(times) => {
                 self.remember(placed, count + 1);
                 Status::Running
             }

@@ -54,12 +54,21 @@ fn every_case_has_a_mistake_and_none_is_told_twice() {
 }
 
 /// The codes that no text of one file provokes, with the tests that provoke them.
-const ELSEWHERE: [Code; 5] = [
+const ELSEWHERE: [Code; 14] = [
     Code::E0409, // explain::a_world_that_cannot_be_built
     Code::E0504, // explain::a_tree_that_is_not_there
     Code::E0505, // explain::nothing_is_learned
     Code::E0609, // never, as far as is known
     Code::E0610, // explain::a_table_of_another_task
+    Code::E0811, // tables::cases
+    Code::E0812, // tables::cases
+    Code::E0813, // tables::cases
+    Code::E0814, // tables::cases
+    Code::E0815, // tables::cases
+    Code::E0816, // tables::cases
+    Code::E0817, // tables::cases
+    Code::E0818, // tables::cases
+    Code::E0819, // tables::cases
 ];
 
 #[test]

@@ -156,6 +156,8 @@ fn learning_writes_whole_files_that_other_commands_take() {
         "curve.csv",
         "learned.bt",
         "learned.dot",
+        "learned.py",
+        "learned.xml",
         "metrics.json",
         "policy.csv",
         "q.csv",

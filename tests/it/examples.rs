@@ -24,7 +24,7 @@ pub(crate) fn example(name: &str) -> Loaded {
     loaded
 }
 
-fn names() -> Vec<String> {
+pub(crate) fn names() -> Vec<String> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
     let mut names: Vec<String> = fs::read_dir(folder)
         .unwrap()

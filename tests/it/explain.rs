@@ -2,6 +2,7 @@
 
 use crate::program::{self, NoFiles};
 use btc::diagnostic::{Code, Diagnostic};
+use btc::driver::export::Runtime;
 use btc::driver::load::{Loaded, Reader, load};
 use btc::driver::{compile, learn, run, target, verify};
 use btc::tree::decanonicalise::{Care, Method};
@@ -31,13 +32,24 @@ fn codes(diagnostics: &[Diagnostic]) -> Vec<Code> {
 }
 
 /// The codes that loading a program does not meet; each has a test below.
-const LATER: [Code; 6] = [
+const LATER: [Code; 17] = [
     Code::E0130,
     Code::E0409,
     Code::E0504,
     Code::E0505,
     Code::E0609,
     Code::E0610,
+    Code::E0811, // this and those below: tables::cases
+    Code::E0812,
+    Code::E0813,
+    Code::E0814,
+    Code::E0815,
+    Code::E0816,
+    Code::E0817,
+    Code::E0818,
+    Code::E0819,
+    Code::E0821,
+    Code::E0822,
 ];
 
 #[test]
@@ -143,6 +155,29 @@ fn a_table_of_another_task() {
     assert_eq!(codes(&found), [code]);
     let proved = verify::trees(&right(code), "a", "b").unwrap();
     assert!(!proved.holds);
+}
+
+/// E0821, E0822: a `parallel` that neither library has, and a time that one of them cannot keep.
+#[test]
+fn what_a_robot_cannot_run() {
+    let cases = [
+        (
+            Code::E0821,
+            "refill",
+            vec![Runtime::BtCpp, Runtime::PyTrees],
+        ),
+        (Code::E0822, "walk", vec![Runtime::BtCpp]),
+    ];
+    for (code, tree, runtimes) in cases {
+        for runtime in runtimes {
+            let loaded = wrong(code);
+            assert_eq!(program::shown(&loaded), "");
+            let form = compile::Form::Robot(runtime);
+            let found = compile::emit(&loaded, form, Some(tree)).unwrap_err();
+            assert_eq!(found.code, code);
+            assert!(compile::emit(&right(code), form, Some(tree)).is_ok());
+        }
+    }
 }
 
 fn learned(loaded: &Loaded, episodes: Option<u64>) -> Result<learn::Learned, Diagnostic> {

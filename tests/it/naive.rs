@@ -138,7 +138,7 @@ fn visit(
                 (Decorator::Fail, Success) => Failure,
                 (Decorator::Timeout(_), Running) => keep(count + 1),
                 (Decorator::Retry(_) | Decorator::Repeat(_), Running) => keep(count),
-                (Decorator::Retry(n), Failure) if count < u64::from(*n) => keep(count + 1),
+                (Decorator::Retry(n), Failure) if count + 1 < u64::from(*n) => keep(count + 1),
                 (Decorator::Repeat(n), Success) if count + 1 < u64::from(*n) => keep(count + 1),
                 (_, status) => status,
             };

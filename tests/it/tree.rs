@@ -1,12 +1,16 @@
 //! Trees from policies, and what is proved of them.
+pub(crate) mod build;
+pub(crate) mod random;
 
-mod build;
 mod canonical;
 mod chains;
 mod cubes;
 mod drawn;
+mod equivalence;
 mod files;
+mod grown;
 mod guards;
+mod permuted;
 mod proofs;
 mod random;
 mod scale;

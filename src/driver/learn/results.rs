@@ -2,11 +2,15 @@
 
 use super::bench::{Bench, Run};
 use super::{Learned, Options, drawn, metrics, report};
+use crate::diagnostic::Diagnostic;
+use crate::driver::export::{self, Runtime};
 use crate::driver::load::Loaded;
 use crate::driver::simplify::Simplified;
+use crate::driver::target;
 use crate::emit;
 use crate::ir::Id;
 use crate::ir::task::Learner;
+use crate::ir::tree::Tree;
 use crate::learn::process::Key;
 use crate::learn::rollout::RollOut;
 use crate::learn::statistics::{Mean, Summary};
@@ -129,13 +133,16 @@ pub(super) fn thin(run: &Run, evidence: u64, atoms: usize) -> Vec<(Minterm, u64)
 }
 
 /// The tree as an item, the files, and the report.
+///
+/// # Errors
+/// A robot's library has no counterpart for a node of the tree.
 pub(super) fn write(
     bench: &Bench,
     loaded: &Loaded,
     options: &Options,
     learner: Id<Learner>,
     results: Results,
-) -> Learned {
+) -> Result<Learned, Diagnostic> {
     let program = bench.program;
     let file = options.source.rsplit('/').next().unwrap_or_default();
     let exact = &results.trees.chosen().root;
@@ -164,10 +171,20 @@ pub(super) fn write(
         .map(|run| (run.seed, run.points.clone()))
         .collect();
     let policy = &results.policy;
+    let named = Tree {
+        name: name.clone(),
+        docs,
+        task: Some(bench.learner.task),
+        root: root.clone(),
+    };
+    let place = |_: &[usize]| target::end_of_file(loaded);
+    let exported = |runtime| export::tree(program, &named, runtime, place);
     let files = vec![
         ("learned.bt", program_text),
         ("learned.dot", emit::dot::tree(name, root, program)),
         ("learned.svg", emit::svg::tree::tree(name, root, program)),
+        ("learned.xml", exported(Runtime::BtCpp)?),
+        ("learned.py", exported(Runtime::PyTrees)?),
         ("policy.csv", decisions::write(policy, program)),
         ("transitions.csv", transitions::write(policy, program)),
         ("q.csv", evidence::write(policy, program)),
@@ -178,15 +195,15 @@ pub(super) fn write(
             metrics::text(bench, loaded, options, &results),
         ),
     ];
-    Learned {
+    Ok(Learned {
         tree,
         files,
         report: report::lines(bench, &results),
-        root: root.clone(),
+        root: named.root,
         learner,
         curves,
         policy: results.policy,
-    }
+    })
 }
 
 /// What the exact tree is called beside a simplified one.

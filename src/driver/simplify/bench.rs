@@ -5,14 +5,16 @@ use crate::diagnostic::Diagnostic;
 use crate::driver::load::Loaded;
 use crate::driver::run;
 use crate::ir::Id;
+use crate::ir::law::Behavior;
 use crate::ir::task::Task;
 use crate::ir::tree::{Atom, Node};
 use crate::learn::episode::{Episode, play};
 use crate::learn::statistics::Mean;
 use crate::tree::Runner;
+use crate::tree::prune::Decided;
 use crate::world::{End, Simulator, Start};
 use rayon::prelude::*;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// The world in which trees are held against each other.
@@ -45,6 +47,18 @@ impl Player {
     /// All that its episodes came through.
     pub(super) fn paths(&self) -> Paths {
         Paths::of(self.played.iter().map(|played| &played.trace))
+    }
+
+    /// What drove, in which valuation, for how many ticks.
+    pub(super) fn decided(&self) -> Vec<Decided> {
+        let mut ticks: BTreeMap<(Id<Behavior>, u128), u64> = BTreeMap::new();
+        for (behavior, values, times) in self.played.iter().flat_map(|p| p.trace.decided()) {
+            *ticks.entry((behavior, values)).or_default() += times;
+        }
+        let decided = ticks.into_iter();
+        decided
+            .map(|((behavior, values), times)| (behavior, values, times))
+            .collect()
     }
 
     /// What the episodes came to.
@@ -131,6 +145,11 @@ impl Bench {
             patience: loaded.program.tasks[task].patience,
             start,
         })
+    }
+
+    /// What the bits of a valuation mean.
+    pub(super) fn atoms(&self) -> &[Atom] {
+        self.simulator.atoms()
     }
 
     /// The same world with the seeds of another stream.

@@ -9,7 +9,7 @@ use super::trace::Paths;
 use super::{Progress, Step};
 use crate::ir::tree::Node;
 use crate::tree::Size;
-use crate::tree::prune::{self, Candidate, Possible};
+use crate::tree::prune::{self, Candidate, Cost, Possible};
 
 /// Episodes to which the candidates of a round play, and how many of them stay in the race then.
 const STAGES: [(usize, usize); 4] = [(1, 32), (4, 12), (16, 5), (64, 3)];
@@ -59,7 +59,8 @@ struct Measure<'a> {
     exact: &'a Player,
     best: &'a Player,
     now: &'a Player,
-    size: Size,
+    /// What the tree that is held now costs to read, in nodes.
+    nodes: usize,
     /// The loss that is allowed.
     limit: f64,
     /// The standard deviation of a return.
@@ -92,14 +93,23 @@ impl<'a> Search<'a> {
             return Vec::new();
         };
         self.ticks += self.bench.play(&mut [&mut exact], EPISODES, None);
-        let mut held = self.descend(root, &exact, Plain::Last);
-        held.extend(self.descend(root, &exact, Plain::Early));
+        let start = Held {
+            root: root.clone(),
+            steps: Vec::new(),
+            player: exact.clone(),
+        };
+        let mut held = self.descend(&start, &exact, Plain::Last);
+        held.extend(self.descend(&start, &exact, Plain::Early));
+        if let Some(flat) = self.flat(root, &exact) {
+            let further = self.descend(&flat, &exact, Plain::Early);
+            held.push(flat);
+            held.extend(further);
+        }
         held.sort_by(|a, b| {
             let key = |held: &Held| {
-                let Size {
-                    nodes, literals, ..
-                } = Size::of(&held.root);
-                (nodes, literals, prune::oddities(&held.root, self.possible))
+                let cost = Cost::of(&held.root, self.possible);
+                let cost = (cost.nodes, cost.unasked, cost.literals);
+                (cost, prune::oddities(&held.root))
             };
             let returns = |held: &Held| held.player.returns().mean;
             let better = returns(b).total_cmp(&returns(a));
@@ -109,17 +119,51 @@ impl<'a> Search<'a> {
         held
     }
 
-    /// The way down from the exact tree.
-    fn descend(&mut self, root: &Node, exact: &Player, plain: Plain) -> Vec<Held> {
+    /// The best tree of one unit a behaviour, if any of them stays within the loss.
+    fn flat(&mut self, root: &Node, exact: &Player) -> Option<Held> {
+        let candidates = prune::flat(root, self.bench.atoms(), &exact.decided(), self.possible);
+        let largest = candidates
+            .iter()
+            .map(|candidate| candidate.cost.nodes)
+            .max();
+        let measure = Measure {
+            exact,
+            best: exact,
+            now: exact,
+            nodes: largest?,
+            limit: self.limit(exact),
+            spread: exact.spread(),
+        };
+        let runners = self.runners(candidates.into_iter());
+        let Runner { candidate, player } = self.race(runners, &measure)?;
+        Some(Held {
+            steps: vec![Step {
+                change: candidate.change,
+                size: candidate.size,
+                loss: player.loss(exact),
+            }],
+            root: candidate.root,
+            player,
+        })
+    }
+
+    /// The loss that is allowed, in return.
+    fn limit(&self, exact: &Player) -> f64 {
+        self.loss * exact.returns().mean.abs()
+    }
+
+    /// The way down from a tree.
+    fn descend(&mut self, from: &Held, exact: &Player, plain: Plain) -> Vec<Held> {
         let mut held: Vec<Held> = Vec::new();
-        let mut steps: Vec<Step> = Vec::new();
-        let (mut now, mut root, mut best) = (exact.clone(), root.clone(), exact.clone());
+        let mut steps = from.steps.clone();
+        let (mut now, mut root, mut best) = (from.player.clone(), from.root.clone(), exact.clone());
+        if now.loss(&best).ci95[1] < 0.0 {
+            best = now.clone();
+        }
         let mut paths = now.paths();
-        let returns = exact.returns();
         while self.ticks < BUDGET && steps.len() < STEPS {
-            let size = Size::of(&root);
             (self.progress)(Progress {
-                nodes: size.nodes,
+                nodes: Size::of(&root).nodes,
                 ticks: self.ticks,
                 of: BUDGET,
             });
@@ -127,8 +171,8 @@ impl<'a> Search<'a> {
                 exact,
                 best: &best,
                 now: &now,
-                size,
-                limit: self.loss * returns.mean.abs(),
+                nodes: Cost::of(&root, self.possible).nodes,
+                limit: self.limit(exact),
                 spread: exact.spread(),
             };
             let known = |c: &Candidate| !held.iter().any(|held| held.root == c.root);
@@ -209,7 +253,7 @@ impl<'a> Search<'a> {
 
 /// The smallest of the candidates that do on every path what the tree does that is held now; it needs not play.
 fn alike(runners: &mut Vec<Runner>, measure: &Measure, paths: &Paths) -> Option<Runner> {
-    runners.sort_by_key(|runner| runner.candidate.size);
+    runners.sort_by_key(|runner| runner.candidate.cost);
     let at = runners
         .iter_mut()
         .position(|runner| runner.player.agrees(paths))?;
@@ -242,7 +286,7 @@ impl<'a> Measure<'a> {
     /// more they gain.
     fn worth(&self, runner: &Runner) -> f64 {
         // A move that saves no node is worth something, too.
-        let saved = self.size.nodes as f64 - runner.candidate.size.nodes as f64 + 0.1;
+        let saved = self.nodes as f64 - runner.candidate.cost.nodes as f64 + 0.1;
         let price = (PRICE * self.limit).max(1e-9);
         let lost = runner.player.loss(self.now).mean / price;
         if lost <= 0.0 {

@@ -9,6 +9,7 @@ use crate::ir::law::Behavior;
 use crate::ir::tree::Status;
 use crate::learn::episode::Controller;
 use crate::tree::Runner;
+use crate::tree::prune::Decided;
 use crate::world::Simulation;
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
@@ -96,6 +97,14 @@ fn agrees(runner: &mut Runner, met: &Met) -> bool {
 }
 
 impl Trace {
+    /// What drove in each tick: the behaviour that was ticked last, those before it have failed.
+    pub(super) fn decided(&self) -> impl Iterator<Item = Decided> {
+        self.met.iter().filter_map(|(met, times)| {
+            let (behavior, _) = met.calls.last()?;
+            Some((*behavior, met.atoms, *times))
+        })
+    }
+
     /// Whether a tree, its memory fresh, ticks the same behaviours all along.
     pub(super) fn replays(&self, runner: &mut Runner) -> bool {
         runner.reset();

@@ -6,7 +6,7 @@
 //! the same tree on any number of threads.
 
 use super::beam::{Beam, Shape};
-use super::covers::Covers;
+use super::covers::{Covers, LARGE};
 use super::memory::configurations;
 use super::orders::{in_order, tree as listed};
 use super::problem::Problem;
@@ -66,18 +66,28 @@ pub(super) fn tree(
 /// Trees over the subunits of one configuration.
 fn trees(problem: &Problem, subunits: &[Subunit], order: Order, effort: u64) -> Vec<Node> {
     let covers = Covers::new(problem, effort / SHAPES.len() as u64);
-    let list = in_order(&covers, subunits, order);
-    let base = listed(&covers, subunits, &list);
-    if order != Order::Learned || problem.wide {
-        return vec![base];
+    let searches = order == Order::Learned && !problem.wide;
+    // While tables are small, the lists in other orders are places to begin as well.
+    let orders = match searches && problem.policy.rows.len() <= LARGE {
+        true => vec![order, Order::Given, Order::Rarest],
+        false => vec![order],
+    };
+    let lists = orders.into_iter();
+    let lists: Vec<_> = lists
+        .map(|order| in_order(&covers, subunits, order))
+        .collect();
+    let bases = lists.iter().map(|list| listed(&covers, subunits, list));
+    let bases: Vec<Node> = bases.collect();
+    if !searches {
+        return bases;
     }
     let searched = SHAPES.par_iter().map(|shape| {
         let covers = Covers::new(problem, effort / SHAPES.len() as u64);
-        let first = list.iter().map(|(_, cover)| cover);
-        let rules = Rules::new(&covers, first);
+        let useful = lists.iter().flatten().map(|(_, cover)| cover);
+        let rules = Rules::new(&covers, useful);
         Beam::new(&covers, subunits, rules, *shape).trees()
     });
     let searched: Vec<Vec<Node>> = searched.collect();
-    let all = std::iter::once(base).chain(searched.into_iter().flatten());
+    let all = bases.into_iter().chain(searched.into_iter().flatten());
     all.map(shared).collect()
 }

@@ -1,4 +1,4 @@
-//! What may happen next.
+//! What a recorded environment may do next.
 
 use super::oracle::Oracle;
 use crate::ir::Id;
@@ -6,7 +6,10 @@ use crate::ir::law::Behavior;
 use crate::ir::task::History;
 use crate::ir::tree::{Atom, Status};
 use crate::policy::{Minterm, Policy};
+use rustc_hash::FxHashMap;
+use std::cell::RefCell;
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 /// Where valuations and statuses come from.
 #[derive(Clone, Copy, Debug)]
@@ -21,10 +24,20 @@ pub enum Environment<'a> {
     Any(History),
 }
 
+/// Which transitions a table allows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Follow {
+    /// Those that it records.
+    Recorded,
+    /// Those to any of its minterms that the history window allows.
+    Consistent,
+}
+
 /// A behaviour with how it ended; `None` is one that no atom asks for.
 pub(super) type Termination = Option<(Id<Behavior>, Status)>;
 
-/// The last terminations, the newest last.
+/// The last terminations, the newest last. A window is full: what no atom asks for fills it up. It is empty where
+/// nothing is remembered.
 pub(super) type Window = Vec<Termination>;
 
 /// Where the environment stands.
@@ -38,15 +51,29 @@ pub(super) enum Place {
     Start,
 }
 
-/// An environment made ready: its atoms, its minterms, what it may do.
+/// A minterm of the table, or a cube of it.
+#[derive(Clone, Debug)]
+pub(super) struct Care<'a> {
+    pub(super) minterm: &'a Minterm,
+    /// The atoms that may have either value.
+    pub(super) free: Option<&'a Minterm>,
+}
+
+/// A table made ready: its atoms, its minterms, what may follow.
 pub(super) struct World<'a> {
-    environment: Environment<'a>,
-    pub(super) atoms: Vec<Atom>,
-    pub(super) minterms: Vec<Minterm>,
-    numbers: BTreeMap<&'a Minterm, usize>,
+    follow: Follow,
+    history: History,
+    pub(super) atoms: &'a [Atom],
+    /// The rows of the table, then what else it mentions.
+    pub(super) minterms: Vec<Care<'a>>,
+    rows: usize,
     /// The transitions from each minterm: behaviour, status, next minterm, position in the table.
     recorded: BTreeMap<usize, Vec<Record>>,
     starts: Vec<usize>,
+    /// The terminations that the window remembers.
+    kinds: Vec<(Id<Behavior>, Status)>,
+    /// The minterms, and among them the starts, in which the atoms show what a window does.
+    showing: RefCell<FxHashMap<(bool, Minterm), Rc<[usize]>>>,
 }
 
 type Record = (Id<Behavior>, Status, Option<usize>, usize);
@@ -63,103 +90,80 @@ pub(super) struct Outcome {
 }
 
 impl<'a> World<'a> {
-    /// The environment for trees that ask `asked`.
-    pub(super) fn new(environment: Environment<'a>, asked: &[Atom]) -> Self {
-        let mut world = Self {
-            environment,
-            atoms: asked.to_vec(),
-            minterms: Vec::new(),
-            numbers: BTreeMap::new(),
-            recorded: BTreeMap::new(),
-            starts: Vec::new(),
-        };
-        let (Environment::Greedy(policy) | Environment::Observed(policy)) = environment else {
-            return world;
-        };
-        world.atoms.clone_from(&policy.atoms);
+    pub(super) fn new(policy: &'a Policy, follow: Follow) -> Self {
+        let mut minterms: Vec<Care> = Vec::new();
+        let mut numbers: BTreeMap<&Minterm, usize> = BTreeMap::new();
         for row in &policy.rows {
-            world.number(&row.minterm);
-        }
-        for (minterm, _) in &policy.starts {
-            let start = world.number(minterm);
-            world.starts.push(start);
-        }
-        if let Environment::Greedy(_) = environment {
-            for (i, t) in policy.transitions.iter().enumerate() {
-                let from = world.number(&t.from);
-                let to = t.to.as_ref().map(|to| world.number(to));
-                let record = (t.behavior, t.status, to, i);
-                world.recorded.entry(from).or_default().push(record);
+            if row.free.is_none() {
+                numbers.insert(&row.minterm, minterms.len());
             }
-        } else if world.starts.is_empty() {
-            world.starts = (0..world.minterms.len()).collect();
+            minterms.push(Care {
+                minterm: &row.minterm,
+                free: row.free.as_ref(),
+            });
         }
+        let mut number = |minterm: &'a Minterm| {
+            *numbers.entry(minterm).or_insert_with(|| {
+                minterms.push(Care {
+                    minterm,
+                    free: None,
+                });
+                minterms.len() - 1
+            })
+        };
+        let mut starts: Vec<usize> = policy.starts.iter().map(|(m, _)| number(m)).collect();
+        let mut recorded: BTreeMap<usize, Vec<Record>> = BTreeMap::new();
+        match follow {
+            Follow::Recorded => {
+                for (i, t) in policy.transitions.iter().enumerate() {
+                    let from = number(&t.from);
+                    let to = t.to.as_ref().map(&mut number);
+                    let record = (t.behavior, t.status, to, i);
+                    recorded.entry(from).or_default().push(record);
+                }
+            }
+            Follow::Consistent if starts.is_empty() => starts = (0..policy.rows.len()).collect(),
+            Follow::Consistent => {}
+        }
+        let mut world = Self {
+            follow,
+            history: policy.history,
+            atoms: &policy.atoms,
+            rows: policy.rows.len(),
+            minterms,
+            recorded,
+            starts,
+            kinds: Vec::new(),
+            showing: RefCell::default(),
+        };
+        let kinds = policy.atoms.iter().filter(|atom| world.remembers(**atom));
+        world.kinds = kinds.filter_map(|atom| termination(*atom)).collect();
         world
-    }
-
-    fn number(&mut self, minterm: &'a Minterm) -> usize {
-        let next = self.minterms.len();
-        let number = *self.numbers.entry(minterm).or_insert(next);
-        if number == next {
-            self.minterms.push(minterm.clone());
-        }
-        number
-    }
-
-    /// The window that the environment keeps.
-    fn history(&self) -> History {
-        match self.environment {
-            Environment::Greedy(policy) | Environment::Observed(policy) => policy.history,
-            Environment::Any(history) => history,
-        }
     }
 
     /// Whether the window would remember what this atom asks.
     pub(super) fn remembers(&self, atom: Atom) -> bool {
-        let history = self.history();
-        match atom {
-            Atom::Predicate(_) => false,
-            Atom::Done(_) => history.window > 0 && history.success,
-            Atom::Failed(_) => history.window > 0 && history.failure,
-        }
+        remembers(self.history, atom)
     }
 
-    /// The minterm in which a tick finds the environment, where it has minterms; and where it stands then.
-    pub(super) fn find(
-        &self,
-        place: &Place,
-        oracle: &mut Oracle,
-    ) -> Option<(Option<usize>, Place)> {
-        match (self.environment, place) {
-            (_, Place::At(minterm)) => Some((Some(*minterm), place.clone())),
-            (Environment::Greedy(_), _) => {
-                let start = self.pick(&self.starts, oracle)?;
-                Some((Some(start), Place::At(start)))
+    /// The minterm in which a tick finds the environment, and where it stands then.
+    pub(super) fn find(&self, place: &Place, oracle: &mut Oracle) -> Option<(usize, Place)> {
+        match (self.follow, place) {
+            (_, Place::At(minterm)) => Some((*minterm, place.clone())),
+            (_, Place::Window(window)) => {
+                let minterm = pick(&self.showing(window, false), oracle)?;
+                Some((minterm, place.clone()))
             }
-            (Environment::Observed(_), Place::Start) => {
-                let start = self.pick(&self.starts, oracle)?;
-                let window = self.window(|window| self.shows(window, start), oracle)?;
-                Some((Some(start), Place::Window(window)))
+            (Follow::Recorded, Place::Start) => {
+                let start = pick(&self.starts, oracle)?;
+                Some((start, Place::At(start)))
             }
-            (Environment::Observed(policy), Place::Window(window)) => {
-                let consistent: Vec<usize> = (0..policy.rows.len())
-                    .filter(|minterm| self.shows(window, *minterm))
-                    .collect();
-                let minterm = self.pick(&consistent, oracle)?;
-                Some((Some(minterm), place.clone()))
+            (Follow::Consistent, Place::Start) => {
+                let window = self.any_window(oracle);
+                let start = pick(&self.showing(&window, true), oracle)?;
+                Some((start, Place::Window(window)))
             }
-            (Environment::Any(_), Place::Start) => {
-                Some((None, Place::Window(self.window(|_| true, oracle)?)))
-            }
-            (Environment::Any(_), Place::Window(_)) => Some((None, place.clone())),
         }
-    }
-
-    fn pick(&self, among: &[usize], oracle: &mut Oracle) -> Option<usize> {
-        let length = among.len();
-        (length > 0)
-            .then(|| oracle.choose(length))
-            .and_then(|i| among.get(i).copied())
     }
 
     /// What the selected behaviour may come to.
@@ -229,67 +233,87 @@ impl<'a> World<'a> {
 
     /// A termination enters the window, and the oldest leaves it.
     fn remember(&self, window: &mut Window, behavior: Id<Behavior>, status: Status) {
-        let history = self.history();
-        let atom = match status {
-            Status::Success if history.success => Atom::Done(behavior),
-            Status::Failure if history.failure => Atom::Failed(behavior),
-            _ => return,
+        let kept = match status {
+            Status::Success => self.history.success,
+            Status::Failure => self.history.failure,
+            Status::Running => false,
         };
-        window.push(self.atoms.contains(&atom).then_some((behavior, status)));
-        let over = window.len().saturating_sub(history.window);
-        window.drain(..over);
+        if kept && !window.is_empty() {
+            window.remove(0);
+            let termination = (behavior, status);
+            window.push(self.kinds.contains(&termination).then_some(termination));
+        }
     }
 
-    /// Any window that passes.
-    fn window(
-        &self,
-        passes: impl Fn(&[Termination]) -> bool,
-        oracle: &mut Oracle,
-    ) -> Option<Window> {
-        let mut kinds = vec![None];
-        for atom in self.atoms.iter().filter(|atom| self.remembers(**atom)) {
-            match atom {
-                Atom::Done(behavior) => kinds.push(Some((*behavior, Status::Success))),
-                Atom::Failed(behavior) => kinds.push(Some((*behavior, Status::Failure))),
-                Atom::Predicate(_) => {}
-            }
-        }
-        let mut window = Window::new();
-        if kinds.len() > 1 {
-            for _ in 0..self.history().window {
-                // The first answer leaves the rest of the window empty.
-                match oracle
-                    .choose(kinds.len() + 1)
-                    .checked_sub(1)
-                    .and_then(|k| kinds.get(k))
-                {
-                    Some(kind) => window.push(*kind),
-                    None => break,
-                }
-            }
-        }
-        passes(&window).then_some(window)
+    fn any_window(&self, oracle: &mut Oracle) -> Window {
+        let length = match self.kinds.is_empty() {
+            true => 0,
+            false => self.history.window,
+        };
+        let mut any = || oracle.choose(self.kinds.len() + 1).checked_sub(1);
+        (0..length)
+            .map(|_| any().and_then(|kind| self.kinds.get(kind).copied()))
+            .collect()
     }
 
-    /// Whether the history atoms of a minterm are those of a window.
-    fn shows(&self, window: &[Termination], minterm: usize) -> bool {
-        self.minterms.get(minterm).is_some_and(|minterm| {
-            self.atoms
-                .iter()
-                .zip(minterm.values())
-                .all(|(atom, value)| !self.remembers(*atom) || in_window(window, *atom) == value)
-        })
+    /// The minterms, or only the starts, whose history atoms are those of a window.
+    fn showing(&self, window: &[Termination], starts: bool) -> Rc<[usize]> {
+        let shown = |atom: &Atom| self.remembers(*atom) && in_window(window, *atom);
+        let key = (starts, Minterm::new(self.atoms.iter().map(shown)));
+        let mut showing = self.showing.borrow_mut();
+        if let Some(found) = showing.get(&key) {
+            return Rc::clone(found);
+        }
+        let remembered = Minterm::new(self.atoms.iter().map(|atom| self.remembers(*atom)));
+        let shows = |minterm: &usize| {
+            let care = self.minterms.get(*minterm);
+            care.is_some_and(|care| care.agrees(&key.1, &remembered))
+        };
+        let found: Rc<[usize]> = match starts {
+            true => self.starts.iter().copied().filter(shows).collect(),
+            false => (0..self.rows).filter(shows).collect(),
+        };
+        showing.insert(key, Rc::clone(&found));
+        found
+    }
+}
+
+impl Care<'_> {
+    /// Whether it has the values of `other` in the atoms of `among`.
+    fn agrees(&self, other: &Minterm, among: &Minterm) -> bool {
+        let pairs = self.minterm.words().iter().zip(other.words());
+        pairs
+            .zip(among.words())
+            .enumerate()
+            .all(|(i, ((a, b), among))| {
+                let free = self.free.and_then(|free| free.words().get(i));
+                (a ^ b) & among & !free.copied().unwrap_or(0) == 0
+            })
+    }
+}
+
+/// The termination that a history atom asks for.
+pub(super) fn termination(atom: Atom) -> Termination {
+    match atom {
+        Atom::Predicate(_) => None,
+        Atom::Done(behavior) => Some((behavior, Status::Success)),
+        Atom::Failed(behavior) => Some((behavior, Status::Failure)),
+    }
+}
+
+/// Whether a window remembers what an atom asks.
+pub(super) fn remembers(history: History, atom: Atom) -> bool {
+    match atom {
+        Atom::Predicate(_) => false,
+        Atom::Done(_) => history.window > 0 && history.success,
+        Atom::Failed(_) => history.window > 0 && history.failure,
     }
 }
 
 /// Whether a window makes a history atom true.
 pub(super) fn in_window(window: &[Termination], atom: Atom) -> bool {
-    window.iter().flatten().any(|(behavior, status)| {
-        atom == match status {
-            Status::Failure => Atom::Failed(*behavior),
-            _ => Atom::Done(*behavior),
-        }
-    })
+    let asked = termination(atom);
+    asked.is_some() && window.contains(&asked)
 }
 
 /// Any of the three.
@@ -299,4 +323,11 @@ pub(super) fn any_status(oracle: &mut Oracle) -> Status {
         1 => Status::Success,
         _ => Status::Failure,
     }
+}
+
+fn pick(among: &[usize], oracle: &mut Oracle) -> Option<usize> {
+    let length = among.len();
+    (length > 0)
+        .then(|| oracle.choose(length))
+        .and_then(|i| among.get(i).copied())
 }

@@ -1,19 +1,24 @@
-//! The search through the product automaton, shortest paths first.
+//! The search through the product automaton of both memories and a table, shortest paths first.
 
-use super::environment::{Environment, Outcome, Place, World, any_status, in_window};
+use super::choices::Choices;
+use super::environment::{Care, Follow, Outcome, Place, World, any_status, in_window};
 use super::oracle::Oracle;
 use super::{Explored, Side, Step, Trace, Unknown, Verdict};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::{Atom, Status};
+use crate::logic::Bits;
 use crate::policy::{Minterm, Policy};
 use crate::tree::atoms::atoms;
 use crate::tree::tick::{Runner, Surroundings};
 use rustc_hash::FxHashSet;
 use std::collections::BTreeSet;
 
-/// Ticks after which the search gives up.
+/// Ticks after which the search gives up, besides some for each row of the table.
 const PATIENCE: usize = 2_000_000;
+
+/// Ticks that each row of the table adds to that.
+const PATIENCE_PER_ROW: usize = 16;
 
 /// Both memories and the environment.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -29,51 +34,42 @@ struct Reached {
     from: Option<(usize, Step)>,
 }
 
+/// Compares two sides along what a table records, or wherever the history window lets it go.
 pub(super) fn explore(
     left: Side,
     right: Side,
-    environment: Environment,
+    table: &Policy,
+    follow: Follow,
 ) -> Result<Verdict, Unknown> {
-    let mut asked = BTreeSet::new();
-    for side in [left, right] {
-        match side {
-            Side::Tree(root) => asked.extend(atoms(root)),
-            Side::Policy(policy) => asked.extend(policy.atoms.iter().copied()),
-        }
-    }
-    let asked: Vec<Atom> = asked.into_iter().collect();
-    // A table decides on its own minterms only.
-    let environment = match (environment, left, right) {
-        (Environment::Any(_), Side::Policy(policy), _)
-        | (Environment::Any(_), _, Side::Policy(policy)) => Environment::Observed(policy),
-        (environment, ..) => environment,
-    };
-    let world = World::new(environment, &asked);
-    let mut sides = [
-        Player::new(left, &world, &asked)?,
-        Player::new(right, &world, &asked)?,
-    ];
+    let world = World::new(table, follow);
+    let mut sides = [Player::new(left, &world)?, Player::new(right, &world)?];
     let [left, right] = &mut sides;
     Ok(Search::new(&world).run(left, right))
 }
 
 /// A side that can be ticked.
-enum Player<'a> {
+enum Player {
     Tree(Runner),
-    Policy(&'a Policy),
+    /// What it decides in each minterm of the world.
+    Policy(Vec<Option<Id<Behavior>>>),
 }
 
-impl<'a> Player<'a> {
-    fn new(side: Side<'a>, world: &World, asked: &[Atom]) -> Result<Self, Unknown> {
+impl Player {
+    fn new(side: Side, world: &World) -> Result<Self, Unknown> {
         match side {
-            Side::Policy(policy) => Ok(Player::Policy(policy)),
+            Side::Policy(policy) => {
+                let choices = Choices::new(policy);
+                let minterms = world.minterms.iter();
+                let choices = minterms.map(|care| choices.choice(care));
+                Ok(Player::Policy(choices.collect()))
+            }
             Side::Tree(root) => {
                 // What the window does not remember never holds: its bit stands behind those of the minterm.
-                let mut known = world.atoms.clone();
-                for atom in asked {
+                let mut known = world.atoms.to_vec();
+                for atom in atoms(root) {
                     let history = !matches!(atom, Atom::Predicate(_));
-                    if history && !world.remembers(*atom) && !known.contains(atom) {
-                        known.push(*atom);
+                    if history && !world.remembers(atom) && !known.contains(&atom) {
+                        known.push(atom);
                     }
                 }
                 Runner::new(root, &known).map(Player::Tree).map_err(Unknown)
@@ -93,9 +89,9 @@ struct Search<'a> {
     world: &'a World<'a>,
     reached: Vec<Reached>,
     known: FxHashSet<State>,
-    minterms: BTreeSet<usize>,
+    minterms: Bits,
     transitions: BTreeSet<usize>,
-    open: BTreeSet<(Option<usize>, Option<Id<Behavior>>)>,
+    open: BTreeSet<(usize, Option<Id<Behavior>>)>,
     explored: Explored,
 }
 
@@ -105,7 +101,7 @@ impl<'a> Search<'a> {
             world,
             reached: Vec::new(),
             known: FxHashSet::default(),
-            minterms: BTreeSet::new(),
+            minterms: Bits::empty(world.minterms.len()),
             transitions: BTreeSet::new(),
             open: BTreeSet::new(),
             explored: Explored::default(),
@@ -121,6 +117,7 @@ impl<'a> Search<'a> {
             },
             None,
         );
+        let patience = PATIENCE + PATIENCE_PER_ROW * self.world.minterms.len();
         let mut next = 0;
         while let Some(state) = self.reached.get(next).map(|reached| reached.state.clone()) {
             let mut oracle = Oracle::default();
@@ -129,7 +126,7 @@ impl<'a> Search<'a> {
                     return Verdict::Differ(trace);
                 }
                 self.explored.ticks += 1;
-                if self.explored.ticks > PATIENCE {
+                if self.explored.ticks > patience {
                     return Verdict::Undecided(self.summary());
                 }
                 if !oracle.advance() {
@@ -145,7 +142,7 @@ impl<'a> Search<'a> {
         Explored {
             // The state before the first tick is none of its own.
             states: self.reached.len().saturating_sub(1),
-            minterms: self.minterms.len(),
+            minterms: self.minterms.count(),
             transitions: self.transitions.len(),
             open: self.open.len(),
             ..self.explored
@@ -168,16 +165,18 @@ impl<'a> Search<'a> {
         oracle: &mut Oracle,
     ) -> Option<Trace> {
         let (minterm, place) = self.world.find(&state.place, oracle)?;
-        let known = minterm.and_then(|i| self.world.minterms.get(i));
-        self.minterms.extend(minterm);
+        let care = self.world.minterms.get(minterm)?;
+        self.minterms.insert(minterm);
         let mut scene = Scene {
             world: self.world,
-            known,
+            minterm,
+            care,
             place: &place,
             asked: Vec::new(),
             oracle,
             first: None,
             outcome: None,
+            statuses: Vec::new(),
             remembers: false,
             then: Vec::new(),
         };
@@ -237,7 +236,7 @@ impl<'a> Search<'a> {
         }
         steps.reverse();
         Trace {
-            atoms: self.world.atoms.clone(),
+            atoms: self.world.atoms.to_vec(),
             steps,
             valuation,
             left,
@@ -246,19 +245,22 @@ impl<'a> Search<'a> {
     }
 }
 
-/// One tick: both sides see the same values and the same status of the behaviour that they select.
+/// One tick: both sides see the same values, and the same status of every behaviour that they tick. Nothing has moved in
+/// between, so a behaviour answers alike wherever it is ticked.
 struct Scene<'a> {
     world: &'a World<'a>,
-    /// The minterm; `None` where every predicate that is asked may have either value.
-    known: Option<&'a Minterm>,
+    minterm: usize,
+    care: &'a Care<'a>,
     place: &'a Place,
-    /// The values of the atoms that were asked: word, mask, value.
+    /// The values of the free atoms that were asked: known, value.
     asked: Vec<(u64, u64)>,
     oracle: &'a mut Oracle,
     /// What the side that is being ticked has selected.
     first: Option<Id<Behavior>>,
     /// What happens in this tick, with the behaviour that it happens to.
     outcome: Option<(Option<Id<Behavior>>, Outcome)>,
+    /// What further behaviours have answered.
+    statuses: Vec<(Id<Behavior>, Status)>,
     /// Whether the side that is being ticked has memory.
     remembers: bool,
     /// What it has ticked after that.
@@ -271,10 +273,7 @@ impl Scene<'_> {
         self.first = None;
         self.then.clear();
         match side {
-            Player::Policy(policy) => {
-                let choice = self.known.and_then(|minterm| policy.choice(minterm));
-                choice.map(Some)
-            }
+            Player::Policy(choices) => choices.get(self.minterm).copied().flatten().map(Some),
             Player::Tree(runner) => {
                 runner.resume(memory);
                 self.remembers = !memory.is_empty();
@@ -296,38 +295,27 @@ impl Scene<'_> {
 
     /// The values of this tick, false where nobody asked.
     fn valuation(&self) -> Minterm {
-        match self.known {
-            Some(minterm) => minterm.clone(),
-            None => Minterm::new(self.world.atoms.iter().enumerate().map(|(i, atom)| {
-                self.in_history(*atom).unwrap_or_else(|| {
-                    self.asked
-                        .get(i / 64)
-                        .is_some_and(|(mask, value)| mask & value & 1 << (i % 64) != 0)
-                })
-            })),
+        if self.care.free.is_none() {
+            return self.care.minterm.clone();
         }
+        let atoms = self.world.atoms.iter().enumerate();
+        Minterm::new(atoms.map(|(i, atom)| {
+            let (_, value) = self.asked.get(i / 64).copied().unwrap_or_default();
+            self.care.minterm.get(i) || self.in_history(*atom) || value >> (i % 64) & 1 == 1
+        }))
     }
 
-    /// The value of an atom if the window tells it.
-    fn in_history(&self, atom: Atom) -> Option<bool> {
-        match (atom, self.place) {
-            (Atom::Done(_) | Atom::Failed(_), Place::Window(window)) => {
-                Some(in_window(window, atom))
-            }
-            (Atom::Done(_) | Atom::Failed(_), _) => Some(false),
-            (Atom::Predicate(_), _) => None,
-        }
+    /// Whether the window holds what an atom asks.
+    fn in_history(&self, atom: Atom) -> bool {
+        matches!(self.place, Place::Window(window) if in_window(window, atom))
     }
 
-    /// The value of an atom that has no minterm to tell it.
+    /// The value of an atom that the row leaves free.
     fn ask(&mut self, bit: usize) -> bool {
-        if let Some(value) = self
-            .world
-            .atoms
-            .get(bit)
-            .and_then(|atom| self.in_history(*atom))
+        if let Some(atom) = self.world.atoms.get(bit)
+            && self.world.remembers(*atom)
         {
-            return value;
+            return self.in_history(*atom);
         }
         let (word, mask) = (bit / 64, 1u64 << (bit % 64));
         if self.asked.len() <= word {
@@ -344,25 +332,37 @@ impl Scene<'_> {
         }
         *value & mask != 0
     }
+
+    /// The status of a behaviour that is ticked after the one that was selected.
+    fn further(&mut self, behavior: Id<Behavior>) -> Status {
+        let known = self.statuses.iter().find(|(b, _)| *b == behavior);
+        if let Some((_, status)) = known {
+            return *status;
+        }
+        let status = any_status(self.oracle);
+        self.statuses.push((behavior, status));
+        status
+    }
 }
 
 impl Surroundings for Scene<'_> {
     fn matches(&mut self, word: usize, mask: u64, value: u64) -> bool {
-        match self.known {
-            Some(minterm) => minterm.words().get(word).copied().unwrap_or(0) & mask == value,
-            None => (0..64)
-                .filter(|bit| mask >> bit & 1 == 1)
-                .all(|bit| self.ask(word * 64 + bit) == (value >> bit & 1 == 1)),
-        }
+        let of = |minterm: &Minterm| minterm.words().get(word).copied().unwrap_or(0);
+        let free = self.care.free.map_or(0, of) & mask;
+        of(self.care.minterm) & mask & !free == value & !free
+            && (0..64)
+                .filter(|bit| free >> bit & 1 == 1)
+                .all(|bit| self.ask(word * 64 + bit) == (value >> bit & 1 == 1))
     }
 
     fn behavior(&mut self, behavior: Id<Behavior>) -> Status {
-        if self.first.is_some() {
+        if let Some(first) = self.first {
             self.then.push(behavior);
             // Without memory, what comes of further behaviours leaves no trace.
-            return match self.remembers {
-                true => any_status(self.oracle),
-                false => Status::Running,
+            return match &self.outcome {
+                _ if !self.remembers => Status::Running,
+                Some((_, outcome)) if behavior == first => outcome.status,
+                _ => self.further(behavior),
             };
         }
         self.first = Some(behavior);

@@ -47,7 +47,7 @@ pub(super) fn moves(node: &Node) -> Vec<Move> {
 }
 
 /// What the history says once the body has succeeded.
-fn done(body: &Node) -> Option<Atom> {
+pub(super) fn done(body: &Node) -> Option<Atom> {
     match body {
         Node::Behavior(behavior) => Some(Atom::Done(*behavior)),
         Node::Composite {
@@ -60,7 +60,7 @@ fn done(body: &Node) -> Option<Atom> {
 }
 
 /// The memory sequence of two bodies, as one where they are such themselves.
-fn chain(first: &Node, second: &Node) -> Node {
+pub(super) fn chain(first: &Node, second: &Node) -> Node {
     let parts = |body: &Node| match body {
         Node::Composite {
             kind: Composite::Sequence,

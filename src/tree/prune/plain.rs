@@ -1,64 +1,88 @@
-//! Trees of the same size that are easier to read.
+//! Which trees read more plainly, and moves to them that change no size.
 
 use super::guards::{common, negations};
-use super::units::{Unit, needs, put, select, units};
+use super::units::{Unit, needs, select, units};
 use super::{Candidate, Change, Move, Possible, tidy, with_child};
 use crate::ir::tree::{Guard, Node};
 use crate::tree::Size;
 use crate::tree::atoms::children;
-use crate::tree::formula::{and, not};
+use crate::tree::formula::not;
 
-/// Every tree with no more nodes and literals that reads more plainly: with fewer negated literals, and fewer units
-/// that start a behaviour without asking for the predicate outside of which it fails.
-///
-/// They differ from the given one at least where a behaviour fails outright.
+/// What it takes to read a tree; less is better, by the fields in their order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Cost {
+    /// Its nodes, and one more for each unit that does not ask for what its behaviour needs: the reader has to know it.
+    pub nodes: usize,
+    /// How many such units there are.
+    pub unasked: usize,
+    /// Literals.
+    pub literals: usize,
+    /// Depth.
+    pub depth: usize,
+}
+
+impl Cost {
+    /// The cost of a tree.
+    pub fn of(root: &Node, possible: &[Possible]) -> Self {
+        let size = Size::of(root);
+        let unasked = count_unasked(root, possible);
+        Self {
+            nodes: size.nodes + unasked,
+            unasked,
+            literals: size.literals,
+            depth: size.depth,
+        }
+    }
+}
+
+/// Every tree with the same behaviours that costs no more, depth aside, and has fewer negated literals.
 pub fn plainer(root: &Node, possible: &[Possible]) -> Vec<Candidate> {
-    let size = Size::of(root);
-    let odd = oddities(root, possible);
+    let flat = |cost: Cost| Cost { depth: 0, ..cost };
+    let cost = flat(Cost::of(root, possible));
+    let odd = oddities(root);
     let mut found = Vec::new();
-    for (change, node) in everywhere(root, possible) {
-        let root = tidy(node);
-        let same = Size::of(&root);
-        let no_larger = (same.nodes, same.literals) <= (size.nodes, size.literals);
-        if no_larger && oddities(&root, possible) < odd {
-            found.push(Candidate {
-                change,
-                size: same,
-                root,
-            });
+    for (change, node) in everywhere(root) {
+        let candidate = Candidate::new(change, tidy(node), possible);
+        if flat(candidate.cost) <= cost && oddities(&candidate.root) < odd {
+            found.push(candidate);
         }
     }
     found
 }
 
-/// Negated literals, and units that do not ask for what their behaviour needs.
-pub fn oddities(node: &Node, possible: &[Possible]) -> usize {
+/// Negated literals.
+pub fn oddities(node: &Node) -> usize {
     let own = match node {
         Node::Condition(guard) => negations(guard),
-        node => units(node)
-            .unwrap_or_default()
-            .iter()
-            .filter(|unit| unasked(unit, possible).is_some())
-            .count(),
+        _ => 0,
     };
+    own + children(node).iter().map(oddities).sum::<usize>()
+}
+
+/// Units that start a behaviour without asking for the predicate outside of which it fails.
+fn count_unasked(node: &Node, possible: &[Possible]) -> usize {
+    let own = units(node).unwrap_or_default();
+    let own = own.iter().filter(|unit| unasked(unit, possible).is_some());
     let below = children(node).iter();
-    own + below.map(|child| oddities(child, possible)).sum::<usize>()
+    own.count()
+        + below
+            .map(|child| count_unasked(child, possible))
+            .sum::<usize>()
 }
 
 /// What the behaviour of a unit needs and its guard does not ask for.
-fn unasked(unit: &Unit, possible: &[Possible]) -> Option<Guard> {
+pub(super) fn unasked(unit: &Unit, possible: &[Possible]) -> Option<Guard> {
     let needs = needs(&unit.body, possible)?;
     (!common(&unit.guard).0.contains(&needs)).then_some(needs)
 }
 
-fn everywhere(node: &Node, possible: &[Possible]) -> Vec<Move> {
+fn everywhere(node: &Node) -> Vec<Move> {
     let mut found = Vec::new();
     if let Some(units) = units(node) {
         turned(&units, &mut found);
-        asked(&units, possible, &mut found);
     }
     for (i, child) in children(node).iter().enumerate() {
-        let below = everywhere(child, possible).into_iter();
+        let below = everywhere(child).into_iter();
         found.extend(below.map(|(change, moved)| (change, with_child(node, i, moved))));
     }
     found
@@ -78,31 +102,5 @@ fn turned(units: &[Unit], found: &mut Vec<Move>) {
         let before = units.iter().take(i).cloned();
         let units = before.chain([first, unit.under(Guard::Const(true))]);
         found.push((Change::Turned, select(units.collect())));
-    }
-}
-
-/// What a behaviour needs in the place of one part of its guard, or in the place of the guard before the last unit,
-/// which then comes last.
-fn asked(units: &[Unit], possible: &[Possible], found: &mut Vec<Move>) {
-    for (i, unit) in units.iter().enumerate() {
-        let Some(needs) = unasked(unit, possible) else {
-            continue;
-        };
-        let parts = super::tidy::parts(&unit.guard);
-        for at in 0..parts.len() {
-            let kept = parts.iter().enumerate().filter(|(j, _)| *j != at);
-            let kept = kept.map(|(_, part)| part.clone());
-            let guard = and(kept.chain([needs.clone()]));
-            found.push((Change::Possible, select(put(units, i, unit.under(guard)))));
-        }
-        if parts.is_empty()
-            && i + 1 == units.len()
-            && let Some(before) = i.checked_sub(1)
-            && let Some(resort) = units.get(before)
-        {
-            let asked = put(units, before, unit.under(needs));
-            let units = put(&asked, i, resort.under(Guard::Const(true)));
-            found.push((Change::Possible, select(units)));
-        }
     }
 }

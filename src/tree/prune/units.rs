@@ -1,6 +1,7 @@
 //! Moves over the units of a selector.
 
 use super::guards::{common, either, literals, parts};
+use super::plain::unasked;
 use super::{Change, Move, Possible};
 use crate::ir::tree::{Composite, Guard, Node};
 use crate::tree::formula::{and, guarded};
@@ -140,13 +141,23 @@ pub(super) fn needs(body: &Node, possible: &[Possible]) -> Option<Guard> {
     }
 }
 
-/// `X` only where it is possible: that predicate for the whole guard, alone or with one of the guard's literals.
+/// `X` only where it is possible: that predicate beside the guard, in the place of one part of it, or for all of it,
+/// alone or with one of the guard's literals.
 fn where_possible(units: &[Unit], possible: &[Possible], found: &mut Vec<Move>) {
     for (i, unit) in units.iter().enumerate() {
         let Some(needs) = needs(&unit.body, possible) else {
             continue;
         };
         let mut guards = vec![needs.clone()];
+        if unasked(unit, possible).is_some() {
+            let parts = super::tidy::parts(&unit.guard);
+            guards.push(and(parts.iter().cloned().chain([needs.clone()])));
+            for at in 0..parts.len() {
+                let kept = parts.iter().enumerate().filter(|(j, _)| *j != at);
+                let kept = kept.map(|(_, part)| part.clone());
+                guards.push(and(kept.chain([needs.clone()])));
+            }
+        }
         guards.extend(
             literals(&unit.guard)
                 .into_iter()

@@ -53,7 +53,7 @@ pub(crate) fn memory_sequence(children: Vec<Node>) -> Node {
     composite(Composite::Sequence, true, children)
 }
 
-fn composite(kind: Composite, memory: bool, children: Vec<Node>) -> Node {
+pub(crate) fn composite(kind: Composite, memory: bool, children: Vec<Node>) -> Node {
     Node::Composite {
         kind,
         memory,

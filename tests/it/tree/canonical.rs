@@ -1,22 +1,28 @@
 //! The canonical forms of the paper's section IV, and what has none.
 
 use super::build::{
-    condition, decorated, done, failed, leaf, memory_selector, memory_sequence, not, p, parallel,
-    selector, sequence, when,
+    asked, condition, decorated, done, failed, leaf, memory_selector, memory_sequence, not, p,
+    parallel, selector, sequence, when,
 };
+use super::grown::Soil;
+use super::random::{Random, policy};
+use super::walk::holds;
 use btc::ir::Id;
+use btc::ir::law::Behavior;
 use btc::ir::task::History;
 use btc::ir::tree::{Atom, Composite, Decorator, Guard, Node};
 use btc::tree::canonicalise::{Reason, canonicalise};
+use btc::tree::decanonicalise::{Care, Method, decanonicalise};
 use btc::tree::equivalence::{Environment, Side, Verdict, compare};
 
-/// The units of a tree have guards that are equal to these under every valuation.
+/// The units of a tree have guards that are equal to these under every valuation, and no longer.
 fn check(root: &Node, units: &[(Guard, usize)]) {
     let canonical = canonicalise(root).unwrap();
     let found: Vec<usize> = canonical.units.iter().map(|u| u.behavior.index()).collect();
     let expected: Vec<usize> = units.iter().map(|(_, b)| *b).collect();
     assert_eq!(found, expected);
     for (unit, (guard, _)) in canonical.units.iter().zip(units) {
+        assert!(literals(&unit.guard) <= literals(guard), "{unit:?}");
         for bits in 0..1_u32 << 12 {
             let mut holds = |atom: Atom| {
                 let bit = match atom {
@@ -40,6 +46,12 @@ fn and(guards: Vec<Guard>) -> Guard {
     Guard::And(guards)
 }
 
+fn literals(guard: &Guard) -> usize {
+    let mut count = 0;
+    guard.visit_atoms(&mut |_| count += 1);
+    count
+}
+
 #[test]
 fn figure_3_conditions_at_several_levels() {
     let root = sequence(vec![
@@ -51,7 +63,10 @@ fn figure_3_conditions_at_several_levels() {
         leaf(0),
     ]);
     let guard = and(vec![p(0), Guard::Or(vec![p(1), and(vec![p(2), p(3)])])]);
-    check(&root, &[(guard, 0)]);
+    check(&root, &[(guard.clone(), 0)]);
+    // It reads as in the figure.
+    let canonical = canonicalise(&root).unwrap();
+    assert_eq!(canonical.tree(), when(guard, leaf(0)));
 }
 
 #[test]
@@ -147,15 +162,213 @@ fn what_depends_on_more_than_predicates_is_an_error_with_a_place() {
             Reason::Passed(Composite::Sequence),
         ),
         (
+            memory_selector(vec![leaf(0), when(p(0), leaf(1)), leaf(2)]),
+            vec![1],
+            Reason::Passed(Composite::Selector),
+        ),
+        (
             memory_sequence(vec![leaf(0), leaf(1), leaf(0)]),
             vec![2],
             Reason::Twice(Id::new(0)),
         ),
+        (
+            // Which of the two has failed, and whether the other was ticked after it, the history does not tell.
+            memory_selector(vec![
+                selector(vec![when(p(0), leaf(0)), when(not(p(0)), leaf(1))]),
+                leaf(2),
+            ]),
+            vec![0],
+            Reason::Failure,
+        ),
+        (
+            when(p(0), decorated(Decorator::Repeat(2), leaf(0))),
+            vec![1],
+            Reason::Counting(Decorator::Repeat(2)),
+        ),
+        (
+            when(p(0), decorated(Decorator::Timeout(2), leaf(0))),
+            vec![1],
+            Reason::Counting(Decorator::Timeout(2)),
+        ),
+        (entangled(60), vec![], Reason::Large(Id::new(16))),
     ];
     for (root, path, reason) in cases {
         let found = canonicalise(&root).unwrap_err();
         assert_eq!((&found.path, found.reason), (&path, reason), "{root:?}");
         assert!(!found.message().is_empty());
+    }
+}
+
+/// A nesting in which each level needs both answers of the one below: written out, guards grow as Fibonacci's numbers.
+fn entangled(levels: usize) -> Node {
+    let mut node = selector(vec![when(p(0), leaf(0)), condition(p(1))]);
+    for level in 1..levels {
+        let below = sequence(vec![node, condition(p(2 * level))]);
+        let beside = when(p(2 * level + 1), leaf(level));
+        node = decorated(Decorator::Invert, selector(vec![below, beside]));
+    }
+    node
+}
+
+#[test]
+fn a_deep_tree_has_short_guards() {
+    let mut node = leaf(0);
+    for level in 0..100 {
+        node = match level % 2 {
+            0 => sequence(vec![condition(p(level % 7)), node]),
+            _ => selector(vec![when(p(level % 5), leaf(1)), node]),
+        };
+    }
+    let canonical = canonicalise(&node).unwrap();
+    let lengths = canonical.units.iter().map(|unit| literals(&unit.guard));
+    assert!(lengths.max() <= Some(14), "{canonical:?}");
+}
+
+/// What a tree does where every memory node stands behind the last of its children that the history shows to have ended.
+fn reading(node: &Node, holds: &dyn Fn(Atom) -> bool) -> Result<Id<Behavior>, bool> {
+    match node {
+        Node::Condition(guard) => Err(guard.eval(&mut |atom| holds(atom))),
+        Node::Behavior(behavior) => Ok(*behavior),
+        Node::Composite {
+            kind,
+            memory,
+            children,
+        } => {
+            let onward = *kind == Composite::Sequence;
+            let first = match memory {
+                true => (1..children.len())
+                    .rev()
+                    .find(|i| ends(&children[i - 1], onward).into_iter().any(holds))
+                    .unwrap_or(0),
+                false => 0,
+            };
+            for child in &children[first..] {
+                match reading(child, holds) {
+                    Err(answer) if answer == onward => {}
+                    found => return found,
+                }
+            }
+            Err(onward)
+        }
+        Node::Decorator { kind, child } => reading(child, holds).map_err(|answer| match kind {
+            Decorator::Invert => !answer,
+            Decorator::Succeed => true,
+            _ => false,
+        }),
+        Node::Parallel { .. } => panic!("has no canonical form"),
+    }
+}
+
+/// The terminations by which a node succeeds, or fails.
+fn ends(node: &Node, success: bool) -> Vec<Atom> {
+    match node {
+        Node::Condition(_) => vec![],
+        Node::Behavior(b) if success => vec![Atom::Done(*b)],
+        Node::Behavior(b) => vec![Atom::Failed(*b)],
+        Node::Composite { kind, children, .. } => {
+            let by_last = success == (*kind == Composite::Sequence);
+            let from = if by_last { children.len() - 1 } else { 0 };
+            let ending = children[from..].iter();
+            ending.flat_map(|child| ends(child, success)).collect()
+        }
+        Node::Decorator { kind, child } => match kind {
+            Decorator::Invert => ends(child, !success),
+            Decorator::Succeed if success => [ends(child, true), ends(child, false)].concat(),
+            Decorator::Fail if !success => [ends(child, true), ends(child, false)].concat(),
+            _ => vec![],
+        },
+        Node::Parallel { .. } => panic!("has no canonical form"),
+    }
+}
+
+#[test]
+fn canonical_forms_of_random_trees_select_as_the_trees_read() {
+    let mut units = 0;
+    for seed in 1..=300 {
+        let random = &mut Random::new(seed);
+        let soil = Soil {
+            predicates: 3,
+            behaviors: 4,
+            history: random.chance(30),
+            memory: true,
+            wild: false,
+        };
+        let root = match random.chance(70) {
+            true => soil.guarded(random, 2),
+            false => soil.tree(random, 3),
+        };
+        let Ok(canonical) = canonicalise(&root) else {
+            continue;
+        };
+        units += canonical.units.len();
+        for bits in 0..1_u32 << 11 {
+            let holds = |atom: Atom| {
+                let bit = match atom {
+                    Atom::Predicate(id) => id.index(),
+                    Atom::Done(id) => 3 + id.index(),
+                    Atom::Failed(id) => 7 + id.index(),
+                };
+                bits >> bit & 1 == 1
+            };
+            let reads = reading(&root, &holds).ok();
+            let selects: Vec<Id<Behavior>> = canonical
+                .units
+                .iter()
+                .filter(|unit| unit.guard.eval(&mut |atom| holds(atom)))
+                .map(|unit| unit.behavior)
+                .collect();
+            // One unit a behaviour, and no two guards at a time.
+            assert_eq!(selects, Vec::from_iter(reads), "seed {seed}: {root:?}");
+        }
+    }
+    assert!(units > 500, "{units}");
+}
+
+#[test]
+fn canonical_forms_of_trees_without_memory_are_equal_whatever_happens() {
+    for seed in 1..=200 {
+        let random = &mut Random::new(seed);
+        let soil = Soil {
+            predicates: 6,
+            behaviors: 5,
+            history: true,
+            memory: false,
+            wild: false,
+        };
+        let root = soil.guarded(random, 2);
+        let history = History {
+            window: 1 + random.below(2),
+            success: true,
+            failure: true,
+        };
+        let verdict = with_canonical(&root, history);
+        assert!(
+            matches!(verdict, Verdict::Equal(_)),
+            "{verdict:?}: {root:?}"
+        );
+    }
+}
+
+#[test]
+fn decanonicalised_and_canonicalised_again_a_policy_is_what_it_was() {
+    for seed in 1..=150 {
+        let policy = policy(seed);
+        for method in [Method::Paper, Method::Search] {
+            let found = decanonicalise(&policy, &asked(method, Care::Seen)).unwrap();
+            let canonical = canonicalise(&found.root).unwrap();
+            for row in &policy.rows {
+                let here = holds(&policy.atoms, &row.minterm);
+                let selects = canonical.select(&mut |atom| here(atom));
+                assert_eq!(selects, Some(row.behavior), "seed {seed}, {method:?}: P1");
+            }
+            let compared = compare(
+                Side::Tree(&canonical.tree()),
+                Side::Policy(&policy),
+                Environment::Greedy(&policy),
+            );
+            let equal = matches!(compared, Ok(Verdict::Equal(_)));
+            assert!(equal, "seed {seed}, {method:?}: P2 {compared:?}");
+        }
     }
 }
 

@@ -5,7 +5,7 @@ use super::small_delivery;
 use crate::snapshot::check;
 use btc::ir::law::Behavior;
 use btc::ir::program::{Predicate, Program};
-use btc::policy::sheet::{TableError, TableErrorKind};
+use btc::policy::error::{TableError, TableErrorKind};
 use btc::policy::{Policy, Value, decisions, evidence, transitions};
 
 /// A program with names as families have them.
@@ -91,9 +91,11 @@ fn a_dash_stands_for_both_values() {
     assert_eq!(policy.history.window, 0);
 }
 
-/// Reads a wrong table; gives the text that the error is about, and the error.
+/// Reads a wrong table with one mistake; gives the text that it is about, and what it is.
 fn mistake(text: &str) -> (String, TableErrorKind) {
-    let TableError { span, kind } = decisions::read(text, &program(), None).unwrap_err();
+    let mut mistakes = decisions::read(text, &program(), None).unwrap_err();
+    assert_eq!(mistakes.len(), 1, "{mistakes:?}");
+    let TableError { span, kind } = mistakes.remove(0);
     (text[span].to_owned(), kind)
 }
 
@@ -104,12 +106,12 @@ fn mistakes_have_a_place() {
         (
             "0,1,goto(A)\n0,1,goto(B)\n",
             "0,1,goto(B)",
-            "Contradiction { earlier: 38..49 }",
+            "Contradiction { earlier: 38..49, overlap: None }",
         ),
         (
             "0,1,goto(A)\n0,-,goto(B)\n",
             "0,-,goto(B)",
-            "Contradiction { earlier: 38..49 }",
+            "Contradiction { earlier: 38..49, overlap: Some(\"carrying_package = 0, battery_low = 1\") }",
         ),
         ("0,1\n", "0,1", "Ragged { found: 2, expected: 3 }"),
         (
@@ -147,7 +149,7 @@ fn mistakes_have_a_place() {
         (at.as_str(), kind),
         ("carrying", TableErrorKind::UnknownColumn("carrying".into()))
     );
-    let (at, kind) = mistake("battery_low,battery_low,behavior\n");
+    let (at, kind) = mistake("battery_low,battery_low,behavior\n1,1,goto(A)\n");
     assert_eq!(
         (at.as_str(), kind),
         (
@@ -160,7 +162,10 @@ fn mistakes_have_a_place() {
         (at.as_str(), kind),
         (
             "battery_low",
-            TableErrorKind::MissingColumn("behavior".into())
+            TableErrorKind::MissingColumn {
+                name: "behavior".into(),
+                likely: None
+            }
         )
     );
     assert!(decisions::read("", &program(), None).is_err());

@@ -148,7 +148,7 @@ fn decorators_count_ticks_that_reach_them() {
     check(
         &retry,
         &[
-            "00:0=F>R", "00:0=R>R", "00:0=F>R", "00:0=F>F", "00:0=F>R", "00:0=S>S",
+            "00:0=F>R", "00:0=R>R", "00:0=F>F", "00:0=F>R", "00:0=S>S", "00:0=F>R",
         ],
     );
     let repeat = decorated(Decorator::Repeat(2), leaf(0));

@@ -1,0 +1,55 @@
+//! `btc canonicalize`
+
+use super::Failure;
+use super::files::{self, STDIN};
+use super::report::{Reporter, tell};
+use crate::driver::canonicalize::{self, Form};
+use clap::{Args, ValueEnum};
+use std::path::{Path, PathBuf};
+
+#[derive(Debug, Args)]
+pub(super) struct Arguments {
+    /// The program; `-` is standard input.
+    file: String,
+    /// The tree.
+    #[arg(long, value_name = "NAME")]
+    tree: String,
+    /// The form to write.
+    #[arg(long, value_name = "FORM", default_value = "bt")]
+    emit: Emit,
+    /// The file to write to, in the place of standard output.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Emit {
+    /// A program with the canonical tree: a selector of units, one for each behaviour.
+    Bt,
+    /// The policy table that the tree stands for: a row for each of its cubes, no two of which overlap.
+    Csv,
+}
+
+pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {
+    let loaded = files::load(&arguments.file, say)?;
+    let path = match &arguments.output {
+        _ if arguments.file == STDIN => None,
+        None => Some(arguments.file.clone()),
+        Some(output) => {
+            let folder = output
+                .parent()
+                .filter(|folder| !folder.as_os_str().is_empty());
+            let folder = folder.unwrap_or_else(|| Path::new("."));
+            Some(files::from_folder(folder, Path::new(&arguments.file))?)
+        }
+    };
+    let form = match arguments.emit {
+        Emit::Bt => Form::Bt(path.as_deref()),
+        Emit::Csv => Form::Csv,
+    };
+    let (text, warning) = canonicalize::canonicalize(&loaded, &arguments.tree, form)
+        .map_err(|mistake| say.one(&loaded.sources, mistake))?;
+    files::put(arguments.output.as_deref(), &text)?;
+    warning.iter().for_each(|line| tell(line));
+    Ok(())
+}

@@ -1,0 +1,133 @@
+//! `btc canonicalize`: any tree as a canonical one (paper, section IV), or as the policy table that it stands for.
+
+use super::export;
+use super::load::Loaded;
+use super::target;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::emit;
+use crate::ir::Program;
+use crate::ir::tree::{Atom, Node, Tree};
+use crate::policy::{Minterm, Policy, Row, decisions};
+use crate::syntax::print;
+use crate::tree::atoms::atoms;
+use crate::tree::canonicalise::{Canonical, Irreducible, canonicalise};
+
+/// What is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form<'f> {
+    /// A program with the canonical tree. What the tree mentions is declared, or found in the file that this path leads
+    /// to from the place of the result; without a path, the whole of the program stands before it.
+    Bt(Option<&'f str>),
+    /// The policy table: cubes that do not overlap.
+    Csv,
+}
+
+/// The canonical form of a tree, with what a person has to know of it.
+///
+/// # Errors
+/// There is no such tree, or it has no canonical form: with the node that hinders it, and why.
+pub fn canonicalize(
+    loaded: &Loaded,
+    name: &str,
+    form: Form,
+) -> Result<(String, Option<String>), Diagnostic> {
+    let id = target::tree(loaded, name)?;
+    let tree = &loaded.program.trees[id];
+    let canonical = canonicalise(&tree.root).map_err(|why| irreducible(loaded, tree, &why))?;
+    if canonical.units.is_empty() {
+        let note = format!("`{}` selects nothing in any minterm", tree.name);
+        let message = format!("`{}` has no canonical form", tree.name);
+        return Err(
+            Diagnostic::new(Code::E0819, export::place(loaded, tree, &[]), message).label(note),
+        );
+    }
+    match form {
+        Form::Csv => Ok(table(&loaded.program, tree, &canonical)),
+        Form::Bt(path) => Ok((file(loaded, tree, &canonical, path), None)),
+    }
+}
+
+/// The canonical tree in a program.
+fn file(loaded: &Loaded, tree: &Tree, canonical: &Canonical, path: Option<&str>) -> String {
+    let program = &loaded.program;
+    let plain = tree.name.trim_matches('`');
+    let name = print::name(&format!("{plain}_canonical"));
+    let memory = if tree.root.remembers() {
+        ", with memory read from the history"
+    } else {
+        ""
+    };
+    let docs = vec![format!("The canonical form of `{plain}`{memory}.")];
+    let root = canonical.tree();
+    if is_declared_only(program) {
+        let mut program = program.clone();
+        program.trees = std::iter::once(Tree {
+            name,
+            docs,
+            task: None,
+            root,
+        })
+        .collect();
+        return emit::bt::declared(&program, &["Made by `btc canonicalize`.".to_owned()]);
+    }
+    let task = tree.task.map(|task| program.tasks[task].name.as_str());
+    let item = emit::bt::tree(program, &name, &docs, task, &root);
+    match path {
+        Some(path) => format!("//! Made by `btc canonicalize`.\nuse \"{path}\"\n\n{item}"),
+        None => {
+            let text = loaded.sources.get(loaded.main).map(|s| s.text.as_str());
+            format!("{}\n{item}", print::file(&loaded.ast, text))
+        }
+    }
+}
+
+/// Whether a program says nothing of its names but that they are there.
+fn is_declared_only(program: &Program) -> bool {
+    program.world.is_none()
+        && program.tasks.is_empty()
+        && program.predicates.values().all(|p| p.when.is_none())
+        && program.behaviors.values().all(|b| b.law.is_none())
+}
+
+/// The policy table of a tree.
+fn table(program: &Program, tree: &Tree, canonical: &Canonical) -> (String, Option<String>) {
+    let asked = canonical
+        .units
+        .iter()
+        .map(|unit| Node::Condition(unit.guard.clone()));
+    let atoms: Vec<Atom> = asked
+        .flat_map(|condition| atoms(&condition))
+        .collect::<std::collections::BTreeSet<Atom>>()
+        .into_iter()
+        .collect();
+    let window = tree.task.map(|task| program.tasks[task].history.window);
+    let cubes = canonical.table(&atoms, window);
+    let rows = cubes.iter().map(|(cube, behavior)| {
+        let free = cube.iter().any(Option::is_none);
+        Row {
+            minterm: Minterm::new(cube.iter().map(|value| *value == Some(true))),
+            free: free.then(|| Minterm::new(cube.iter().map(Option::is_none))),
+            behavior: *behavior,
+            visits: 0,
+            values: Vec::new(),
+        }
+    });
+    let policy = Policy {
+        rows: rows.collect(),
+        atoms,
+        ..Policy::default()
+    };
+    let warning = (!canonical.is_total(&policy.atoms, window)).then(|| {
+        format!(
+            "warning: `{}` selects nothing in some minterms, and these have no row",
+            tree.name.trim_matches('`')
+        )
+    });
+    (decisions::write_bare(&policy, program), warning)
+}
+
+fn irreducible(loaded: &Loaded, tree: &Tree, why: &Irreducible) -> Diagnostic {
+    let message = format!("`{}` has no canonical form", tree.name.trim_matches('`'));
+    Diagnostic::new(Code::E0819, export::place(loaded, tree, &why.path), message)
+        .label(why.message())
+}

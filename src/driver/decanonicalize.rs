@@ -1,0 +1,241 @@
+//! `btc decanonicalize`: from a policy table of any origin to a proved tree, in a program that declares its names.
+
+use super::compile::{self, Form};
+use super::load::{self, Loaded, Reader};
+use super::slack::{self, Slack};
+use super::table::{self, Refused, Text};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::emit;
+use crate::ir::Program;
+use crate::ir::tree::Tree;
+use crate::policy::table::{AtomName, Table};
+use crate::policy::{Policy, decisions};
+use crate::source::{FileId, Span};
+use crate::syntax::print;
+use crate::tree::decanonicalise::{self, Care, Decanonicalised, Method, Order};
+use crate::tree::prove::Refuted;
+
+mod report;
+
+pub(super) use report::rows;
+
+/// What a user may say beside the table.
+#[derive(Clone, Copy, Debug)]
+pub struct Options<'o> {
+    /// How the tree is found.
+    pub method: Method,
+    /// In which order its units stand.
+    pub order: Order,
+    /// How much work the search may take; see [`decanonicalise::Options::effort`].
+    pub effort: u64,
+    /// How much less than the table's decision another may be worth; 0 for a tree that is equal to the table.
+    pub slack: f64,
+    /// The name of the tree.
+    pub name: &'o str,
+    /// What is written.
+    pub form: Form,
+}
+
+/// What is known of the process under the policy.
+#[derive(Clone, Copy, Debug)]
+pub struct Recorded<'t> {
+    /// Greedy transitions, with start minterms or without.
+    pub transitions: Text<'t>,
+    /// Start minterms.
+    pub starts: Option<Text<'t>>,
+}
+
+/// A policy with a program that declares its names. The texts that it was read from are no longer needed.
+#[derive(Clone, Debug)]
+pub struct Asked {
+    program: Program,
+    policy: Policy,
+    /// How the table is called.
+    source: String,
+}
+
+/// What was made of a table.
+#[derive(Clone, Debug)]
+pub struct Made {
+    /// The tree, in the form that was asked for.
+    pub text: String,
+    /// What a person has to know.
+    pub warnings: Vec<String>,
+    /// What a person may want to know, in lines.
+    pub report: Vec<String>,
+}
+
+/// Reads a table, and what is known of the process under it.
+///
+/// # Errors
+/// What is wrong with the texts, with the places.
+pub fn read(text: Text, recorded: Option<Recorded>, options: &Options) -> Result<Asked, Refused> {
+    let read = table::read(text)?;
+    let at_header = |code, message: String| {
+        let span = |file| Span::new(file, read.header.start, read.header.end);
+        move |file: FileId| Diagnostic::new(code, span(file), message)
+    };
+    if options.slack > 0.0 && !read.has_values() {
+        let told = at_header(
+            Code::E0817,
+            "slack needs the values of the behaviours".to_owned(),
+        );
+        let help = "a column `q:NAME` for each behaviour says what it is worth";
+        return Err(Refused::new(text, |file| vec![told(file).help(help)]));
+    }
+    if let Some(what) = names(&read, options.name) {
+        let told = at_header(
+            Code::E0816,
+            format!("`{}` is the tree and {what}", options.name),
+        );
+        let help = "call the tree otherwise, with `--name NAME`";
+        return Err(Refused::new(text, |file| vec![told(file).help(help)]));
+    }
+    let (program, policy) = decisions::declared(&read, print::name);
+    let mut asked = Asked {
+        program,
+        policy,
+        source: called(text.name),
+    };
+    if let Some(recorded) = recorded {
+        table::record(
+            &mut asked.policy,
+            &asked.program,
+            recorded.transitions,
+            recorded.starts,
+        )?;
+    }
+    Ok(asked)
+}
+
+/// What of a table is called so.
+fn names(table: &Table, name: &str) -> Option<&'static str> {
+    let predicate = AtomName::Predicate(name.to_owned());
+    if table.atoms.iter().any(|(atom, _)| *atom == predicate) {
+        Some("a predicate")
+    } else if table.behaviors.iter().any(|(known, _)| known == name) {
+        Some("a behaviour")
+    } else {
+        None
+    }
+}
+
+/// The last part of a path; standard input has none.
+fn called(name: &str) -> String {
+    match name.rsplit('/').next() {
+        Some("<stdin>") | None => "a table".to_owned(),
+        Some(last) => last.to_owned(),
+    }
+}
+
+/// Makes the tree and proves it.
+///
+/// # Errors
+/// The tree is refuted, which is a mistake of btc.
+pub fn decanonicalize(asked: Asked, options: &Options) -> Result<Made, Refused> {
+    let wanted = decanonicalise::Options {
+        method: options.method,
+        care: Care::Seen,
+        order: options.order,
+        effort: options.effort,
+    };
+    let Asked {
+        mut program,
+        policy,
+        source,
+    } = asked;
+    let refused = |refuted: Refuted| internal(&source, &format!("{refuted:?}"));
+    let exact = decanonicalise::decanonicalise(&policy, &wanted).map_err(refused)?;
+    let slack = if options.slack > 0.0 {
+        slack::loosen(&policy, &exact, &wanted, options.slack)
+    } else {
+        None
+    };
+    let found = slack.as_ref().map_or(&exact, |slack| &slack.found);
+    let docs = vec![doc(&source, &policy, found, slack.as_ref(), options.slack)];
+    program.trees.push(Tree {
+        name: print::name(options.name),
+        docs,
+        task: None,
+        root: found.root.clone(),
+    });
+    let file = emit::bt::declared(
+        &program,
+        &[format!("Made by `btc decanonicalize` from {source}.")],
+    );
+    let loaded = load::load(options.name, file.clone().into_bytes(), &mut Alone);
+    let text = written(&loaded, file, options)?;
+    let subject = report::Subject {
+        program: &program,
+        policy: &policy,
+        exact: &exact,
+        slack: slack.as_ref(),
+        allowed: options.slack,
+    };
+    Ok(Made {
+        text,
+        warnings: subject.warnings(),
+        report: subject.lines(),
+    })
+}
+
+/// The program in the form that was asked for.
+fn written(loaded: &Loaded, file: String, options: &Options) -> Result<String, Refused> {
+    let refused = |diagnostics| Refused {
+        sources: loaded.sources.clone(),
+        diagnostics,
+    };
+    if loaded.has_errors() {
+        return Err(refused(loaded.diagnostics.clone()));
+    }
+    match options.form {
+        Form::Bt => Ok(file),
+        form => compile::emit(loaded, form, Some(options.name))
+            .map_err(|mistake| refused(vec![mistake])),
+    }
+}
+
+/// Where the tree comes from and what was proved of it.
+fn doc(
+    source: &str,
+    policy: &Policy,
+    found: &Decanonicalised,
+    slack: Option<&Slack>,
+    allowed: f64,
+) -> String {
+    let of = rows(policy);
+    if let Some(slack) = slack {
+        let otherwise = slack.otherwise.len();
+        return format!(
+            "Made from {source} with a slack of {allowed}, and NOT equal to it: it decides {otherwise} of {of} otherwise."
+        );
+    }
+    format!(
+        "Made from {source}: proved on {}.",
+        report::proved(policy, found)
+    )
+}
+
+/// The program needs no other files.
+struct Alone;
+
+impl Reader for Alone {
+    fn read(&mut self, _: &str) -> Result<Vec<u8>, String> {
+        Err("no other file is needed".to_owned())
+    }
+}
+
+/// A mistake of btc.
+fn internal(source: &str, why: &str) -> Refused {
+    let nothing = Text {
+        name: source,
+        bytes: b"",
+    };
+    Refused::new(nothing, |file| {
+        let message = format!("the tree that was found is not equal to the table: {why}");
+        vec![
+            Diagnostic::new(Code::E0609, Span::new(file, 0, 0), message)
+                .note("this is a mistake of btc itself; please report it with the table"),
+        ]
+    })
+}

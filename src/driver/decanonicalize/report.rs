@@ -1,0 +1,146 @@
+//! What a person wants to know of a tree that was made from a table.
+
+use crate::driver::compile::counted;
+use crate::driver::learn::minterm_text;
+use crate::driver::slack::Slack;
+use crate::ir::Program;
+use crate::policy::Policy;
+use crate::tree::Size;
+use crate::tree::decanonicalise::Decanonicalised;
+
+/// What is reported.
+pub(super) struct Subject<'a> {
+    pub(super) program: &'a Program,
+    pub(super) policy: &'a Policy,
+    pub(super) exact: &'a Decanonicalised,
+    pub(super) slack: Option<&'a Slack>,
+    /// The slack that was given; 0 for none.
+    pub(super) allowed: f64,
+}
+
+impl Subject<'_> {
+    /// Every minterm that the tree decides otherwise than the table.
+    pub(super) fn warnings(&self) -> Vec<String> {
+        let Some(slack) = self.slack else {
+            return Vec::new();
+        };
+        let name = |id| self.program.behaviors[id].name.as_str();
+        let mut lines = vec![format!(
+            "warning: the tree is NOT equal to the table: it decides {} of {} otherwise",
+            slack.otherwise.len(),
+            rows(self.policy)
+        )];
+        lines.extend(slack.otherwise.iter().filter_map(|change| {
+            let row = self.policy.rows.get(change.row)?;
+            Some(format!(
+                "  {} in the place of {}, worth {:.4} less, in {}",
+                name(change.tree),
+                name(row.behavior),
+                change.loss,
+                minterm_text(self.program, self.policy, &row.minterm)
+            ))
+        }));
+        lines
+    }
+
+    /// The report in lines.
+    pub(super) fn lines(&self) -> Vec<String> {
+        let policy = self.policy;
+        let mut lines = Vec::new();
+        let mut line = |title: &str, text: String| lines.push(format!("{title:<12} {text}"));
+        line(
+            "table",
+            format!(
+                "{} over {}, {}",
+                rows(policy),
+                counted(policy.atoms.len(), "atom"),
+                counted(policy.behaviors.len(), "behaviour")
+            ),
+        );
+        line("paper", size(&self.exact.paper_size));
+        line("tree", size(&self.exact.size));
+        line("proved", format!("on {}", proved(policy, self.exact)));
+        match self.slack {
+            Some(slack) => line(
+                "slack",
+                format!(
+                    "{}: {}, not equal to the table",
+                    self.allowed,
+                    size(&slack.found.size)
+                ),
+            ),
+            None if self.allowed > 0.0 => line(
+                "slack",
+                format!(
+                    "{}: no smaller tree, so the tree is the exact one",
+                    self.allowed
+                ),
+            ),
+            None => {}
+        }
+        for failing in &self.exact.failing {
+            let then = failing.then.iter().map(|next| match next {
+                Some(id) => self.program.behaviors[*id].name.as_str(),
+                None => "nothing",
+            });
+            line(
+                "fails",
+                format!(
+                    "{} failed outright {} times ({} with no change) in {}; the tree goes on to {}",
+                    self.program.behaviors[failing.behavior].name,
+                    failing.count,
+                    failing.repeated,
+                    minterm_text(self.program, policy, &failing.minterm),
+                    then.collect::<Vec<_>>().join(" or "),
+                ),
+            );
+        }
+        lines
+    }
+}
+
+/// How much of a table there is, in words.
+pub(in crate::driver) fn rows(policy: &Policy) -> String {
+    let cubes = policy.rows.iter().filter(|row| row.free.is_some()).count();
+    match cubes {
+        0 => counted(policy.rows.len(), "minterm"),
+        _ => format!(
+            "{} ({cubes} of them cubes)",
+            counted(policy.rows.len(), "row")
+        ),
+    }
+}
+
+/// What was proved of a tree, in words.
+pub(super) fn proved(policy: &Policy, found: &Decanonicalised) -> String {
+    let proof = &found.proof;
+    if proof.recorded {
+        let closed = if proof.closed {
+            "closed under them"
+        } else {
+            "not closed under them"
+        };
+        return format!(
+            "{} of the table and {}, {closed}",
+            rows(policy),
+            counted(proof.transitions, "transition")
+        );
+    }
+    let of = format!("{} of the table", rows(policy));
+    if found.root.remembers() {
+        let window = policy.history.window;
+        return format!(
+            "{of}, with memory in any environment consistent with a history of {window}"
+        );
+    }
+    of
+}
+
+fn size(size: &Size) -> String {
+    format!(
+        "{}, {}, depth {}",
+        counted(size.nodes, "node"),
+        counted(size.literals, "literal"),
+        size.depth
+    )
+}

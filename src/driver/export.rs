@@ -1,0 +1,98 @@
+//! Trees for robots: BehaviorTree.CPP and py_trees.
+
+use super::load::Loaded;
+use super::target;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::emit::refusal::{Reason, Refusal};
+use crate::emit::{btcpp, py_trees};
+use crate::ir::tree::Tree;
+use crate::ir::{Id, Program};
+use crate::source::Span;
+use crate::syntax::ast::{ItemKind, Node, NodeKind};
+
+/// What runs the tree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Runtime {
+    /// BehaviorTree.CPP 4, in XML.
+    BtCpp,
+    /// py_trees 2, in Python.
+    PyTrees,
+}
+
+/// A tree as a file for a robot. It need not be among the program's; of the program, names are enough. `place` is where
+/// the node that a path of child positions leads to is written, for the mistake that says it has no counterpart.
+///
+/// # Errors
+/// A node that the runtime has no counterpart for.
+pub fn tree(
+    program: &Program,
+    tree: &Tree,
+    runtime: Runtime,
+    place: impl Fn(&[usize]) -> Span,
+) -> Result<String, Diagnostic> {
+    let written = match runtime {
+        Runtime::BtCpp => btcpp::tree(program, tree),
+        Runtime::PyTrees => py_trees::tree(program, tree),
+    };
+    written.map_err(|refusal| refused(&refusal, place(&refusal.path)))
+}
+
+/// A tree of the program as a file for a robot.
+///
+/// # Errors
+/// A node that the runtime has no counterpart for.
+pub fn of_program(loaded: &Loaded, id: Id<Tree>, runtime: Runtime) -> Result<String, Diagnostic> {
+    let exported = &loaded.program.trees[id];
+    let place = |path: &[usize]| place(loaded, exported, path);
+    tree(&loaded.program, exported, runtime, place)
+}
+
+/// Where the node at a path of child positions is written; a subtree is one leaf.
+pub(super) fn place(loaded: &Loaded, tree: &Tree, path: &[usize]) -> Span {
+    let written = loaded.ast.items.iter().find_map(|item| match &item.kind {
+        ItemKind::Tree(item) if crate::syntax::print::name(&item.name.name) == tree.name => {
+            Some(&item.root)
+        }
+        _ => None,
+    });
+    written.map_or_else(|| target::end_of_file(loaded), |root| node_at(root, path))
+}
+
+fn node_at(root: &Node, path: &[usize]) -> Span {
+    let mut at = root;
+    for &position in path {
+        let child = match &at.kind {
+            NodeKind::Composite { children, .. } => children.get(position),
+            NodeKind::Guarded { node, .. } if position == 1 => Some(&**node),
+            _ => None,
+        };
+        match child {
+            Some(child) => at = child,
+            None => break,
+        }
+    }
+    match &at.kind {
+        NodeKind::Composite { word, .. } => word.span,
+        _ => at.span,
+    }
+}
+
+fn refused(refusal: &Refusal, span: Span) -> Diagnostic {
+    match refusal.reason {
+        Reason::Finished => Diagnostic::new(
+            Code::E0821,
+            span,
+            "BehaviorTree.CPP has no such `parallel`",
+        )
+        .label("has a child that can go on, and others to ask anew in each tick")
+        .note("`Parallel` of BehaviorTree.CPP does not tick a child again that has finished")
+        .help("a `sequence` or a `selector` asks the conditions to the left of a behaviour in each tick"),
+        Reason::Partial => Diagnostic::new(Code::E0821, span, "py_trees has no such `parallel`")
+            .label("succeeds before all of its children have")
+            .note("`Parallel` of py_trees fails as soon as one child fails")
+            .help("a `selector` asks its conditions from the left until one holds"),
+        Reason::Time => Diagnostic::new(Code::E0822, span, "no clock counts so long")
+            .label("longer than 49 days")
+            .note("BehaviorTree.CPP counts milliseconds in 32 bits"),
+    }
+}

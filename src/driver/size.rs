@@ -1,0 +1,70 @@
+//! `btc size`: how large trees are, and so how well they read.
+
+use super::load::Loaded;
+use super::target;
+use crate::diagnostic::Diagnostic;
+use crate::ir::Id;
+use crate::ir::tree::{Node, Tree};
+use crate::tree::Size;
+use crate::tree::atoms::{atoms, behaviors};
+
+/// The heads of the columns.
+const HEADS: [&str; 5] = ["tree", "nodes", "literals", "depth", "leaves"];
+
+/// The sizes of these trees, a row each under a header; of all if none is named.
+///
+/// # Errors
+/// There is no tree of a name.
+pub fn sizes(loaded: &Loaded, names: &[String]) -> Result<String, Vec<Diagnostic>> {
+    let trees = &loaded.program.trees;
+    let mut wrong = Vec::new();
+    let mut ids: Vec<Id<Tree>> = Vec::new();
+    for name in names {
+        match target::tree(loaded, name) {
+            Ok(id) => ids.push(id),
+            Err(mistake) => wrong.push(mistake),
+        }
+    }
+    if !wrong.is_empty() {
+        return Err(wrong);
+    }
+    if names.is_empty() {
+        ids = trees.ids().collect();
+    }
+    let heads = HEADS.map(str::to_owned);
+    let rows = ids.into_iter().map(|id| {
+        let Tree { name, root, .. } = &trees[id];
+        let size = Size::of(root);
+        [
+            name.clone(),
+            size.nodes.to_string(),
+            size.literals.to_string(),
+            size.depth.to_string(),
+            leaves(root).to_string(),
+        ]
+    });
+    let rows: Vec<[String; 5]> = std::iter::once(heads).chain(rows).collect();
+    let width = |column: usize| {
+        let cells = rows.iter().filter_map(|row| row.get(column));
+        cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..HEADS.len()).map(width).collect();
+    Ok(rows.iter().map(|row| line(row, &widths)).collect())
+}
+
+/// Names to the left, figures to the right.
+fn line(row: &[String; 5], widths: &[usize]) -> String {
+    let [name, figures @ ..] = row;
+    let mut widths = widths.iter();
+    let mut text = format!("{name:<0$}", widths.next().copied().unwrap_or(0));
+    for (figure, width) in figures.iter().zip(widths) {
+        text.push_str(&format!("  {figure:>width$}"));
+    }
+    text.push('\n');
+    text
+}
+
+/// How many different leaves a tree has: the behaviours that it ticks and the atoms that it asks, negated or not.
+fn leaves(root: &Node) -> usize {
+    atoms(root).len() + behaviors(root).len()
+}

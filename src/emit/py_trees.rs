@@ -1,0 +1,240 @@
+//! Trees for py_trees 2: a Python module.
+//!
+//! It has an abstract class `Robot`, a method for each condition and each behaviour, and `create_root(robot)`, which
+//! builds the tree. Run as a program it draws the tree.
+
+mod code;
+mod module;
+
+use super::leaves::{Leaves, Subject, Words, unquoted};
+use super::notes;
+use super::refusal::{self, Reason, Refusal};
+use crate::ir::Program;
+use crate::ir::tree::{Composite, Decorator, Node, Tree};
+use crate::tree::drawing::{Drawing, Shape};
+use code::{Code, string};
+use module::Imports;
+
+/// Python's keywords, and the names that the module reads where the methods' own names and parameters are in scope.
+pub const RESERVED: &[&str] = &[
+    "Behaviour",
+    "Dummy",
+    "False",
+    "None",
+    "True",
+    "abc",
+    "and",
+    "as",
+    "assert",
+    "async",
+    "await",
+    "bool",
+    "break",
+    "class",
+    "continue",
+    "def",
+    "del",
+    "elif",
+    "else",
+    "except",
+    "finally",
+    "for",
+    "from",
+    "global",
+    "if",
+    "import",
+    "in",
+    "is",
+    "lambda",
+    "nonlocal",
+    "not",
+    "or",
+    "pass",
+    "raise",
+    "return",
+    "self",
+    "str",
+    "try",
+    "while",
+    "with",
+    "yield",
+];
+
+/// A tree as a module for py_trees 2.
+///
+/// # Errors
+/// The first node that has no counterpart there.
+pub fn tree(program: &Program, tree: &Tree) -> Result<String, Refusal> {
+    let tick = notes::tick(program);
+    if let Some(refused) = refusal::first(&tree.root, &|node| reason(node, tick)) {
+        return Err(refused);
+    }
+    let leaves = Leaves::of(&tree.root, program, &mut Words::new(RESERVED));
+    let mut writer = Writer {
+        program,
+        leaves: &leaves,
+        tick: tick.unwrap_or_default(),
+        imports: Imports::default(),
+    };
+    let name = unquoted(&tree.name);
+    let root = writer.node(&Drawing::of(&tree.root), Some(name));
+    let history = tree.task.map(|task| program.tasks[task].history);
+    let parts = module::Parts {
+        program,
+        leaves: &leaves,
+        history,
+        imports: writer.imports,
+    };
+    Ok(parts.module(tree, tick, &root))
+}
+
+/// Why a node has no counterpart.
+fn reason(node: &Node, tick: Option<f64>) -> Option<Reason> {
+    match node {
+        Node::Parallel {
+            successes,
+            children,
+        } => (u32::try_from(children.len()) != Ok(*successes)).then_some(Reason::Partial),
+        Node::Decorator {
+            kind: Decorator::Timeout(_),
+            ..
+        } => tick.is_none().then_some(Reason::Time),
+        _ => None,
+    }
+}
+
+struct Writer<'a> {
+    program: &'a Program,
+    leaves: &'a Leaves,
+    /// The length of a tick in milliseconds; no `timeout` is written where it is unknown.
+    tick: f64,
+    imports: Imports,
+}
+
+impl Writer<'_> {
+    /// A node; inner ones are called by their word of the language, unless they have a name.
+    fn node(&mut self, drawing: &Drawing, name: Option<&str>) -> Code {
+        match drawing.shape {
+            Shape::Composite(kind, memory) => {
+                let (class, word) = match (kind, memory) {
+                    (Composite::Selector, false) => ("Selector", "selector"),
+                    (Composite::Selector, true) => ("Selector", "memory selector"),
+                    (Composite::Sequence, false) => ("Sequence", "sequence"),
+                    (Composite::Sequence, true) => ("Sequence", "memory sequence"),
+                };
+                self.imports.take("composites", class);
+                let memory = if memory {
+                    "memory=True"
+                } else {
+                    "memory=False"
+                };
+                let arguments = vec![
+                    string(name.unwrap_or(word)),
+                    Code::Plain(memory.to_owned()),
+                    self.children(drawing),
+                ];
+                Code::call(class, arguments)
+            }
+            Shape::Parallel(successes) => {
+                self.imports.take("common", "ParallelPolicy");
+                self.imports.take("composites", "Parallel");
+                let policy = "policy=ParallelPolicy.SuccessOnAll(synchronise=False)";
+                let word = format!("parallel({successes})");
+                let arguments = vec![
+                    string(name.unwrap_or(&word)),
+                    Code::Plain(policy.to_owned()),
+                    self.children(drawing),
+                ];
+                Code::call("Parallel", arguments)
+            }
+            Shape::Decorator(kind) => {
+                let child = drawing.children.first().map(|child| self.node(child, None));
+                self.decorator(kind, name, child)
+            }
+            Shape::Behavior(id) => self.action(Subject::Action(id)),
+            Shape::Literal(atom, true) => self.condition(Subject::Condition(atom)),
+            Shape::Literal(atom, false) => {
+                let subject = Subject::Condition(atom);
+                let asked = self.condition(subject);
+                let name = format!("not {}", unquoted(&subject.name(self.program)));
+                self.imports.take("decorators", "Inverter");
+                Code::call("Inverter", vec![string(&name), asked])
+            }
+            Shape::Const(value) => {
+                let (class, name) = if value {
+                    ("Success", "true")
+                } else {
+                    ("Failure", "false")
+                };
+                self.imports.take("behaviours", class);
+                Code::call(class, vec![string(name)])
+            }
+        }
+    }
+
+    fn children(&mut self, drawing: &Drawing) -> Code {
+        let children = drawing.children.iter().map(|child| self.node(child, None));
+        Code::list("children", children.collect())
+    }
+
+    fn decorator(&mut self, kind: Decorator, name: Option<&str>, child: Option<Code>) -> Code {
+        let (class, word, setting) = match kind {
+            Decorator::Invert => ("Inverter", "invert".to_owned(), None),
+            Decorator::Succeed => ("FailureIsSuccess", "succeed".to_owned(), None),
+            Decorator::Fail => ("SuccessIsFailure", "fail".to_owned(), None),
+            // The first attempt is none of the retries.
+            Decorator::Retry(times) => {
+                let failures = format!("num_failures={}", times.saturating_add(1));
+                ("Retry", format!("retry({times})"), Some(failures))
+            }
+            Decorator::Repeat(times) => {
+                let successes = format!("num_success={times}");
+                ("Repeat", format!("repeat({times})"), Some(successes))
+            }
+            Decorator::Timeout(ticks) => {
+                let seconds = ticks as f64 * self.tick / 1e3;
+                let duration = format!("duration={seconds:?}");
+                ("Timeout", format!("timeout({ticks} ticks)"), Some(duration))
+            }
+        };
+        self.imports.take("decorators", class);
+        let mut arguments = vec![string(name.unwrap_or(&word))];
+        arguments.extend(child);
+        arguments.extend(setting.map(Code::Plain));
+        Code::call(class, arguments)
+    }
+
+    /// `robot.goto("A")`
+    fn action(&self, subject: Subject) -> Code {
+        let Some((method, arguments)) = self.method(subject) else {
+            return Code::Plain("None".to_owned());
+        };
+        Code::call(&method, arguments)
+    }
+
+    /// `Condition("low", robot.low)`, `Condition("vis(A)", lambda: robot.vis("A"))`
+    fn condition(&mut self, subject: Subject) -> Code {
+        self.imports.take("common", "Status");
+        let name = string(unquoted(&subject.name(self.program)));
+        let asked = match self.method(subject) {
+            Some((method, arguments)) if arguments.is_empty() => Code::Plain(method),
+            Some((method, arguments)) => Code::call(&method, arguments).after("lambda: "),
+            None => Code::Plain("None".to_owned()),
+        };
+        Code::call("Condition", vec![name, asked])
+    }
+
+    /// The method that a leaf calls, and its arguments: by position as long as none is left out, then by name.
+    fn method(&self, subject: Subject) -> Option<(String, Vec<Code>)> {
+        let (family, values) = self.leaves.call(subject)?;
+        let arguments = values.iter().enumerate().map(|(at, (parameter, value))| {
+            let declared = family.parameters.get(at);
+            if declared.is_some_and(|declared| declared.id == parameter.id) {
+                string(value)
+            } else {
+                string(value).after(&format!("{}=", parameter.id))
+            }
+        });
+        Some((format!("robot.{}", family.id), arguments.collect()))
+    }
+}

@@ -1,0 +1,216 @@
+//! What stands around the tree in its module: imports, the class to derive from, a way to draw it.
+
+use super::code::{Code, WIDTH, quoted, wrapped};
+use crate::emit::leaves::{Family, Leaves, Subject, unquoted};
+use crate::emit::notes;
+use crate::ir::Program;
+use crate::ir::task::History;
+use crate::ir::tree::{Atom, Decorator, Tree};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The names that are imported from the modules of py_trees.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Imports(BTreeMap<&'static str, BTreeSet<&'static str>>);
+
+impl Imports {
+    /// Imports a name.
+    pub fn take(&mut self, module: &'static str, name: &'static str) {
+        self.0.entry(module).or_default().insert(name);
+    }
+
+    fn lines(&self) -> String {
+        let lines = self.0.iter().map(|(module, names)| {
+            let names: Vec<&str> = names.iter().copied().collect();
+            let line = format!("from py_trees.{module} import {}", names.join(", "));
+            if line.chars().count() <= WIDTH {
+                return format!("{line}\n");
+            }
+            let names: String = names.iter().map(|name| format!("    {name},\n")).collect();
+            format!("from py_trees.{module} import (\n{names})\n")
+        });
+        lines.collect()
+    }
+}
+
+const CONDITION: &str = r#"class Condition(Behaviour):
+    """Succeeds in the ticks in which a predicate holds, fails in the others."""
+
+    def __init__(self, name: str, holds: Callable[[], bool]) -> None:
+        super().__init__(name)
+        self.holds = holds
+
+    def update(self) -> Status:
+        return Status.SUCCESS if self.holds() else Status.FAILURE
+
+
+"#;
+
+/// What a module is made of.
+pub(super) struct Parts<'a> {
+    pub program: &'a Program,
+    pub leaves: &'a Leaves,
+    pub history: Option<History>,
+    pub imports: Imports,
+}
+
+impl Parts<'_> {
+    /// The module.
+    pub fn module(mut self, tree: &Tree, tick: Option<f64>, root: &Code) -> String {
+        let conditions = self.leaves.families.iter().any(|family| !is_action(family));
+        let actions = self.leaves.families.iter().any(is_action);
+        self.imports.take("behaviour", "Behaviour");
+        self.imports.take("display", "unicode_tree");
+        if actions {
+            self.imports.take("behaviours", "Dummy");
+        }
+        let mut out = docstring(tree, tick);
+        out.push_str("\nimport abc\n");
+        if conditions {
+            out.push_str("from collections.abc import Callable\n");
+        }
+        out.push('\n');
+        out.push_str(&self.imports.lines());
+        out.push_str("\n\nclass Robot(abc.ABC):\n");
+        out.push_str(
+            "    \"\"\"What the tree asks of the robot, and what it has the robot do.\"\"\"\n\n",
+        );
+        for family in &self.leaves.families {
+            out.push_str(&self.method(family));
+        }
+        out.push('\n');
+        if conditions {
+            out.push_str(CONDITION);
+        }
+        out.push_str("def create_root(robot: Robot) -> Behaviour:\n");
+        out.push_str("    \"\"\"The tree, with a behaviour of its own at each place.\"\"\"\n");
+        root.clone().after("return ").write(4, "", &mut out);
+        out.push_str("\n\nclass Sketch(Robot):\n");
+        out.push_str("    \"\"\"A robot that does nothing, to draw the tree with.\"\"\"\n\n");
+        for family in &self.leaves.families {
+            out.push_str(&sketched(family, self.program));
+        }
+        out.push_str("\nif __name__ == \"__main__\":\n");
+        out.push_str("    print(unicode_tree(create_root(Sketch())))\n");
+        out
+    }
+
+    /// The abstract method of a family.
+    fn method(&self, family: &Family) -> String {
+        let name = signature(family, self.program);
+        let holds = |outcome| notes::window(outcome, "`behavior`", self.history);
+        let says = match family.subjects.first() {
+            Some(Subject::Condition(Atom::Done(_))) => format!("Whether {}.", holds("success")),
+            Some(Subject::Condition(Atom::Failed(_))) => format!("Whether {}.", holds("failure")),
+            Some(Subject::Condition(Atom::Predicate(_))) => format!("Whether `{name}` holds."),
+            _ => format!("A new `{name}`."),
+        };
+        format!(
+            "    @abc.abstractmethod\n{}        \"\"\"{}\"\"\"\n\n",
+            head(family),
+            in_docstring(&says)
+        )
+    }
+}
+
+fn is_action(family: &Family) -> bool {
+    matches!(family.subjects.first(), Some(Subject::Action(_)))
+}
+
+/// `def goto(self, target: str) -> Behaviour:`
+fn head(family: &Family) -> String {
+    let mut parameters = vec![Code::Plain("self".to_owned())];
+    // A parameter with a default stands behind those without.
+    let mut left_out = false;
+    for parameter in &family.parameters {
+        left_out |= parameter.optional;
+        let ty = if left_out { "str | None = None" } else { "str" };
+        parameters.push(Code::Plain(format!("{}: {ty}", parameter.id)));
+    }
+    let answer = if is_action(family) {
+        " -> Behaviour:"
+    } else {
+        " -> bool:"
+    };
+    let mut out = String::new();
+    Code::call(&format!("def {}", family.id), parameters).write(4, answer, &mut out);
+    out
+}
+
+/// `goto(target)`, by its name in the language.
+fn signature(family: &Family, program: &Program) -> String {
+    let name = family_name(family, program);
+    let parameters: Vec<&str> = family.parameters.iter().map(|p| p.id.as_str()).collect();
+    match parameters.as_slice() {
+        [] => name,
+        _ => format!("{name}({})", parameters.join(", ")),
+    }
+}
+
+fn family_name(family: &Family, program: &Program) -> String {
+    match family.subjects.first() {
+        Some(first) if !family.same => unquoted(&first.family(program)).to_owned(),
+        _ => family.id.clone(),
+    }
+}
+
+/// The method of the robot that does nothing.
+fn sketched(family: &Family, program: &Program) -> String {
+    let body = if is_action(family) {
+        let name = family_name(family, program);
+        let parameters: Vec<String> = family
+            .parameters
+            .iter()
+            .map(|parameter| format!("{{{}}}", parameter.id))
+            .collect();
+        if parameters.is_empty() {
+            format!("return Dummy({})", quoted(&name))
+        } else {
+            let name = name.replace('{', "{{").replace('}', "}}");
+            let name = quoted(&format!("{name}({})", parameters.join(", ")));
+            format!("return Dummy(f{name})")
+        }
+    } else {
+        "return False".to_owned()
+    };
+    format!("{}        {body}\n\n", head(family))
+}
+
+/// What a reader of the module has to know.
+fn docstring(tree: &Tree, tick: Option<f64>) -> String {
+    let name = unquoted(&tree.name);
+    let mut paragraphs = vec![format!(
+        "The behaviour tree `{name}` for py_trees 2, written by btc."
+    )];
+    if !tree.docs.is_empty() {
+        paragraphs.push(tree.docs.join("\n"));
+    }
+    let often = tick.map_or_else(
+        || "each tick".to_owned(),
+        |milliseconds| format!("every {milliseconds} ms"),
+    );
+    let mut say = |text: &str| paragraphs.push(wrapped(text, WIDTH));
+    say(&format!(
+        "Derive a class from `Robot` and tick `create_root(robot)` {often}. Run as a program, this module draws the tree."
+    ));
+    if notes::moves_on(&tree.root) {
+        say(
+            "A composite with memory goes on to its next child in the tick in which one ends, btc in the next one: here each such step comes one tick earlier.",
+        );
+    }
+    if notes::has_decorator(&tree.root, &|kind| matches!(kind, Decorator::Timeout(_))) {
+        say(
+            "`Timeout` goes by the clock, and fails after it has ticked its child once more; btc goes by the ticks in which it is reached.",
+        );
+    }
+    let text = in_docstring(&paragraphs.join("\n\n"));
+    format!("\"\"\"{text}\n\"\"\"\n")
+}
+
+/// A text between triple quotes.
+fn in_docstring(text: &str) -> String {
+    let text: String = text
+        .chars()
+        .map(|c| if c.is_control() && c != '\n' { ' ' } else { c })
+        .collect();
+    text.replace('\\', "\\\\").replace("\"\"\"", "\\\"\\\"\\\"")
+}

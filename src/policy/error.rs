@@ -1,0 +1,129 @@
+//! What is wrong with a table.
+
+use std::fmt;
+use std::ops::Range;
+
+/// What is wrong with a table, and where.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TableError {
+    /// The bytes of the text that it is about.
+    pub span: Range<usize>,
+    /// What is wrong.
+    pub kind: TableErrorKind,
+}
+
+/// What can be wrong with a table.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum TableErrorKind {
+    /// It is not comma-separated text, or a line is no object of JSON.
+    Malformed(String),
+    /// Bytes that are no characters (UTF-8).
+    NoText,
+    /// It has no rows.
+    Empty,
+    /// A row has another number of cells than the header.
+    Ragged {
+        /// Cells in the row.
+        found: usize,
+        /// Cells in the header.
+        expected: usize,
+    },
+    /// A row does not say what the first one does.
+    MissingKey(String),
+    /// A row says what the first one does not.
+    UnknownKey(String),
+    /// A column names nothing that the program has.
+    UnknownColumn(String),
+    /// A column stands twice.
+    RepeatedColumn(String),
+    /// Two columns say what is done.
+    SecondBehavior(String),
+    /// A column that has to be there is not.
+    MissingColumn {
+        /// What it would be called.
+        name: String,
+        /// A column that is nearly called so.
+        likely: Option<String>,
+    },
+    /// A column without a name.
+    Nameless,
+    /// A name that the language cannot write.
+    UnusableName {
+        /// The name.
+        name: String,
+        /// Why not.
+        why: &'static str,
+    },
+    /// A behaviour is called as a predicate is.
+    SharedName(String),
+    /// A cell holds something else than it may.
+    UnknownValue {
+        /// What it holds.
+        found: String,
+        /// What it may hold.
+        expected: &'static str,
+    },
+    /// A behaviour that the program does not have, or the policy cannot choose.
+    UnknownBehavior(String),
+    /// One minterm, two behaviours.
+    Contradiction {
+        /// The row that says otherwise.
+        earlier: Range<usize>,
+        /// What holds where both rows speak; `None` if they speak of the same minterms.
+        overlap: Option<String>,
+    },
+    /// A minterm without a row among the decisions.
+    Unseen,
+    /// A row with so many `-` that it stands for too many minterms.
+    Wide,
+}
+
+impl fmt::Display for TableError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.kind {
+            TableErrorKind::Malformed(why) => write!(f, "this is no table: {why}"),
+            TableErrorKind::NoText => write!(f, "this is not text (UTF-8)"),
+            TableErrorKind::Empty => write!(f, "the table has no rows"),
+            TableErrorKind::Ragged { found, expected } => {
+                write!(f, "this row has {found} cells, the header has {expected}")
+            }
+            TableErrorKind::MissingKey(name) => write!(f, "this row does not say `{name}`"),
+            TableErrorKind::UnknownKey(name) => {
+                write!(f, "the first row does not say `{name}`, this one does")
+            }
+            TableErrorKind::UnknownColumn(name) => write!(f, "unknown column `{name}`"),
+            TableErrorKind::RepeatedColumn(name) => write!(f, "column `{name}` stands twice"),
+            TableErrorKind::SecondBehavior(name) => {
+                write!(f, "`{name}` is a second column that says what is done")
+            }
+            TableErrorKind::MissingColumn { name, .. } => write!(f, "column `{name}` is missing"),
+            TableErrorKind::Nameless => write!(f, "a column without a name"),
+            TableErrorKind::UnusableName { name, why } => {
+                write!(f, "`{name}` cannot be a name: {why}")
+            }
+            TableErrorKind::SharedName(name) => {
+                write!(f, "`{name}` is a predicate and a behaviour")
+            }
+            TableErrorKind::UnknownValue { found, expected } if found.is_empty() => {
+                write!(f, "an empty cell is not {expected}")
+            }
+            TableErrorKind::UnknownValue { found, expected } => {
+                write!(f, "`{found}` is not {expected}")
+            }
+            TableErrorKind::UnknownBehavior(name) => write!(f, "unknown behavior `{name}`"),
+            TableErrorKind::Contradiction { overlap: None, .. } => {
+                write!(f, "an earlier row does something else in this minterm")
+            }
+            TableErrorKind::Contradiction { .. } => {
+                write!(
+                    f,
+                    "an earlier row does something else in a minterm of this one"
+                )
+            }
+            TableErrorKind::Unseen => write!(f, "no decision is known in this minterm"),
+            TableErrorKind::Wide => write!(f, "this row stands for too many minterms"),
+        }
+    }
+}
+
+impl std::error::Error for TableError {}

@@ -1,0 +1,78 @@
+//! What the names in a table mean.
+
+use super::error::TableErrorKind;
+use std::fmt;
+
+/// What an atom's column is called, without the backquotes of the language.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum AtomName {
+    /// A predicate.
+    Predicate(String),
+    /// `done(NAME)`
+    Done(String),
+    /// `failed(NAME)`
+    Failed(String),
+}
+
+impl AtomName {
+    /// What a column of this name asks. `done(NAME)` and `failed(NAME)` ask the history; all else is a predicate.
+    pub(super) fn of(column: &str) -> Self {
+        let inside = |word: &str| column.strip_prefix(word)?.strip_suffix(')');
+        match (inside("done("), inside("failed(")) {
+            (Some(behavior), _) => Self::Done(plain(behavior).to_owned()),
+            (_, Some(behavior)) => Self::Failed(plain(behavior).to_owned()),
+            _ => Self::Predicate(plain(column).to_owned()),
+        }
+    }
+
+    /// The behaviour whose history it asks.
+    pub(super) fn behavior(&self) -> Option<&str> {
+        match self {
+            Self::Predicate(_) => None,
+            Self::Done(name) | Self::Failed(name) => Some(name),
+        }
+    }
+
+    /// Whether the language can call something so.
+    pub(super) fn check(&self) -> Result<(), TableErrorKind> {
+        match self {
+            Self::Predicate(name) | Self::Done(name) | Self::Failed(name) => check(name),
+        }
+    }
+}
+
+impl fmt::Display for AtomName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Predicate(name) => f.write_str(name),
+            Self::Done(name) => write!(f, "done({name})"),
+            Self::Failed(name) => write!(f, "failed({name})"),
+        }
+    }
+}
+
+/// A name without the backquotes that it may stand in, as the language writes it.
+pub(super) fn plain(name: &str) -> &str {
+    let name = name.trim();
+    let inside = name.strip_prefix('`').and_then(|n| n.strip_suffix('`'));
+    inside.filter(|n| !n.contains('`')).unwrap_or(name)
+}
+
+/// Whether the language can call something so, in backquotes where it has to.
+pub(super) fn check(name: &str) -> Result<(), TableErrorKind> {
+    let why = if matches!(name, "done" | "failed") {
+        "it asks the history, in the language as in a table"
+    } else if name.is_empty() {
+        "a name has at least one character"
+    } else if name.contains('`') {
+        "a backquote ends a name"
+    } else if name.contains(char::is_control) {
+        "a name stands on one line, without control characters"
+    } else {
+        return Ok(());
+    };
+    Err(TableErrorKind::UnusableName {
+        name: name.to_owned(),
+        why,
+    })
+}

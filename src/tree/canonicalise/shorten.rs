@@ -1,0 +1,161 @@
+//! Guards that people read: as short as they are found to be.
+
+use crate::ir::tree::{Atom, Guard};
+use crate::logic::{Bits, Columns, Cover, Cube, Literal, minimise};
+use crate::tree::circuit::guards::Guards;
+use crate::tree::circuit::{Signal, truth};
+use crate::tree::formula::{and, literal, not, or};
+
+/// Up to so many atoms a guard is minimised in two levels as well.
+const TWO_LEVELS: usize = 8;
+
+/// Up to so many literals parts of a guard are tried to be left out.
+const DROPPED: usize = 400;
+
+/// A guard of at most `most` literals that has the value of `signal` wherever `free` does not hold. `None` if none is
+/// found.
+///
+/// Two are looked for: the signal as it was built, without the parts that it can do without, and the smallest two-level
+/// form with its common literals factored out. The shorter one is taken, the first if they are alike.
+pub(in crate::tree) fn shorten(
+    signal: Signal,
+    free: Signal,
+    most: usize,
+    guards: &mut Guards,
+) -> Option<Guard> {
+    let built = guards.guard(signal, most);
+    let built = built.map(|guard| match literals(&guard) <= DROPPED {
+        true => without_redundancy(guard, free, guards),
+        false => guard,
+    });
+    let support = guards.support(&[signal, free]);
+    let flat = (support.len() <= TWO_LEVELS).then(|| two_levels(signal, free, &support, guards));
+    let found = built.into_iter().chain(flat.into_iter().flatten());
+    found.min_by_key(literals)
+}
+
+/// The number of literals of a guard.
+fn literals(guard: &Guard) -> usize {
+    let mut count = 0;
+    guard.visit_atoms(&mut |_| count += 1);
+    count
+}
+
+/// The guard without the parts of conjunctions and disjunctions that change nothing where `free` does not hold, large
+/// ones first.
+fn without_redundancy(mut guard: Guard, free: Signal, guards: &mut Guards) -> Guard {
+    let signal = guards.signal(&guard);
+    for constant in [false, true] {
+        let differs = guards.circuit.and(!free, signal.negated_if(constant));
+        if guards.is_never(differs) {
+            return Guard::Const(constant);
+        }
+    }
+    let mut at = 0;
+    while let Some(shorter) = without(&guard, &mut { at }) {
+        let changed = guards.signal(&shorter);
+        let differs = guards.circuit.xor(changed, signal);
+        let differs = guards.circuit.and(differs, !free);
+        if guards.is_never(differs) {
+            guard = shorter;
+        } else {
+            at += 1;
+        }
+    }
+    guard
+}
+
+/// The guard without its `at`-th part, in the order in which they are read; `None` if there are fewer.
+fn without(guard: &Guard, at: &mut usize) -> Option<Guard> {
+    let (Guard::And(parts) | Guard::Or(parts)) = guard else {
+        return None;
+    };
+    let join = |parts: Vec<Guard>| match guard {
+        Guard::And(_) => and(parts),
+        _ => or(parts),
+    };
+    for (i, part) in parts.iter().enumerate() {
+        let others = || parts.iter().enumerate().filter(move |(j, _)| *j != i);
+        if *at == 0 {
+            return Some(join(others().map(|(_, part)| part.clone()).collect()));
+        }
+        *at -= 1;
+        if let Some(shorter) = without(part, at) {
+            let replaced = |(j, other): (usize, &Guard)| match j == i {
+                true => shorter.clone(),
+                false => other.clone(),
+            };
+            return Some(join(parts.iter().enumerate().map(replaced).collect()));
+        }
+    }
+    None
+}
+
+/// The smallest disjunction of conjunctions, and the negation of that of its negation.
+fn two_levels(
+    signal: Signal,
+    free: Signal,
+    support: &[(Atom, Signal)],
+    guards: &Guards,
+) -> [Guard; 2] {
+    let inputs: Vec<Signal> = support.iter().map(|(_, input)| *input).collect();
+    let atoms: Vec<Atom> = support.iter().map(|(atom, _)| *atom).collect();
+    let rows = 1usize << inputs.len();
+    let column = |signal| {
+        let words = truth::column(&guards.circuit, signal, &inputs);
+        let holds = move |row: &usize| {
+            words
+                .get(row / 64)
+                .is_some_and(|w| w >> (row % 64) & 1 == 1)
+        };
+        Bits::collect(rows, (0..rows).filter(holds))
+    };
+    let (holds, free) = (column(signal), column(free));
+    let (on, off) = (
+        holds.minus(&free),
+        Bits::full(rows).minus(&holds).minus(&free),
+    );
+    // The first input is the highest digit of a row's number.
+    let words: Vec<[u64; 1]> = (0..rows)
+        .map(|row| {
+            [(row as u64)
+                .reverse_bits()
+                .unbounded_shr(64 - inputs.len() as u32)]
+        })
+        .collect();
+    let columns = Columns::new(inputs.len(), words.iter().map(|word| &word[..]));
+    [
+        factored(minimise(&columns, &on, &off).cubes(), &atoms),
+        not(factored(minimise(&columns, &off, &on).cubes(), &atoms)),
+    ]
+}
+
+/// A disjunction of cubes with the literal that most of them share taken out, and so on in what is left.
+fn factored(cubes: &[Cube], atoms: &[Atom]) -> Guard {
+    let mut counts: Vec<(usize, Literal)> = Vec::new();
+    for shared in cubes.iter().flat_map(|cube| cube.literals()) {
+        match counts.iter_mut().find(|(_, literal)| literal == shared) {
+            Some((count, _)) => *count += 1,
+            None => counts.push((1, *shared)),
+        }
+    }
+    counts.retain(|(count, _)| *count > 1);
+    let most = counts.iter().map(|(count, _)| *count).max();
+    let Some((_, shared)) = counts
+        .iter()
+        .filter(|(count, _)| Some(*count) == most)
+        .min()
+    else {
+        return crate::tree::formula::cover(&Cover::new(cubes.iter().cloned()), atoms);
+    };
+    let (with, others): (Vec<Cube>, Vec<Cube>) = cubes
+        .iter()
+        .cloned()
+        .partition(|cube| cube.literals().contains(shared));
+    let rests: Vec<Cube> = with.iter().map(|cube| cube.without(*shared)).collect();
+    let taken = and([literal(*shared, atoms), factored(&rests, atoms)]);
+    match others.is_empty() {
+        true => taken,
+        false => or([taken, factored(&others, atoms)]),
+    }
+}

@@ -1,0 +1,145 @@
+//! A canonical tree as a policy table.
+
+use super::{Canonical, Unit};
+use crate::ir::Id;
+use crate::ir::law::Behavior;
+use crate::ir::tree::{Atom, Guard};
+use crate::tree::formula::{not, or};
+
+/// A cube of a table, a value for each atom or nothing, and what is done in it.
+pub type Decided = (Vec<Option<bool>>, Id<Behavior>);
+
+impl Canonical {
+    /// Cubes over `atoms`, no two of which overlap, that together hold every minterm in which something is selected. Of
+    /// the atoms that ask the history at most `window` hold together, if it is given; of other minterms nothing is said.
+    pub fn table(&self, atoms: &[Atom], window: Option<usize>) -> Vec<Decided> {
+        let mut split = Split {
+            canonical: self,
+            atoms,
+            window,
+            values: vec![None; atoms.len()],
+        };
+        split.below().unwrap_or_default()
+    }
+
+    /// Whether something is selected in every minterm that [`Canonical::table`] speaks of.
+    pub fn is_total(&self, atoms: &[Atom], window: Option<usize>) -> bool {
+        let any = or(self.units.iter().map(|unit| unit.guard.clone()));
+        let Some(unit) = self.units.first() else {
+            return false;
+        };
+        let whole = Self {
+            units: vec![Unit {
+                guard: not(any),
+                behavior: unit.behavior,
+            }],
+        };
+        whole.table(atoms, window).is_empty()
+    }
+}
+
+/// The division of all minterms by the values of one atom after the other.
+struct Split<'a> {
+    canonical: &'a Canonical,
+    atoms: &'a [Atom],
+    window: Option<usize>,
+    /// What is known here.
+    values: Vec<Option<bool>>,
+}
+
+impl Split<'_> {
+    /// The cubes of what is known here, without it; `None` if the history cannot be so.
+    fn below(&mut self) -> Option<Vec<Decided>> {
+        if self.is_beyond_the_window() {
+            return None;
+        }
+        let mut open = None;
+        for unit in &self.canonical.units {
+            match self.value(&unit.guard) {
+                Some(true) => return Some(vec![(vec![None; self.atoms.len()], unit.behavior)]),
+                Some(false) => {}
+                None => open = open.or(self.undecided(&unit.guard)),
+            }
+        }
+        let Some(atom) = open else {
+            return Some(Vec::new());
+        };
+        let mut side = |value| {
+            self.know(atom, Some(value));
+            self.below()
+        };
+        let (no, yes) = (side(false), side(true));
+        self.know(atom, None);
+        match (no, yes) {
+            (Some(no), Some(yes)) if no == yes => Some(yes),
+            (Some(no), Some(yes)) => {
+                let no = no.into_iter().map(|cube| (cube, false));
+                let both = no.chain(yes.into_iter().map(|cube| (cube, true)));
+                Some(both.map(|(cube, value)| with(cube, atom, value)).collect())
+            }
+            (one, other) => one.or(other),
+        }
+    }
+
+    fn know(&mut self, atom: usize, value: Option<bool>) {
+        if let Some(slot) = self.values.get_mut(atom) {
+            *slot = value;
+        }
+    }
+
+    fn is_beyond_the_window(&self) -> bool {
+        let held = self.atoms.iter().zip(&self.values);
+        let held = held
+            .filter(|(atom, value)| !matches!(atom, Atom::Predicate(_)) && **value == Some(true));
+        self.window.is_some_and(|window| held.count() > window)
+    }
+
+    /// The value of a guard as far as it is known.
+    fn value(&self, guard: &Guard) -> Option<bool> {
+        match guard {
+            Guard::Const(value) => Some(*value),
+            Guard::Atom(atom) => self.values.get(self.number(*atom)?).copied().flatten(),
+            Guard::Not(inner) => self.value(inner).map(|value| !value),
+            Guard::And(guards) => self.joined(guards, false),
+            Guard::Or(guards) => self.joined(guards, true),
+        }
+    }
+
+    /// The value that one of the guards decides by being `decisive`.
+    fn joined(&self, guards: &[Guard], decisive: bool) -> Option<bool> {
+        let mut all = Some(!decisive);
+        for guard in guards {
+            match self.value(guard) {
+                Some(value) if value == decisive => return Some(decisive),
+                Some(_) => {}
+                None => all = None,
+            }
+        }
+        all
+    }
+
+    /// The first atom on which the value of an undecided guard depends.
+    fn undecided(&self, guard: &Guard) -> Option<usize> {
+        match guard {
+            Guard::Const(_) => None,
+            Guard::Atom(atom) => self.number(*atom),
+            Guard::Not(inner) => self.undecided(inner),
+            Guard::And(guards) | Guard::Or(guards) => {
+                let open = guards.iter().find(|guard| self.value(guard).is_none());
+                open.and_then(|guard| self.undecided(guard))
+            }
+        }
+    }
+
+    fn number(&self, atom: Atom) -> Option<usize> {
+        self.atoms.iter().position(|known| *known == atom)
+    }
+}
+
+/// A cube in which an atom has a value.
+fn with((mut cube, behavior): Decided, atom: usize, value: bool) -> Decided {
+    if let Some(slot) = cube.get_mut(atom) {
+        *slot = Some(value);
+    }
+    (cube, behavior)
+}

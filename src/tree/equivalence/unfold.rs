@@ -1,0 +1,369 @@
+//! What a tree does in one tick, from given memory, as functions of everything that it may meet.
+
+use crate::ir::Id;
+use crate::ir::law::Behavior;
+use crate::ir::tree::{Composite, Decorator, Status};
+use crate::tree::circuit::{Circuit, Signal};
+use crate::tree::program::{Jump, Op, Placed, Program};
+use std::collections::BTreeMap;
+
+/// What a tick meets: a signal for every atom, and for every behaviour whether it ends and whether it then fails. In
+/// one tick a behaviour has one status, wherever it is ticked: nothing has moved in between.
+pub(super) struct Inputs {
+    pub(super) circuit: Circuit,
+    /// The atoms, in the order of the programs' bits.
+    pub(super) atoms: Vec<Signal>,
+    pub(super) behaviors: BTreeMap<Id<Behavior>, [Signal; 2]>,
+}
+
+impl Inputs {
+    /// When a behaviour has this status.
+    pub(super) fn status(&mut self, behavior: Id<Behavior>, status: Status) -> Signal {
+        let circuit = &mut self.circuit;
+        let [ends, fails] = *self
+            .behaviors
+            .entry(behavior)
+            .or_insert_with(|| [circuit.input(), circuit.input()]);
+        match status {
+            Status::Running => !ends,
+            Status::Success => circuit.and(ends, !fails),
+            Status::Failure => circuit.and(ends, fails),
+        }
+    }
+}
+
+/// The slots of a memory that are not 0.
+type Slots = BTreeMap<usize, u64>;
+
+/// A tick of a tree, from one memory.
+#[derive(Default)]
+pub(super) struct Unfolded {
+    /// When each behaviour is selected.
+    pub(super) selects: BTreeMap<Id<Behavior>, Signal>,
+    /// The memories that the tick may leave, and when it does.
+    pub(super) leaves: Vec<(Box<[u64]>, Signal)>,
+}
+
+/// Unfolds a tick from this memory.
+pub(super) fn unfold(program: &Program, memory: &[u64], inputs: &mut Inputs) -> Unfolded {
+    let mut tick = Tick {
+        program,
+        memory,
+        inputs,
+        tests: vec![None; program.tests.len()],
+        selects: BTreeMap::new(),
+    };
+    let ways = tick.node(
+        0,
+        Reach {
+            all: Signal::TRUE,
+            fresh: Signal::TRUE,
+        },
+    );
+    let selects = tick.selects;
+    if program.slots == 0 {
+        return Unfolded {
+            selects,
+            leaves: vec![(Box::default(), Signal::TRUE)],
+        };
+    }
+    let mut leaves: BTreeMap<Slots, Signal> = BTreeMap::new();
+    for (way, when) in ways {
+        let before = leaves.entry(way.left.slots).or_insert(Signal::FALSE);
+        *before = inputs.circuit.or(*before, when);
+    }
+    let leaves = leaves.into_iter().map(|(slots, when)| {
+        let slot = |slot| slots.get(&slot).copied().unwrap_or(0);
+        ((0..program.slots).map(slot).collect(), when)
+    });
+    Unfolded {
+        selects,
+        leaves: leaves.collect(),
+    }
+}
+
+/// When a node is reached.
+#[derive(Clone, Copy)]
+struct Reach {
+    all: Signal,
+    /// … before the tick has ticked any behaviour.
+    fresh: Signal,
+}
+
+/// What a part of a tick leaves behind it.
+#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+struct Left {
+    /// Whether it ticked a behaviour.
+    drove: bool,
+    slots: Slots,
+}
+
+impl Left {
+    fn then(&self, next: &Self) -> Self {
+        let mut slots = self.slots.clone();
+        slots.extend(next.slots.iter().map(|(slot, value)| (*slot, *value)));
+        Self {
+            drove: self.drove || next.drove,
+            slots,
+        }
+    }
+}
+
+/// A way in which a node may be gone through.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Way {
+    answer: Status,
+    left: Left,
+}
+
+/// Ways, each with when it is taken.
+type Ways = BTreeMap<Way, Signal>;
+
+struct Tick<'a> {
+    program: &'a Program,
+    memory: &'a [u64],
+    inputs: &'a mut Inputs,
+    /// The guards from each test on, as far as they were asked.
+    tests: Vec<Option<Signal>>,
+    selects: BTreeMap<Id<Behavior>, Signal>,
+}
+
+impl Tick<'_> {
+    fn node(&mut self, at: usize, reach: Reach) -> Ways {
+        let Some(&placed) = self.program.nodes.get(at) else {
+            return Ways::new();
+        };
+        if reach.all == Signal::FALSE {
+            return Ways::new();
+        }
+        match placed.op {
+            Op::Condition(jump) => {
+                let holds = self.guard(jump);
+                let mut ways = Ways::new();
+                for (answer, when) in [(Status::Success, holds), (Status::Failure, !holds)] {
+                    let when = self.inputs.circuit.and(reach.all, when);
+                    self.take(&mut ways, answer, Left::default(), when);
+                }
+                ways
+            }
+            Op::Behavior(behavior) => self.behavior(behavior, reach),
+            Op::Composite {
+                kind,
+                memory: false,
+            } => self.composite(at, placed, reach, kind, None),
+            Op::Composite { kind, memory: true } => {
+                let first = self.recall(placed);
+                self.composite(at, placed, reach, kind, Some(first))
+            }
+            Op::Parallel {
+                successes,
+                children,
+            } => self.parallel(at, placed, reach, successes, children),
+            Op::Decorator(kind) => self.decorator(at, placed, reach, kind),
+        }
+    }
+
+    /// When the guard from here on holds.
+    fn guard(&mut self, jump: Jump) -> Signal {
+        let index = match jump {
+            Jump::Answer(value) => return Signal::constant(value),
+            Jump::Test(index) => index,
+        };
+        let Some(&test) = self.program.tests.get(index) else {
+            return Signal::FALSE;
+        };
+        if let Some(Some(signal)) = self.tests.get(index) {
+            return *signal;
+        }
+        let literals = (0..64).filter(|bit| test.mask >> bit & 1 == 1).map(|bit| {
+            let atom = self.inputs.atoms.get(test.word * 64 + bit);
+            let atom = atom.copied().unwrap_or(Signal::FALSE);
+            atom.negated_if(test.value >> bit & 1 == 0)
+        });
+        let holds = self.inputs.circuit.all(literals.collect::<Vec<_>>());
+        let (yes, no) = (self.guard(test.yes), self.guard(test.no));
+        let signal = self.inputs.circuit.choose(holds, yes, no);
+        if let Some(known) = self.tests.get_mut(index) {
+            *known = Some(signal);
+        }
+        signal
+    }
+
+    fn behavior(&mut self, behavior: Id<Behavior>, reach: Reach) -> Ways {
+        let selected = self.selects.entry(behavior).or_insert(Signal::FALSE);
+        *selected = self.inputs.circuit.or(*selected, reach.fresh);
+        let mut ways = Ways::new();
+        // Without memory, what comes of behaviours leaves no trace.
+        if self.program.slots == 0 {
+            return ways;
+        }
+        for answer in [Status::Success, Status::Failure, Status::Running] {
+            let status = self.inputs.status(behavior, answer);
+            let when = self.inputs.circuit.and(reach.all, status);
+            let left = Left {
+                drove: true,
+                slots: Slots::new(),
+            };
+            self.take(&mut ways, answer, left, when);
+        }
+        ways
+    }
+
+    /// A selector or sequence; `first` is the offset of the child that one with memory resumes at.
+    fn composite(
+        &mut self,
+        at: usize,
+        placed: Placed,
+        reach: Reach,
+        kind: Composite,
+        first: Option<u64>,
+    ) -> Ways {
+        let goes_on = match kind {
+            Composite::Selector => Status::Failure,
+            Composite::Sequence => Status::Success,
+        };
+        let mut ways = Ways::new();
+        let mut child = at + 1 + first.unwrap_or(0) as usize;
+        let mut open = BTreeMap::from([(Left::default(), reach.all)]);
+        while child < placed.end {
+            let after = self.after(child);
+            let mut next = BTreeMap::new();
+            for (before, when) in open {
+                for (way, when) in self.child(child, &before, when, reach) {
+                    let mut left = before.then(&way.left);
+                    let stands = match way.answer {
+                        Status::Running => Some(child),
+                        // What is left sees the termination before the next child is ticked.
+                        answer if answer == goes_on && way.left.drove && after < placed.end => {
+                            Some(after)
+                        }
+                        _ => None,
+                    };
+                    match stands.filter(|_| first.is_some()) {
+                        Some(child) => {
+                            remember(&mut left, placed, (child - at - 1) as u64);
+                            self.take(&mut ways, Status::Running, left, when);
+                        }
+                        None if way.answer == goes_on && after < placed.end => {
+                            self.join(&mut next, left, when);
+                        }
+                        None => self.take(&mut ways, way.answer, left, when),
+                    }
+                }
+            }
+            open = next;
+            child = after;
+        }
+        ways
+    }
+
+    fn parallel(
+        &mut self,
+        at: usize,
+        placed: Placed,
+        reach: Reach,
+        successes: u32,
+        children: u32,
+    ) -> Ways {
+        let mut open = BTreeMap::from([((0u32, 0u32, Left::default()), reach.all)]);
+        let mut child = at + 1;
+        while child < placed.end {
+            let mut next = BTreeMap::new();
+            for ((succeeded, failed, before), when) in open {
+                for (way, when) in self.child(child, &before, when, reach) {
+                    let left = before.then(&way.left);
+                    let succeeded = succeeded + u32::from(way.answer == Status::Success);
+                    let failed = failed + u32::from(way.answer == Status::Failure);
+                    self.join(&mut next, (succeeded, failed, left), when);
+                }
+            }
+            open = next;
+            child = self.after(child);
+        }
+        let mut ways = Ways::new();
+        for ((succeeded, failed, mut left), when) in open {
+            let answer = if succeeded >= successes {
+                Status::Success
+            } else if children.saturating_sub(failed) < successes {
+                Status::Failure
+            } else {
+                Status::Running
+            };
+            if answer != Status::Running {
+                // Children that were still running are halted.
+                left.slots.clear();
+            }
+            self.take(&mut ways, answer, left, when);
+        }
+        ways
+    }
+
+    fn decorator(&mut self, at: usize, placed: Placed, reach: Reach, kind: Decorator) -> Ways {
+        let count = self.recall(placed);
+        let mut ways = Ways::new();
+        if matches!(kind, Decorator::Timeout(ticks) if count >= ticks) {
+            self.take(&mut ways, Status::Failure, Left::default(), reach.all);
+            return ways;
+        }
+        for (way, when) in self.node(at + 1, reach) {
+            let mut left = way.left;
+            let (answer, counted) = match (kind, way.answer) {
+                (Decorator::Invert | Decorator::Fail, Status::Success) => (Status::Failure, None),
+                (Decorator::Invert | Decorator::Succeed, Status::Failure) => {
+                    (Status::Success, None)
+                }
+                (Decorator::Timeout(_), Status::Running) => (Status::Running, Some(count + 1)),
+                (Decorator::Retry(times), Status::Failure)
+                | (Decorator::Repeat(times), Status::Success)
+                    if count + 1 < u64::from(times) =>
+                {
+                    (Status::Running, Some(count + 1))
+                }
+                (Decorator::Retry(_) | Decorator::Repeat(_), Status::Running) => {
+                    (Status::Running, Some(count))
+                }
+                (_, answer) => (answer, None),
+            };
+            remember(&mut left, placed, counted.unwrap_or(0));
+            self.take(&mut ways, answer, left, when);
+        }
+        ways
+    }
+
+    /// A child that is reached `when` the children before it have left this.
+    fn child(&mut self, child: usize, before: &Left, when: Signal, reach: Reach) -> Ways {
+        let fresh = match before.drove {
+            true => Signal::FALSE,
+            // Where nothing has been ticked before, nothing has here: the gates of nested nodes stay those of flat ones.
+            false if reach.fresh == reach.all => when,
+            false => self.inputs.circuit.and(when, reach.fresh),
+        };
+        self.node(child, Reach { all: when, fresh })
+    }
+
+    fn take(&mut self, ways: &mut Ways, answer: Status, left: Left, when: Signal) {
+        self.join(ways, Way { answer, left }, when);
+    }
+
+    fn join<K: Ord>(&mut self, all: &mut BTreeMap<K, Signal>, key: K, when: Signal) {
+        if when != Signal::FALSE {
+            let before = all.entry(key).or_insert(Signal::FALSE);
+            *before = self.inputs.circuit.or(*before, when);
+        }
+    }
+
+    fn after(&self, child: usize) -> usize {
+        let placed = self.program.nodes.get(child);
+        placed.map_or(usize::MAX, |placed| placed.end)
+    }
+
+    fn recall(&self, placed: Placed) -> u64 {
+        self.memory.get(placed.slots.0).copied().unwrap_or(0)
+    }
+}
+
+fn remember(left: &mut Left, placed: Placed, value: u64) {
+    if value > 0 {
+        left.slots.insert(placed.slots.0, value);
+    }
+}

@@ -1,0 +1,72 @@
+//! Trees for robots: what is written keeps the rules of its format, and runs as btc runs the tree.
+
+mod cpp;
+mod file;
+mod format;
+mod play;
+mod python;
+
+mod trees;
+
+use crate::examples::example;
+use crate::program;
+use crate::snapshot;
+use btc::diagnostic::{Code, Diagnostic};
+use btc::driver::compile::{self, Form};
+use btc::driver::export::{Runtime, tree};
+use btc::driver::load::Loaded;
+use btc::ir::Program;
+use btc::ir::tree::{Node, Tree};
+use btc::source::Span;
+use std::path::Path;
+
+/// A program with names of every sort, and a tree of everything.
+fn names() -> Loaded {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/cases/export");
+    let loaded = program::named("names.bt", &Path::new(folder).join("names.bt"));
+    assert_eq!(program::shown(&loaded), "");
+    loaded
+}
+
+/// A tree of these names for a robot.
+fn written(program: &Program, root: &Node, runtime: Runtime) -> Result<String, Diagnostic> {
+    let subject = Tree {
+        name: "tried".to_owned(),
+        docs: Vec::new(),
+        task: program.tasks.ids().next(),
+        root: root.clone(),
+    };
+    tree(program, &subject, runtime, |_| Span::default())
+}
+
+const RUNTIMES: [(Runtime, &str); 2] = [(Runtime::BtCpp, "xml"), (Runtime::PyTrees, "py")];
+
+#[test]
+fn as_robots_get_them() {
+    let check = |name: &str, loaded: &Loaded, tree: &str| {
+        for (runtime, ending) in RUNTIMES {
+            let text = compile::emit(loaded, Form::Robot(runtime), Some(tree)).unwrap();
+            snapshot::check(&format!("{name}.{tree}.{ending}"), &text);
+        }
+    };
+    check("delivery_small", &example("delivery_small"), "expert");
+    check("delivery_large", &example("delivery_large"), "table_1");
+    check("names", &names(), "everything");
+}
+
+#[test]
+fn what_has_no_counterpart_has_a_place() {
+    let text = "predicate low\nbehavior go\n\
+        tree a = selector { low => go, parallel(1) { low, go } }\n\
+        tree b = sequence { low, invert { a } }\n";
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("wrong.bt");
+    let loaded = program::with_text(&path, text.to_owned());
+    assert_eq!(program::shown(&loaded), "");
+    for (runtime, _) in RUNTIMES {
+        for (tree, place) in [("a", "parallel"), ("b", "a")] {
+            let refused = compile::emit(&loaded, Form::Robot(runtime), Some(tree)).unwrap_err();
+            assert_eq!(refused.code, Code::E0821);
+            assert_eq!(loaded.sources.text(refused.span()), place);
+        }
+    }
+}

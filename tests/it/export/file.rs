@@ -1,0 +1,50 @@
+//! A file of BehaviorTree.CPP as its reader sees it, and what its leaves are.
+
+use super::trees::subjects;
+use super::written;
+use btc::driver::export::Runtime;
+use btc::ir::Program;
+use roxmltree::{Document, Node as Element};
+use std::collections::BTreeMap;
+
+/// A leaf as it is written: its id and its ports.
+pub(super) type Leaf = (String, BTreeMap<String, String>);
+
+/// The leaf of an element; its name is for people.
+pub(super) fn leaf(element: Element) -> Leaf {
+    let ports = element.attributes().filter(|a| a.name() != "name");
+    let ports = ports.map(|a| (a.name().to_owned(), a.value().to_owned()));
+    (element.tag_name().name().to_owned(), ports.collect())
+}
+
+/// The elements inside an element.
+pub(super) fn inside<'a, 'i>(element: Element<'a, 'i>) -> Vec<Element<'a, 'i>> {
+    element
+        .children()
+        .filter(|child| child.is_element())
+        .collect()
+}
+
+/// The only element of that name.
+pub(super) fn only<'a, 'i>(document: &'a Document<'i>, name: &str) -> Element<'a, 'i> {
+    let mut found = document.descendants().filter(|e| e.has_tag_name(name));
+    let first = found.next().unwrap();
+    assert!(found.next().is_none(), "two <{name}>");
+    first
+}
+
+/// How conditions (by atom) and behaviours are written in files of their own.
+pub(super) fn leaves(program: &Program) -> BTreeMap<Leaf, (bool, usize)> {
+    let (asked, done) = subjects(program);
+    let mut leaves = BTreeMap::new();
+    for (acts, nodes) in [(false, asked), (true, done)] {
+        for (i, node) in nodes.iter().enumerate() {
+            let text = written(program, node, Runtime::BtCpp).unwrap();
+            let document = Document::parse(&text).unwrap();
+            let root = inside(only(&document, "BehaviorTree"));
+            let twice = leaves.insert(leaf(root[0]), (acts, i));
+            assert_eq!(twice, None, "{text}");
+        }
+    }
+    leaves
+}

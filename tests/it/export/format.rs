@@ -1,0 +1,144 @@
+//! The rules of the format, as BehaviorTree.CPP checks them and Groot2 needs them.
+
+use super::file::{inside, only};
+use super::trees::{Grower, Kinds, atoms};
+use super::{names, written};
+use crate::examples;
+use crate::tree::random::Random;
+use btc::driver::compile::{self, Form};
+use btc::driver::export::Runtime;
+use btc::emit::btcpp::RESERVED;
+use roxmltree::{Document, Node as Element};
+use std::collections::BTreeSet;
+
+const CONTROLS: [&str; 5] = [
+    "Fallback",
+    "Parallel",
+    "ReactiveFallback",
+    "ReactiveSequence",
+    "Sequence",
+];
+/// The decorators, each with its ports.
+const DECORATORS: [(&str, &[&str]); 6] = [
+    ("ForceFailure", &[]),
+    ("ForceSuccess", &[]),
+    ("Inverter", &[]),
+    ("Repeat", &["num_cycles"]),
+    ("RetryUntilSuccessful", &["num_attempts"]),
+    ("Timeout", &["msec"]),
+];
+
+fn is_legal(id: &str) -> bool {
+    !id.is_empty()
+        && id.starts_with(|c: char| c.is_ascii_alphabetic())
+        && !id.contains(|c: char| c.is_whitespace() || "<>&\"'/\\:*?|.".contains(c))
+}
+
+/// Checks a file against every rule.
+fn check(text: &str) {
+    let document = Document::parse(text).unwrap_or_else(|error| panic!("{error}: {text}"));
+    let root = document.root_element();
+    assert_eq!(root.tag_name().name(), "root");
+    assert_eq!(root.attribute("BTCPP_format"), Some("4"));
+    let main = root.attribute("main_tree_to_execute").unwrap();
+    let trees: Vec<Element> = inside(root)
+        .into_iter()
+        .filter(|e| e.has_tag_name("BehaviorTree"))
+        .collect();
+    let ids: Vec<&str> = trees.iter().map(|t| t.attribute("ID").unwrap()).collect();
+    assert_eq!(ids, [main]);
+    assert!(is_legal(main) && !RESERVED.contains(&main), "{main}");
+
+    let model = only(&document, "TreeNodesModel");
+    let mut modelled = BTreeSet::new();
+    for entry in inside(model) {
+        assert!(["Action", "Condition"].contains(&entry.tag_name().name()));
+        let id = entry.attribute("ID").unwrap();
+        assert!(is_legal(id) && !RESERVED.contains(&id), "{id}");
+        assert_ne!(id, main);
+        assert!(modelled.insert(id), "{id} twice");
+    }
+
+    let mut used = BTreeSet::new();
+    assert_eq!(inside(trees[0]).len(), 1, "{text}");
+    for node in trees[0]
+        .descendants()
+        .skip(1)
+        .filter(|node| node.is_element())
+    {
+        let (tag, children) = (node.tag_name().name(), inside(node).len());
+        if CONTROLS.contains(&tag) {
+            assert!(children > 0, "{text}");
+            if tag == "Parallel" {
+                let count = |name| node.attribute(name).unwrap().parse::<usize>().unwrap();
+                let (successes, failures) = (count("success_count"), count("failure_count"));
+                assert_eq!(successes + failures, children + 1);
+            }
+        } else if let Some((_, ports)) = DECORATORS.iter().find(|(name, _)| *name == tag) {
+            assert_eq!(children, 1, "{text}");
+            let given: Vec<&str> = node.attributes().map(|a| a.name()).collect();
+            assert_eq!(given, *ports);
+            for attribute in node.attributes() {
+                attribute.value().parse::<u32>().unwrap();
+            }
+        } else if ["AlwaysSuccess", "AlwaysFailure"].contains(&tag) {
+            assert_eq!(children, 0);
+        } else {
+            assert_eq!(children, 0);
+            used.insert(tag);
+            let entry = inside(model)
+                .into_iter()
+                .find(|e| e.attribute("ID") == Some(tag));
+            let entry = entry.unwrap_or_else(|| panic!("{tag} has no model: {text}"));
+            let ports: Vec<&str> = inside(entry)
+                .iter()
+                .map(|port| port.attribute("name").unwrap())
+                .collect();
+            for attribute in node.attributes().filter(|a| a.name() != "name") {
+                assert!(ports.contains(&attribute.name()), "{text}");
+                // In braces it would be an entry of the blackboard.
+                assert!(!attribute.value().starts_with('{'), "{text}");
+            }
+            for port in ports {
+                assert!(is_legal(port) && !["ID", "name"].contains(&port), "{port}");
+            }
+        }
+    }
+    assert_eq!(used, modelled, "{text}");
+}
+
+#[test]
+fn of_examples() {
+    for name in examples::names() {
+        let loaded = examples::example(&name);
+        for tree in loaded.program.trees.values() {
+            let form = Form::Robot(Runtime::BtCpp);
+            check(&compile::emit(&loaded, form, Some(&tree.name)).unwrap());
+        }
+    }
+}
+
+#[test]
+fn of_random_trees() {
+    let loaded = names();
+    let program = &loaded.program;
+    let form = Form::Robot(Runtime::BtCpp);
+    check(&compile::emit(&loaded, form, Some("everything")).unwrap());
+    for seed in 0..500 {
+        let mut grower = Grower {
+            random: &mut Random::new(seed),
+            atoms: &atoms(program),
+            behaviors: program.behaviors.len(),
+            kinds: Kinds {
+                counters: true,
+                timeouts: true,
+                all: true,
+            },
+        };
+        let root = match seed % 2 {
+            0 => grower.plain(4),
+            _ => grower.learned(2),
+        };
+        check(&written(program, &root, Runtime::BtCpp).unwrap());
+    }
+}

@@ -1,0 +1,214 @@
+//! py_trees itself ticks the exported modules; what it does is compared with what btc does.
+//!
+//! The variable `BTC_PY_TREES` names a Python that can import py_trees. Without it this cannot be tested, and says so.
+
+use super::play::{Play, Tick};
+use super::trees::{Grower, Kinds, atoms, subjects};
+use super::{names, written};
+use crate::examples::{self, example};
+use crate::tree::build::{decorated, leaf, parallel};
+use crate::tree::random::Random;
+use btc::driver::compile::{self, Form};
+use btc::driver::export::Runtime;
+use btc::ir::Program;
+use btc::ir::tree::{Decorator, Node, Status};
+use serde_json::{Value, json};
+use std::ffi::OsString;
+use std::io::Write;
+use std::process::{Command, Stdio};
+
+/// The Python to test with.
+fn python() -> Option<OsString> {
+    let found = std::env::var_os("BTC_PY_TREES");
+    if found.is_none() {
+        eprintln!("BTC_PY_TREES is not set: no exported module was run in py_trees");
+    }
+    found
+}
+
+/// The module of a tree.
+fn module(program: &Program, root: &Node) -> String {
+    written(program, root, Runtime::PyTrees).unwrap()
+}
+
+/// What py_trees does in each play, and what the programs print.
+fn run(
+    python: &OsString,
+    program: &Program,
+    plays: &[(String, Play)],
+    programs: &[String],
+) -> (Vec<Vec<Tick>>, Vec<String>) {
+    let modules = |nodes: Vec<Node>| -> Vec<String> {
+        nodes.iter().map(|node| module(program, node)).collect()
+    };
+    let (asked, done) = subjects(program);
+    let plays: Vec<Value> = plays
+        .iter()
+        .map(|(module, play)| play.as_json(module))
+        .collect();
+    let job = json!({
+        "conditions": modules(asked),
+        "behaviors": modules(done),
+        "plays": plays,
+        "programs": programs,
+    });
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/cases/export/play.py");
+    let mut child = Command::new(python)
+        .arg(script)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut input = child.stdin.take().unwrap();
+    input.write_all(job.to_string().as_bytes()).unwrap();
+    drop(input);
+    let output = child.wait_with_output().unwrap();
+    assert!(output.status.success());
+    let answer: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let ticks = |play: &Value| play.as_array().unwrap().iter().map(tick).collect();
+    let plays = answer["plays"].as_array().unwrap().iter();
+    let drawn = answer["drawn"].as_array().unwrap().iter();
+    let text = |value: &Value| value.as_str().unwrap().to_owned();
+    (plays.map(ticks).collect(), drawn.map(text).collect())
+}
+
+fn tick(value: &Value) -> Tick {
+    let calls = value[0].as_array().unwrap().iter();
+    Tick {
+        calls: calls.map(|call| call.as_u64().unwrap() as usize).collect(),
+        status: match value[1].as_str().unwrap() {
+            "S" => Status::Success,
+            "F" => Status::Failure,
+            _ => Status::Running,
+        },
+    }
+}
+
+/// Compares the plays of trees with btc's.
+fn compare(program: &Program, cases: Vec<(Node, Play, bool)>) {
+    let Some(python) = python() else { return };
+    let plays: Vec<(String, Play)> = cases
+        .iter()
+        .map(|(root, play, _)| (module(program, root), play.clone()))
+        .collect();
+    let (there, _) = run(&python, program, &plays, &[]);
+    let mut calls = 0;
+    for (((root, play, held), there), (text, _)) in cases.iter().zip(&there).zip(&plays) {
+        let here = play.by_btc(program, root, *held);
+        if let Some(at) = (0..here.len()).find(|&at| here[at] != there[at]) {
+            panic!(
+                "tick {at}: {:?} here, {:?} there\n{text}",
+                here[at], there[at]
+            );
+        }
+        calls += here.iter().map(|tick| tick.calls.len()).sum::<usize>();
+    }
+    assert!(calls > 10 * cases.len(), "{calls} calls");
+}
+
+/// Random trees of these kinds with their plays.
+fn random(program: &Program, kinds: Kinds, learned: bool) -> Vec<(Node, Play, bool)> {
+    let atoms = atoms(program);
+    let cases = (0..300).map(|seed| {
+        let random = &mut Random::new(seed);
+        let mut grower = Grower {
+            random,
+            atoms: &atoms,
+            behaviors: program.behaviors.len(),
+            kinds,
+        };
+        let root = match learned {
+            false => grower.plain(4),
+            true => grower.learned(2),
+        };
+        let play = Play::new(random, atoms.len(), 40, learned);
+        (root, play, learned)
+    });
+    cases.collect()
+}
+
+/// Where no node with memory moves on, tick by tick; counters among them.
+#[test]
+fn plain_trees_do_the_same_in_each_tick() {
+    let kinds = Kinds {
+        counters: true,
+        timeouts: false,
+        all: true,
+    };
+    let loaded = names();
+    compare(&loaded.program, random(&loaded.program, kinds, false));
+}
+
+/// What btc does in several ticks under one valuation, py_trees does in one.
+#[test]
+fn learned_trees_do_the_same_one_tick_earlier_at_each_step() {
+    let kinds = Kinds {
+        counters: false,
+        timeouts: false,
+        all: false,
+    };
+    let loaded = names();
+    compare(&loaded.program, random(&loaded.program, kinds, true));
+}
+
+#[test]
+fn examples_do_the_same() {
+    for name in examples::names() {
+        let program = example(&name).program;
+        let atoms = atoms(&program);
+        let mut cases = Vec::new();
+        for tree in program.trees.values() {
+            for seed in 0..20 {
+                let play = Play::new(&mut Random::new(seed), atoms.len(), 60, false);
+                cases.push((tree.root.clone(), play.without_failures(), true));
+            }
+        }
+        compare(&program, cases);
+    }
+}
+
+/// A `parallel` in which every child has to succeed asks its conditions anew in each tick.
+#[test]
+fn a_parallel_does_the_same() {
+    let loaded = names();
+    let program = &loaded.program;
+    let (asked, _) = subjects(program);
+    let atoms = atoms(program);
+    let cases = (0..40).map(|seed| {
+        let random = &mut Random::new(seed);
+        let low = asked[random.below(2)].clone();
+        let root = parallel(2, vec![leaf(random.below(3)), low]);
+        (root, Play::new(random, atoms.len(), 40, false), false)
+    });
+    compare(program, cases.collect());
+}
+
+/// `Timeout` of py_trees ticks its child once more in the tick in which it fails.
+#[test]
+fn a_timeout_fails_in_the_same_tick() {
+    let Some(python) = python() else { return };
+    let loaded = names();
+    let program = &loaded.program;
+    let root = decorated(Decorator::Timeout(3), leaf(1));
+    let play = Play::new(&mut Random::new(1), atoms(program).len(), 12, false).all_running();
+    let here = play.by_btc(program, &root, false);
+    let (there, _) = run(&python, program, &[(module(program, &root), play)], &[]);
+    let failures = here.iter().filter(|tick| tick.status == Status::Failure);
+    assert_eq!(failures.count(), 3);
+    for (here, there) in here.iter().zip(&there[0]) {
+        assert_eq!(here.status, there.status);
+        assert_eq!(there.calls, [1]);
+        assert_eq!(here.calls.is_empty(), here.status == Status::Failure);
+    }
+}
+
+/// Run as a program, a module draws its tree.
+#[test]
+fn modules_draw_themselves() {
+    let Some(python) = python() else { return };
+    let loaded = names();
+    let form = Form::Robot(Runtime::PyTrees);
+    let text = compile::emit(&loaded, form, Some("everything")).unwrap();
+    let (_, drawn) = run(&python, &loaded.program, &[], &[text]);
+    crate::snapshot::check("names.everything.py.drawn", &drawn[0]);
+}

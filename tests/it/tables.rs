@@ -1,0 +1,53 @@
+//! Policy tables of any origin: what is told of wrong ones, what is made of good ones, and what holds of all.
+
+mod canonical;
+mod cases;
+mod laws;
+mod slack;
+
+use btc::diagnostic::render;
+use btc::driver::compile::Form;
+use btc::driver::decanonicalize::{self, Made, Options, Recorded};
+use btc::driver::load::{Loaded, load};
+use btc::driver::table::{Refused, Text};
+use btc::driver::verify::{self, Proved};
+use btc::tree::decanonicalise::{Method, Order};
+
+use crate::program::{self, NoFiles};
+
+/// What `btc decanonicalize` does if nothing is said.
+pub(crate) const USUAL: Options = Options {
+    method: Method::Search,
+    order: Order::Learned,
+    effort: 10,
+    slack: 0.0,
+    name: "learned",
+    form: Form::Bt,
+};
+
+fn text<'t>(name: &'t str, bytes: &'t [u8]) -> Text<'t> {
+    Text { name, bytes }
+}
+
+/// What is made of a table.
+fn made(table: Text, recorded: Option<Recorded>, options: &Options) -> Result<Made, Refused> {
+    let asked = decanonicalize::read(table, recorded, options)?;
+    decanonicalize::decanonicalize(asked, options)
+}
+
+/// What a person is shown of a table that is refused.
+fn shown(refused: &Refused) -> String {
+    render::human(&refused.sources, &refused.diagnostics, false)
+}
+
+/// The program that was made, which has no mistakes.
+fn loaded(made: &Made) -> Loaded {
+    let loaded = load("made.bt", made.text.clone().into(), &mut NoFiles);
+    assert_eq!(program::shown(&loaded), "", "{}", made.text);
+    loaded
+}
+
+/// What comes of a comparison of the tree that was made with a table.
+fn compared(made: &Made, table: Text) -> Proved {
+    verify::table(&loaded(made), "learned", table, None).unwrap_or_else(|r| panic!("{}", shown(&r)))
+}

@@ -1,0 +1,146 @@
+//! What holds of every table.
+
+use super::{USUAL, compared, made, shown, text};
+use btc::driver::decanonicalize::Options;
+use btc::policy::table::{Format, Table};
+use btc::tree::decanonicalise::{Method, Order};
+use proptest::prelude::*;
+
+/// The names of atoms, such as tables of any origin have them.
+const ATOMS: [&str; 5] = ["low", "is near", "done(`go to`)", "if", "failed(x-1)"];
+/// The names of behaviours.
+const BEHAVIORS: [&str; 4] = ["go to", "x-1", "while", "goto(A, \"B\")"];
+
+/// Rows of cells `0`, `1` and `-`, no two of which overlap, with what is done in each.
+fn rows() -> impl Strategy<Value = Vec<(Vec<char>, usize)>> {
+    let cell = prop_oneof![3 => Just('0'), 3 => Just('1'), 1 => Just('-')];
+    let row = (
+        proptest::collection::vec(cell, ATOMS.len()),
+        0..BEHAVIORS.len(),
+    );
+    proptest::collection::vec(row, 1..16).prop_map(|rows| {
+        let mut kept: Vec<(Vec<char>, usize)> = Vec::new();
+        for (cells, behavior) in rows {
+            let overlap = |other: &[char]| {
+                cells
+                    .iter()
+                    .zip(other)
+                    .all(|(a, b)| a == b || *a == '-' || *b == '-')
+            };
+            if !kept.iter().any(|(other, _)| overlap(other)) {
+                kept.push((cells, behavior));
+            }
+        }
+        kept
+    })
+}
+
+fn csv(rows: &[(Vec<char>, usize)]) -> String {
+    let quoted = |name: &str| format!("\"{}\"", name.replace('"', "\"\""));
+    let mut text = format!("{},action\n", ATOMS.map(quoted).join(","));
+    for (cells, behavior) in rows {
+        let cells: Vec<String> = cells.iter().map(char::to_string).collect();
+        text += &format!("{},{}\n", cells.join(","), quoted(BEHAVIORS[*behavior]));
+    }
+    text
+}
+
+fn json(rows: &[(Vec<char>, usize)]) -> String {
+    let mut text = String::new();
+    for (cells, behavior) in rows {
+        let mut object = serde_json::Map::new();
+        for (name, cell) in ATOMS.iter().zip(cells) {
+            let value = match cell {
+                '0' => false.into(),
+                '1' => 1.into(),
+                _ => serde_json::Value::Null,
+            };
+            object.insert((*name).to_owned(), value);
+        }
+        object.insert("behavior".to_owned(), BEHAVIORS[*behavior].into());
+        text += &format!("{}\n", serde_json::Value::Object(object));
+    }
+    text
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 64, ..ProptestConfig::default() })]
+
+    /// Table to tree to text to tree is equal to the table, whatever is asked; both formats are one table.
+    #[test]
+    fn what_is_made_is_equal_to_the_table(
+        rows in rows(),
+        order in prop_oneof![Just(Order::Learned), Just(Order::Given), Just(Order::Rarest)],
+        paper in any::<bool>(),
+    ) {
+        let options = Options {
+            method: if paper { Method::Paper } else { Method::Search },
+            order,
+            ..USUAL
+        };
+        let (table, lines) = (csv(&rows), json(&rows));
+        let source = table.clone();
+        let table = text("t.csv", source.as_bytes());
+        let tree = made(table, None, &options).unwrap_or_else(|r| panic!("{source}{}", shown(&r)));
+        let proved = compared(&tree, table);
+        prop_assert!(proved.holds, "{}", proved.text);
+        let lines = made(text("t.jsonl", lines.as_bytes()), None, &options).unwrap();
+        prop_assert_eq!(tree.text.replace("t.csv", "t.jsonl"), lines.text);
+        // A row that is exchanged is found, and named.
+        let mut other = rows.clone();
+        other[0].1 = (other[0].1 + 1) % BEHAVIORS.len();
+        let other = csv(&other);
+        let refuted = compared(&tree, text("other.csv", other.as_bytes()));
+        prop_assert!(!refuted.holds);
+        prop_assert!(refuted.text.contains("other.csv:2: "), "{}", refuted.text);
+    }
+
+    /// Bytes of any kind are read or refused.
+    #[test]
+    fn reading_is_total(bytes in proptest::collection::vec(any::<u8>(), 0..80)) {
+        total(&bytes);
+    }
+
+    /// So are the remains of good tables.
+    #[test]
+    fn reading_mutants_is_total(
+        rows in rows(),
+        lines in any::<bool>(),
+        edits in proptest::collection::vec((any::<prop::sample::Index>(), any::<u8>(), 0..4_u8), 1..6),
+    ) {
+        let good = if lines { json(&rows) } else { csv(&rows) };
+        let mut bytes = good.into_bytes();
+        for (at, byte, what) in edits {
+            let at = at.index(bytes.len());
+            let mark = [b',', b'"', b'\n', b'-', b'{', b'`'][usize::from(byte) % 6];
+            match what {
+                0 => drop(bytes.remove(at)),
+                1 => bytes.insert(at, byte),
+                2 => bytes[at] = mark,
+                _ => bytes.truncate(at.max(1)),
+            }
+        }
+        total(&bytes);
+    }
+}
+
+/// Every mistake lies in the text, and what has none becomes a tree that is equal to it.
+fn total(bytes: &[u8]) {
+    for format in [Format::Csv, Format::Json] {
+        if let Err(mistakes) = Table::read(bytes, format) {
+            assert!(!mistakes.is_empty());
+            for mistake in mistakes {
+                assert!(mistake.span.start <= mistake.span.end, "{mistake:?}");
+                assert!(mistake.span.end <= bytes.len(), "{mistake:?}");
+            }
+        }
+    }
+    let table = text("mutant", bytes);
+    match made(table, None, &USUAL) {
+        Ok(made) => assert!(compared(&made, table).holds),
+        Err(refused) => {
+            assert!(!refused.diagnostics.is_empty());
+            shown(&refused);
+        }
+    }
+}

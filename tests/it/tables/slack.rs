@@ -1,0 +1,93 @@
+//! Slack: smaller trees that are not equal to their tables, and say so.
+
+use super::{USUAL, compared, made, text};
+use crate::snapshot;
+use btc::driver::decanonicalize::Options;
+use proptest::prelude::*;
+
+fn with(slack: f64) -> Options<'static> {
+    Options { slack, ..USUAL }
+}
+
+/// Three behaviours, of which the third is worth nearly as much as another in both of its minterms.
+const TABLE: &str = "\
+a,b,c,behavior,q:x,q:y,q:z
+0,0,0,x,1,0,0
+0,0,1,x,1,0,0
+0,1,0,x,1,0,0
+0,1,1,z,0.95,0,1
+1,0,0,y,0,1,0
+1,0,1,y,0,1,0
+1,1,0,z,0,0.96,1
+1,1,1,y,0,1,0
+";
+
+#[test]
+fn minterms_that_are_decided_otherwise_are_listed() {
+    let table = text("t.csv", TABLE.as_bytes());
+    let exact = made(table, None, &USUAL).unwrap();
+    let loose = made(table, None, &with(0.1)).unwrap();
+    let lines = [&loose.warnings[..], &loose.report[..]].concat().join("\n");
+    snapshot::check("table_slack", &format!("{}\n{lines}\n", loose.text));
+    assert!(loose.text.len() < exact.text.len());
+    assert!(loose.text.contains("NOT equal"));
+    assert!(!compared(&loose, table).holds);
+    assert_eq!(loose.warnings.len(), 3);
+}
+
+/// What is worth too little, and what has no value, is never taken.
+#[test]
+fn slack_that_is_too_small_changes_nothing() {
+    let table = text("t.csv", TABLE.as_bytes());
+    let exact = made(table, None, &USUAL).unwrap();
+    let tight = made(table, None, &with(0.03)).unwrap();
+    assert_eq!(tight.text, exact.text);
+    let unknown = TABLE.replace("0.95", "").replace("0.96", "");
+    let table = text("t.csv", unknown.as_bytes());
+    assert_eq!(made(table, None, &with(0.5)).unwrap().text, exact.text);
+}
+
+/// A table over four predicates in which each of three behaviours has a value.
+fn valued() -> impl Strategy<Value = String> {
+    let row = proptest::collection::vec(0..20_u32, 3);
+    proptest::collection::btree_map(0..16_u32, row, 2..14).prop_map(|rows| {
+        let mut table = "a,b,c,d,behavior,q:x,q:y,q:z\n".to_owned();
+        for (bits, values) in rows {
+            let cells: Vec<String> = (0..4).map(|i| (bits >> i & 1).to_string()).collect();
+            let best = (0..3).max_by_key(|i| values[*i]).unwrap();
+            let values: Vec<String> = values
+                .iter()
+                .map(|v| format!("{}", f64::from(*v) / 10.0))
+                .collect();
+            table += &format!(
+                "{},{},{}\n",
+                cells.join(","),
+                ["x", "y", "z"][best],
+                values.join(",")
+            );
+        }
+        table
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 48, ..ProptestConfig::default() })]
+
+    /// Without slack the tree is the exact one; with slack it is smaller or the same, and every change is within it.
+    #[test]
+    fn slack_is_kept(table in valued(), slack in 1..8_u32) {
+        let table = text("t.csv", table.as_bytes());
+        let slack = f64::from(slack) / 10.0;
+        let exact = made(table, None, &USUAL).unwrap();
+        prop_assert_eq!(&made(table, None, &with(0.0)).unwrap().text, &exact.text);
+        let loose = made(table, None, &with(slack)).unwrap();
+        let proved = compared(&loose, table);
+        // Proved or refuted, it says which.
+        prop_assert_eq!(proved.holds, loose.warnings.is_empty());
+        prop_assert_eq!(proved.holds, loose.text == exact.text);
+        for line in loose.warnings.iter().skip(1) {
+            let loss: f64 = line.split("worth ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
+            prop_assert!(loss <= slack + 1e-9, "{}", line);
+        }
+    }
+}
