@@ -12,7 +12,6 @@ mod grown;
 mod guards;
 mod permuted;
 mod proofs;
-mod random;
 mod scale;
 mod small_delivery;
 mod ticks;
