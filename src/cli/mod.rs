@@ -9,6 +9,7 @@ mod explain;
 mod files;
 mod fmt;
 mod learn;
+mod minimize;
 mod progress;
 mod report;
 mod run;
@@ -46,6 +47,8 @@ enum Command {
     Run(run::Arguments),
     /// Prove two trees equal, or show a shortest trace on which they part.
     Verify(verify::Arguments),
+    /// Minimise the covers of a PLA.
+    Minimize(minimize::Arguments),
     /// Lay files out.
     Fmt(fmt::Arguments),
     /// Explain a diagnostic code.
@@ -85,6 +88,7 @@ pub fn main() -> ExitCode {
         Command::Learn(arguments) => learn::run(&arguments, &say),
         Command::Run(arguments) => run::run(&arguments, &say),
         Command::Verify(arguments) => verify::run(&arguments, &say),
+        Command::Minimize(arguments) => minimize::run(&arguments, &say),
         Command::Fmt(arguments) => fmt::run(&arguments, &say),
         Command::Explain(arguments) => explain::run(&arguments),
     };

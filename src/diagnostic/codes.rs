@@ -1,7 +1,7 @@
 //! The codes of diagnostics, each with its title and its explanation.
 //!
 //! E01xx syntax, E02xx names, E03xx types and units, E04xx the world, E05xx tasks and learning, E06xx trees,
-//! W… warnings. An explanation is a file of its own under `explain/`, with a wrong and a right example that the
+//! E08xx tables, W… warnings. An explanation is a file of its own under `explain/`, with a wrong and a right example that the
 //! tests run.
 
 use super::Severity;
@@ -121,6 +121,14 @@ codes! {
     E0610 "a table that does not fit",
 
     E0701 "not built yet",
+
+    E0801 "a keyword of a PLA that does not fit",
+    E0802 "a row of a PLA of another width",
+    E0803 "a character without meaning in a PLA",
+    E0804 "a PLA without its size",
+    E0805 "a PLA that contradicts itself",
+    E0806 "a complement that is too large",
+    E0807 "a PLA that is no decision list",
 
     W0201 "a name that nothing reads",
     W0301 "a plain number for a ratio",

@@ -6,6 +6,7 @@ pub mod explain;
 pub mod format;
 pub mod learn;
 pub mod load;
+pub mod minimize;
 pub mod picture;
 pub mod run;
 pub mod simplify;
