@@ -183,6 +183,9 @@ fn what_a_robot_cannot_run() {
             assert_eq!(found.code, code);
             assert!(compile::emit(&right(code), form, Some(tree)).is_ok());
         }
+    }
+}
+
 /// E0801–E0807: PLAs.
 #[test]
 fn wrong_plas() {
