@@ -111,6 +111,21 @@ impl Bits {
         self.zip(other).all(|(a, b)| a & b == 0)
     }
 
+    /// The least number that the two have in common.
+    pub fn first_of_both(&self, other: &Self) -> Option<usize> {
+        let mut words = self.zip(other).enumerate();
+        words.find_map(|(i, (a, b))| {
+            let both = a & b;
+            (both != 0).then(|| i * 64 + both.trailing_zeros() as usize)
+        })
+    }
+
+    /// Whether all numbers that the two have in common are in the third.
+    pub fn both_within(&self, other: &Self, third: &Self) -> bool {
+        let mut words = self.zip(other).zip(&third.words);
+        words.all(|((a, b), c)| a & b & !c == 0)
+    }
+
     /// How many numbers the two have in common.
     pub fn count_both(&self, other: &Self) -> usize {
         self.zip(other)

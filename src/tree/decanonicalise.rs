@@ -20,7 +20,7 @@ use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::{Node, Status};
 use crate::policy::{Minterm, Policy};
-use covers::Covers;
+use covers::{Covers, LARGE};
 use problem::Problem;
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -67,7 +67,7 @@ impl Default for Options {
             method: Method::default(),
             care: Care::default(),
             order: Order::default(),
-            effort: 100,
+            effort: 20,
         }
     }
 }
@@ -81,8 +81,8 @@ pub struct Decanonicalised {
     pub proof: Proof,
     /// Its size.
     pub size: Size,
-    /// The size of the tree that Algorithm 1 finds.
-    pub paper_size: Size,
+    /// The size of the tree that Algorithm 1 finds; `None` where it was not run because the table is large.
+    pub paper_size: Option<Size>,
     /// Where a greedy transition shows the policy's decision failing, sorted by minterm.
     pub failing: Vec<Failing>,
 }
@@ -109,18 +109,22 @@ pub struct Failing {
 pub fn decanonicalise(policy: &Policy, options: &Options) -> Result<Decanonicalised, Refuted> {
     let policy = &*cared(policy, options.care);
     let problem = Problem::new(policy);
-    let paper = paper::tree(&Covers::new(&problem, u64::MAX));
-    let root = match options.method {
-        Method::Paper => paper.clone(),
+    let paper = || paper::tree(&Covers::new(&problem, u64::MAX));
+    let beside = options.method == Method::Paper || policy.rows.len() <= LARGE;
+    let first = beside.then(paper);
+    let found = match options.method {
+        Method::Paper => None,
         Method::Search => {
             let effort = options.effort.saturating_mul(1_000_000);
-            search::tree(&problem, &paper, options.order, effort)
+            search::tree(&problem, first.as_ref(), options.order, effort)
         }
     };
+    let paper_size = first.as_ref().map(Size::of);
+    let root = found.or(first).unwrap_or_else(paper);
     let proof = problem.prover().prove(&root)?;
     Ok(Decanonicalised {
         size: Size::of(&root),
-        paper_size: Size::of(&paper),
+        paper_size,
         failing: failing(policy, &proof),
         root,
         proof,

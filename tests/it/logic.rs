@@ -3,4 +3,4 @@
 #[path = "logic/lists.rs"]
 mod lists;
 #[path = "planted.rs"]
-mod planted;
+pub(crate) mod planted;

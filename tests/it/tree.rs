@@ -1,7 +1,10 @@
 //! Trees from policies, and what is proved of them.
-
 pub(crate) mod build;
+pub(crate) mod random;
+
 mod canonical;
+mod chains;
+mod cubes;
 mod drawn;
 mod equivalence;
 mod files;
@@ -9,7 +12,7 @@ mod grown;
 mod guards;
 mod permuted;
 mod proofs;
-pub(crate) mod random;
+mod scale;
 mod small_delivery;
 mod ticks;
 mod walk;

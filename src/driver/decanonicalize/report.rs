@@ -57,7 +57,9 @@ impl Subject<'_> {
                 counted(policy.behaviors.len(), "behaviour")
             ),
         );
-        line("paper", size(&self.exact.paper_size));
+        if let Some(paper) = &self.exact.paper_size {
+            line("paper", size(paper));
+        }
         line("tree", size(&self.exact.size));
         line("proved", format!("on {}", proved(policy, self.exact)));
         match self.slack {

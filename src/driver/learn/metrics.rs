@@ -64,7 +64,7 @@ impl Writer<'_> {
             "starts": results.policy.starts.len(),
             "transitions": results.policy.transitions.len(),
             "tree": size(&found.size),
-            "paper_tree": size(&found.paper_size),
+            "paper_tree": found.paper_size.as_ref().map(size),
             "proof": {
                 "minterms": found.proof.minterms,
                 "transitions": found.proof.transitions,
@@ -184,7 +184,7 @@ fn sizes(found: &Decanonicalised) -> Value {
     json!({
         "minterms": found.proof.minterms,
         "tree": size(&found.size),
-        "paper_tree": size(&found.paper_size),
+        "paper_tree": found.paper_size.as_ref().map(size),
     })
 }
 

@@ -9,6 +9,7 @@ use crate::learn::binomial::upper95;
 use crate::learn::bootstrap::{interquartile_mean, interval95, quantile};
 use crate::learn::statistics::Summary;
 use crate::policy::Minterm;
+use crate::tree::Size;
 use crate::tree::decanonicalise::{Care, Decanonicalised};
 
 /// How many minterms a line lists at most.
@@ -170,17 +171,22 @@ impl Report<'_> {
     fn tree(&mut self) {
         let trees = &self.results.trees;
         let found = trees.chosen();
-        let text = format!(
-            "{} nodes, {} literals, depth {} (Algorithm 1 alone: {} nodes)",
-            found.size.nodes, found.size.literals, found.size.depth, found.paper_size.nodes
-        );
+        let Size {
+            nodes,
+            literals,
+            depth,
+        } = found.size;
+        let alone = found.paper_size.map_or_else(String::new, |paper| {
+            format!(" (Algorithm 1 alone: {} nodes)", paper.nodes)
+        });
+        let text = format!("{nodes} nodes, {literals} literals, depth {depth}{alone}");
         self.line("tree", text);
         let of = |found: &Decanonicalised| {
             let (minterms, size) = (found.proof.minterms, &found.size);
-            format!(
-                "{minterms} minterms, {} nodes (Algorithm 1 alone: {})",
-                size.nodes, found.paper_size.nodes
-            )
+            let alone = found.paper_size.map_or_else(String::new, |paper| {
+                format!(" (Algorithm 1 alone: {})", paper.nodes)
+            });
+            format!("{minterms} minterms, {} nodes{alone}", size.nodes)
         };
         let (own, other) = match trees.care {
             Care::Seen => ("seen", ("reachable", &trees.reachable)),

@@ -7,7 +7,7 @@
 use super::covers::Covers;
 use super::factor::{Cost, add};
 use super::list::{Child, List, Stock};
-use super::rules::{Rules, guarding};
+use super::rules::{Rules, Standing, guarding};
 use super::subunit::Subunit;
 use crate::ir::tree::Node;
 use crate::logic::{Bits, Cube, Literal};
@@ -123,7 +123,9 @@ impl<'a, 'p> Beam<'a, 'p> {
         if self.sole(left).is_some() || !covers.affords(0) {
             return steps;
         }
-        for (number, subunit) in self.stock.subunits.iter().enumerate() {
+        let subunits = self.stock.subunits;
+        let mut standing = self.stock.rules.standing(covers, subunits, left);
+        for (number, subunit) in subunits.iter().enumerate() {
             let own = subunit.rows.and(left);
             if own.is_empty() {
                 continue;
@@ -135,14 +137,21 @@ impl<'a, 'p> Beam<'a, 'p> {
                 }
                 continue;
             }
+            let of_this: Vec<&Standing> = standing.iter().filter(|s| s.subunit == number).collect();
+            if let Some(rules) = self.stock.rules.covering(&of_this, &own)
+                && rules.len() > 1
+            {
+                let child = Rc::new(Child::Ruled(number, rules));
+                let rows = own.clone();
+                steps.push(Step { child, rows });
+            }
             let off = left.minus(&own);
-            if covers.affords(covers.price(&own, &off)) {
+            if depth == self.shape.depth && covers.affords(covers.price(&own, &off)) {
                 let child = Rc::new(Child::Guarded(number, covers.guard(&own, &off)));
                 self.stock.rules.learn(covers, &covers.cover(&own, &off));
                 steps.push(Step { child, rows: own });
             }
         }
-        let mut standing = self.stock.rules.standing(covers, self.stock.subunits, left);
         standing.sort_by_cached_key(|s| self.worth(s.rule, &s.rows));
         standing.truncate(NEXT_RULES);
         steps.extend(standing.into_iter().map(|s| Step {

@@ -3,7 +3,7 @@
 use super::factor::{Cost, factored, nodes};
 use super::problem::Problem;
 use crate::ir::tree::{Composite, Guard};
-use crate::logic::{Bits, Cover, minimise};
+use crate::logic::{Bits, Cover, Effort, minimise_with};
 use crate::tree::formula::not;
 use rustc_hash::FxHashMap;
 use std::cell::{Cell, RefCell};
@@ -11,6 +11,10 @@ use std::rc::Rc;
 
 /// Work that the minimisation of a row is counted as. A unit of work is a word of a set of rows, looked at once.
 const ROW: u64 = 256;
+
+/// Rows of a table that is large: covers are not improved any more once they are right, and Algorithm 1 is not run
+/// beside the search.
+pub(super) const LARGE: usize = 4096;
 
 /// A guard with what it costs under a sequence.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -79,7 +83,15 @@ impl<'a> Covers<'a> {
             return cover.clone();
         }
         self.spend(ROW * (on.count() + off.count()) as u64);
-        let cover = Rc::new(minimise(self.problem.columns(), on, off));
+        let columns = self.problem.columns();
+        let effort = match columns.rows() > LARGE {
+            true => Effort {
+                rounds: 0,
+                ..Effort::default()
+            },
+            false => Effort::default(),
+        };
+        let cover = Rc::new(minimise_with(columns, on, off, &effort).cover);
         self.known.borrow_mut().insert(key, cover.clone());
         cover
     }

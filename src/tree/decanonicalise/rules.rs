@@ -7,8 +7,9 @@ use crate::logic::{Bits, Cover, Cube, Literal};
 use std::collections::BTreeSet;
 
 /// Literals of the cubes that are all tried while there is work left.
-const SHORT: usize = 2;
-/// The part of the work that looking at every rule once may take.
+const SHORT: usize = 3;
+/// Short cubes up to which all are rules, and the part of the work that looking at them once may take.
+const MOST: usize = 600;
 const SHARE: u64 = 1024;
 
 /// A cube with its rows and what it costs as a guard.
@@ -51,7 +52,9 @@ impl Rules {
         for atoms in [every, asked] {
             for length in (1..=SHORT).rev() {
                 let count = short(atoms.len(), length);
-                if covers.affords((count as u64).saturating_mul(words).saturating_mul(SHARE)) {
+                if count <= MOST
+                    && covers.affords((count as u64).saturating_mul(words).saturating_mul(SHARE))
+                {
                     rules.short(covers, &atoms, length);
                     return rules;
                 }
@@ -86,23 +89,26 @@ impl Rules {
         }
     }
 
+    /// All cubes over these atoms up to a length.
     fn short(&mut self, covers: &Covers, atoms: &[usize], length: usize) {
-        let literals = atoms.iter().flat_map(|atom| {
-            [true, false].map(|positive| Literal {
-                atom: *atom,
-                positive,
-            })
-        });
-        let literals: Vec<Literal> = literals.collect();
-        for (i, first) in literals.iter().enumerate() {
-            self.add(covers, &Cube::new([*first]));
-            if length > 1 {
-                for second in literals.iter().skip(i + 1) {
-                    if first.atom != second.atom {
-                        self.add(covers, &Cube::new([*first, *second]));
+        let mut open: Vec<(usize, Vec<Literal>)> = vec![(0, Vec::new())];
+        for _ in 0..length {
+            let mut longer = Vec::new();
+            for (from, literals) in &open {
+                for (i, atom) in atoms.iter().enumerate().skip(*from) {
+                    for positive in [true, false] {
+                        let more = Literal {
+                            atom: *atom,
+                            positive,
+                        };
+                        let literals: Vec<Literal> =
+                            literals.iter().copied().chain([more]).collect();
+                        self.add(covers, &Cube::new(literals.clone()));
+                        longer.push((i + 1, literals));
                     }
                 }
             }
+            open = longer;
         }
     }
 
@@ -130,21 +136,51 @@ impl Rules {
     ) -> Vec<Standing> {
         covers.spend(self.rules.len() as u64 * 2 * covers.words());
         let standing = self.iter().filter_map(|(at, rule)| {
-            let rows = rule.rows.and(left);
-            let first = rows.first()?;
+            let first = rule.rows.first_of_both(left)?;
             let own = |(_, subunit): &(usize, &Subunit)| subunit.rows.contains(first);
             let (number, subunit) = subunits.iter().enumerate().find(own)?;
+            if subunit.guards_itself || !rule.rows.both_within(left, &subunit.rows) {
+                return None;
+            }
             // A memory node stands in one place only.
-            let whole = || subunit.is_behavior() || subunit.rows.and(left).is_subset(&rows);
-            (rows.is_subset(&subunit.rows) && !subunit.guards_itself && whole()).then_some(
-                Standing {
-                    rule: at,
-                    subunit: number,
-                    rows,
-                },
-            )
+            let whole = subunit.is_behavior() || subunit.rows.both_within(left, &rule.rows);
+            whole.then(|| Standing {
+                rule: at,
+                subunit: number,
+                rows: rule.rows.and(left),
+            })
         });
         standing.collect()
+    }
+
+    /// Rules among those that stand that together decide all of these rows, the one that decides most for its literals
+    /// first, none superfluous; `None` where they do not suffice.
+    pub(super) fn covering(&self, standing: &[&Standing], rows: &Bits) -> Option<Vec<usize>> {
+        let worth = |s: &Standing, left: &Bits| {
+            let literals = self.get(s.rule).map_or(1, |rule| rule.literals);
+            s.rows.count_both(left) * 2520 / (1 + literals)
+        };
+        let mut chosen: Vec<&Standing> = Vec::new();
+        let mut left = rows.clone();
+        while !left.is_empty() {
+            let best = standing
+                .iter()
+                .map(|s| (worth(s, &left), *s))
+                .max_by_key(|(worth, s)| (*worth, std::cmp::Reverse(s.rule)));
+            let (_, best) = best.filter(|(worth, _)| *worth > 0)?;
+            left.subtract(&best.rows);
+            chosen.push(best);
+        }
+        let mut at = 0;
+        while let Some(one) = chosen.get(at) {
+            let others = chosen.iter().filter(|s| s.rule != one.rule);
+            let covered = others.fold(Bits::empty(rows.bound()), |all, s| all.or(&s.rows));
+            match rows.is_subset(&covered) {
+                true => drop(chosen.remove(at)),
+                false => at += 1,
+            }
+        }
+        Some(chosen.into_iter().map(|s| s.rule).collect())
     }
 
     /// These rules as one guard.
@@ -157,11 +193,13 @@ impl Rules {
 
 /// How many cubes of up to so many literals there are.
 fn short(atoms: usize, length: usize) -> usize {
-    let single = 2 * atoms;
-    match length {
-        1 => single,
-        _ => single + single.saturating_mul(single.saturating_sub(2)) / 2,
+    let mut all = 0_usize;
+    let mut of_length = 1_usize;
+    for i in 0..length.min(atoms) {
+        of_length = of_length.saturating_mul(2 * (atoms - i)) / (i + 1);
+        all = all.saturating_add(of_length);
     }
+    all
 }
 
 /// The cost of a cube before a body: the sequence and the literals.

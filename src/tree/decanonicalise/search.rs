@@ -6,7 +6,7 @@
 //! the same tree on any number of threads.
 
 use super::beam::{Beam, Shape};
-use super::covers::Covers;
+use super::covers::{Covers, LARGE};
 use super::memory::configurations;
 use super::orders::{in_order, tree as listed};
 use super::problem::Problem;
@@ -34,9 +34,14 @@ const SHAPES: [Shape; 2] = [
 /// Trees that are put to the proof, smallest first.
 const PROOFS: usize = 256;
 
-/// The smallest tree that was found and proved. Where the order is to be learned, that of Algorithm 1 is the first to
-/// be found.
-pub(super) fn tree(problem: &Problem, paper: &Node, order: Order, effort: u64) -> Node {
+/// The smallest tree that was found and proved; `None` if none was proved. Where the order is to be learned, that of
+/// Algorithm 1 is the first to be found, if it is known.
+pub(super) fn tree(
+    problem: &Problem,
+    paper: Option<&Node>,
+    order: Order,
+    effort: u64,
+) -> Option<Node> {
     let configurations = configurations(&Covers::new(problem, u64::MAX));
     let share = effort / configurations.len().max(1) as u64;
     let found: Vec<Vec<Node>> = configurations
@@ -48,34 +53,41 @@ pub(super) fn tree(problem: &Problem, paper: &Node, order: Order, effort: u64) -
         .flatten()
         .map(|node| (Size::of(&node), node))
         .collect();
-    if order == Order::Learned {
+    if let (Order::Learned, Some(paper)) = (order, paper) {
         found.insert(0, (Size::of(paper), paper.clone()));
     }
     // Stable: of equal sizes the first found stands first.
     found.sort_by_key(|(size, _)| *size);
     found.dedup_by(|a, b| a.1 == b.1);
-    let smallest = found.into_iter().take(PROOFS);
-    let mut proved = smallest
-        .map(|(_, node)| node)
-        .filter(|node| problem.proves(node));
-    proved.next().unwrap_or_else(|| paper.clone())
+    let mut smallest = found.into_iter().take(PROOFS).map(|(_, node)| node);
+    smallest.find(|node| problem.proves(node))
 }
 
 /// Trees over the subunits of one configuration.
 fn trees(problem: &Problem, subunits: &[Subunit], order: Order, effort: u64) -> Vec<Node> {
     let covers = Covers::new(problem, effort / SHAPES.len() as u64);
-    let list = in_order(&covers, subunits, order);
-    let base = listed(&covers, subunits, &list);
-    if order != Order::Learned || problem.wide {
-        return vec![base];
+    let searches = order == Order::Learned && !problem.wide;
+    // While tables are small, the lists in other orders are places to begin as well.
+    let orders = match searches && problem.policy.rows.len() <= LARGE {
+        true => vec![order, Order::Given, Order::Rarest],
+        false => vec![order],
+    };
+    let lists = orders.into_iter();
+    let lists: Vec<_> = lists
+        .map(|order| in_order(&covers, subunits, order))
+        .collect();
+    let bases = lists.iter().map(|list| listed(&covers, subunits, list));
+    let bases: Vec<Node> = bases.collect();
+    if !searches {
+        return bases;
     }
     let searched = SHAPES.par_iter().map(|shape| {
         let covers = Covers::new(problem, effort / SHAPES.len() as u64);
-        let first = list.iter().map(|(_, cover)| cover);
-        let rules = Rules::new(&covers, first);
+        let useful = lists.iter().flatten().map(|(_, cover)| cover);
+        let rules = Rules::new(&covers, useful);
         Beam::new(&covers, subunits, rules, *shape).trees()
     });
     let searched: Vec<Vec<Node>> = searched.collect();
-    let all = std::iter::once(base).chain(searched.into_iter().flatten());
+    let all = bases.into_iter().chain(searched.into_iter().flatten());
     all.map(shared).collect()
 }

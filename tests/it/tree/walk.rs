@@ -6,6 +6,7 @@ use btc::ir::law::Behavior;
 use btc::ir::tree::{Atom, Composite, Node, Status};
 use btc::policy::{Minterm, Policy};
 use btc::tree::equivalence::Trace;
+use btc::tree::prove::Reading;
 use btc::tree::tick::Runner;
 use std::collections::{BTreeSet, VecDeque};
 
@@ -60,8 +61,9 @@ pub(crate) enum Reads {
     Answer(bool),
 }
 
-/// P1's reading of a learned tree: a memory node stands behind the last child whose end the window holds.
-pub(crate) fn read(node: &Node, holds: &dyn Fn(Atom) -> bool) -> Reads {
+/// P1's reading of a learned tree: a memory node stands behind the last child whose end the window holds, or behind the
+/// first that has ended while the next has not.
+pub(crate) fn read(node: &Node, by: Reading, holds: &dyn Fn(Atom) -> bool) -> Reads {
     match node {
         Node::Condition(guard) => Reads::Answer(guard.eval(&mut |a| holds(a))),
         Node::Behavior(b) => Reads::Behavior(*b),
@@ -76,11 +78,17 @@ pub(crate) fn read(node: &Node, holds: &dyn Fn(Atom) -> bool) -> Reads {
                     true => holds(Atom::Done(last(child))),
                     false => holds(Atom::Failed(last(child))),
                 };
-                let stands = (1..children.len()).rev().find(|i| ended(&children[i - 1]));
-                return read(&children[stands.unwrap_or(0)], holds);
+                let stands = match by {
+                    Reading::Furthest => {
+                        (1..children.len()).rev().find(|i| ended(&children[i - 1]))
+                    }
+                    Reading::Unfinished => (1..children.len())
+                        .find(|i| ended(&children[i - 1]) && !ended(&children[*i])),
+                };
+                return read(&children[stands.unwrap_or(0)], by, holds);
             }
             for child in children {
-                match read(child, holds) {
+                match read(child, by, holds) {
                     Reads::Answer(answer) if answer == onward => {}
                     other => return other,
                 }
