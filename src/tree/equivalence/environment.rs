@@ -72,9 +72,12 @@ pub(super) struct World<'a> {
     starts: Vec<usize>,
     /// The terminations that the window remembers.
     kinds: Vec<(Id<Behavior>, Status)>,
-    /// The minterms, and among them the starts, in which the atoms show what a window does.
-    showing: RefCell<FxHashMap<(bool, Minterm), Rc<[usize]>>>,
+    /// What was looked up before.
+    showing: RefCell<Showing>,
 }
+
+/// Minterms by what their history atoms show, either all or only the starts.
+type Showing = FxHashMap<(bool, Minterm), Rc<[usize]>>;
 
 type Record = (Id<Behavior>, Status, Option<usize>, usize);
 
