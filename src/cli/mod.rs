@@ -12,6 +12,7 @@ mod files;
 mod fmt;
 mod interrupt;
 mod learn;
+mod minimize;
 mod progress;
 mod report;
 mod run;
@@ -56,6 +57,8 @@ enum Command {
     Verify(verify::Arguments),
     /// Say how large trees are.
     Size(size::Arguments),
+    /// Minimise the covers of a PLA.
+    Minimize(minimize::Arguments),
     /// Lay files out.
     Fmt(fmt::Arguments),
     /// Explain a diagnostic code.
@@ -99,6 +102,7 @@ pub fn main() -> ExitCode {
         Command::Run(arguments) => run::run(&arguments, &say),
         Command::Verify(arguments) => verify::run(&arguments, &say),
         Command::Size(arguments) => size::run(&arguments, &say),
+        Command::Minimize(arguments) => minimize::run(&arguments, &say),
         Command::Fmt(arguments) => fmt::run(&arguments, &say),
         Command::Explain(arguments) => explain::run(&arguments),
     };

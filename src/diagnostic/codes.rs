@@ -122,6 +122,14 @@ codes! {
 
     E0701 "not built yet",
 
+    E0801 "a keyword of a PLA that does not fit",
+    E0802 "a row of a PLA of another width",
+    E0803 "a character without meaning in a PLA",
+    E0804 "a PLA without its size",
+    E0805 "a PLA that contradicts itself",
+    E0806 "a complement that is too large",
+    E0807 "a PLA that is no decision list",
+
     E0811 "a text that is no table",
     E0812 "a row that is not whole",
     E0813 "a column that is missing or does not belong there",

@@ -9,6 +9,7 @@ pub mod export;
 pub mod format;
 pub mod learn;
 pub mod load;
+pub mod minimize;
 pub mod picture;
 pub mod run;
 pub mod simplify;

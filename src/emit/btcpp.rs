@@ -205,9 +205,8 @@ impl Writer<'_> {
             Decorator::Invert => Element::new("Inverter"),
             Decorator::Succeed => Element::new("ForceSuccess"),
             Decorator::Fail => Element::new("ForceFailure"),
-            // The first attempt is none of the retries.
             Decorator::Retry(times) => {
-                Element::new("RetryUntilSuccessful").with("num_attempts", times.saturating_add(1))
+                Element::new("RetryUntilSuccessful").with("num_attempts", times)
             }
             Decorator::Repeat(times) => Element::new("Repeat").with("num_cycles", times),
             Decorator::Timeout(ticks) => {

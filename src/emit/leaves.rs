@@ -3,9 +3,15 @@
 //! Conditions and actions share one space of identifiers. Every name of the program has its own, whichever tree is
 //! written, so that a robot needs each of them once.
 
+mod call;
+
+pub(super) use call::unquoted;
+
 use crate::ir::law::Behavior;
 use crate::ir::tree::{Atom, Node};
 use crate::ir::{Id, Program};
+use call::{Argument, Call, argument};
+use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What a leaf asks or does.
@@ -37,7 +43,7 @@ impl Subject {
             family: family.to_owned(),
             arguments: vec![Argument {
                 parameter: Some("behavior".to_owned()),
-                value: unquoted(&program.behaviors[id].name).to_owned(),
+                value: argument(&program.behaviors[id].name).to_owned(),
             }],
         };
         match self {
@@ -217,9 +223,9 @@ impl Words {
             keys.into_iter().partition(|key| self.legal(&key.1));
         let mut ids = BTreeMap::new();
         for key in legal.into_iter().chain(others) {
-            if !ids.contains_key(&key) {
-                let id = self.new_id(&key.1);
-                ids.insert(key, id);
+            if let Entry::Vacant(place) = ids.entry(key) {
+                let id = self.new_id(&place.key().1);
+                place.insert(id);
             }
         }
         ids
@@ -255,104 +261,4 @@ impl Words {
     fn is_reserved(&self, name: &str) -> bool {
         self.reserved.contains(&name)
     }
-}
-
-/// A name without the backquotes that the language writes around it.
-pub(super) fn unquoted(name: &str) -> &str {
-    let inner = name.strip_prefix('`').and_then(|n| n.strip_suffix('`'));
-    inner.filter(|n| !n.contains('`')).unwrap_or(name)
-}
-
-/// A name with its arguments, as the language writes it.
-#[derive(Clone, Debug)]
-struct Call {
-    family: String,
-    arguments: Vec<Argument>,
-}
-
-/// An argument, by the name of its parameter if that is known.
-#[derive(Clone, Debug)]
-struct Argument {
-    parameter: Option<String>,
-    value: String,
-}
-
-impl Call {
-    /// Takes a name apart; one that is no call is a family of its own.
-    fn of(name: &str) -> Self {
-        let whole = || Self {
-            family: name.to_owned(),
-            arguments: Vec::new(),
-        };
-        let open = match name.strip_prefix('`').and_then(|rest| rest.find('`')) {
-            Some(close) => Some(close + 2),
-            None => name.find('('),
-        };
-        let Some((family, rest)) = open.and_then(|open| name.split_at_checked(open)) else {
-            return whole();
-        };
-        let inner = rest.strip_prefix('(').and_then(|r| r.strip_suffix(')'));
-        match inner.and_then(split) {
-            Some(arguments) if !family.is_empty() => Self {
-                family: family.to_owned(),
-                arguments: arguments.into_iter().map(Argument::of).collect(),
-            },
-            _ => whole(),
-        }
-    }
-
-    /// Gives the parameters of arguments by position their declared names, or a number.
-    fn complete(&mut self, declared: Option<&Vec<String>>) {
-        for (position, argument) in self.arguments.iter_mut().enumerate() {
-            argument.parameter.get_or_insert_with(|| {
-                let known = declared.and_then(|names| names.get(position)).cloned();
-                known.unwrap_or_else(|| format!("argument_{}", position + 1))
-            });
-        }
-    }
-
-    fn value(&self, parameter: &str) -> Option<&str> {
-        let mut arguments = self.arguments.iter();
-        let found = arguments.find(|argument| argument.parameter.as_deref() == Some(parameter));
-        found.map(|argument| argument.value.as_str())
-    }
-}
-
-impl Argument {
-    /// `value` or `parameter = value`
-    fn of(text: &str) -> Self {
-        if let Some((parameter, value)) = text.split_once(" = ")
-            && parameter.chars().all(|c| c.is_alphanumeric() || c == '_')
-        {
-            return Self {
-                parameter: Some(parameter.to_owned()),
-                value: value.trim().to_owned(),
-            };
-        }
-        Self {
-            parameter: None,
-            value: unquoted(text).to_owned(),
-        }
-    }
-}
-
-/// The parts of a list, at the commas outside brackets and quotes; `None` if the brackets do not match.
-fn split(list: &str) -> Option<Vec<&str>> {
-    let mut parts = Vec::new();
-    let (mut depth, mut quoted, mut start) = (0_u32, false, 0);
-    for (at, c) in list.char_indices() {
-        match c {
-            '`' => quoted = !quoted,
-            _ if quoted => {}
-            '(' | '{' => depth += 1,
-            ')' | '}' => depth = depth.checked_sub(1)?,
-            ',' if depth == 0 => {
-                parts.push(list.get(start..at)?.trim());
-                start = at + 1;
-            }
-            _ => {}
-        }
-    }
-    parts.push(list.get(start..)?.trim());
-    (depth == 0 && !quoted && parts.iter().all(|part| !part.is_empty())).then_some(parts)
 }

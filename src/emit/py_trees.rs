@@ -184,7 +184,7 @@ impl Writer<'_> {
             Decorator::Fail => ("SuccessIsFailure", "fail".to_owned(), None),
             // The first attempt is none of the retries.
             Decorator::Retry(times) => {
-                let failures = format!("num_failures={}", times.saturating_add(1));
+                let failures = format!("num_failures={times}");
                 ("Retry", format!("retry({times})"), Some(failures))
             }
             Decorator::Repeat(times) => {

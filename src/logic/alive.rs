@@ -31,17 +31,23 @@ impl Alive {
         self.words.is_empty()
     }
 
-    /// How many of the rows have the bit `value` in a column.
-    pub(super) fn count_in(&self, (column, value): (&Bits, bool)) -> usize {
-        let flip = if value { 0 } else { u64::MAX };
+    /// The least row.
+    pub(super) fn first(&self) -> Option<usize> {
+        let (word, place) = self.words.first().zip(self.places.first())?;
+        Some(*place as usize * 64 + word.trailing_zeros() as usize)
+    }
+
+    /// How many of the rows do not have the bit `value` in a column, as far as every `stride`-th word tells.
+    pub(super) fn count_out(&self, (column, value): (&Bits, bool), stride: usize) -> usize {
+        let flip = if value { u64::MAX } else { 0 };
         let column = column.words();
-        if self.words.len() == column.len() {
+        if stride == 1 && self.words.len() == column.len() {
             let both = self.words.iter().zip(column);
             return both
                 .map(|(a, b)| (a & (b ^ flip)).count_ones() as usize)
                 .sum();
         }
-        let both = self.words.iter().zip(&self.places);
+        let both = self.words.iter().zip(&self.places).step_by(stride);
         both.map(|(a, at)| (a & (column[*at as usize] ^ flip)).count_ones() as usize)
             .sum()
     }

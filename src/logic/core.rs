@@ -6,7 +6,6 @@
 
 use super::bits::Bits;
 use super::columns::Columns;
-use super::cube::Cover;
 use super::instance::Instance;
 use super::minimise::{Effort, Solution};
 use super::random::{self, Random};
@@ -61,15 +60,15 @@ impl<'a> Core<'a> {
         &self.solution
     }
 
-    /// The cover of all rows under a greater effort, on the core that this one came to.
-    pub(super) fn finish(&self, effort: &'a Effort) -> Cover {
+    /// A solution for all rows under a greater effort, on the core that this one came to.
+    pub(super) fn finish(&self, effort: &'a Effort) -> Solution {
         let mut core = Self {
             effort,
             rounds: 0,
             ..self.clone()
         };
         while !core.refine() {}
-        core.solution.cover
+        core.solution
     }
 
     /// Solves the core, and has the rows for which the cover is wrong join it. Whether there are none.

@@ -5,6 +5,9 @@ use super::bits::Bits;
 use super::cube::{Cube, Literal};
 use super::instance::Instance;
 
+/// Rows that are enough to weigh literals by.
+const ENOUGH: usize = 512;
+
 /// How a literal is weighed against the others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scoring {
@@ -41,25 +44,34 @@ pub(super) fn expand(
 ) -> Cube {
     let (mut kept, mut left) = (Alive::new(on), Alive::new(&instance.all_off()));
     let mut chosen = Vec::new();
+    let mut enough = ENOUGH;
     while !left.is_empty() {
-        let (ons, offs) = (kept.count(), left.count());
+        let stride = |rows: &Alive| (rows.count() / enough).max(1);
+        let (on_stride, off_stride) = (stride(&kept), stride(&left));
         let mut best: Option<((u64, u64), Literal)> = None;
         open.retain(|literal| {
             let (Some(inside), Some(meeting)) = tests(instance, *literal) else {
                 return false;
             };
-            let gone = offs - left.count_in(meeting);
-            // What excludes nothing now never will.
+            let gone = left.count_out(meeting, off_stride);
             if gone > 0 {
-                let score = scoring.score(ons - kept.count_in(inside), gone);
+                let score = scoring.score(kept.count_out(inside, on_stride), gone);
                 if best.is_none_or(|(top, _)| score > top) {
                     best = Some((score, *literal));
                 }
             }
-            gone > 0
+            // What excludes nothing now never will.
+            gone > 0 || off_stride > 1
         });
-        // A row that is both ON and OFF cannot be told apart; the caller's sets are disjoint.
-        let Some((_, literal)) = best else { break };
+        // The words that were looked at may have shown nothing. A row that is both ON and OFF cannot be told apart; the
+        // caller's sets are disjoint.
+        let Some((_, literal)) = best else {
+            if off_stride == 1 {
+                break;
+            }
+            enough = usize::MAX;
+            continue;
+        };
         if let (Some(inside), Some(meeting)) = tests(instance, literal) {
             kept.keep(inside);
             left.keep(meeting);

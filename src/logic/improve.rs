@@ -12,8 +12,8 @@ use super::random::Random;
 use super::shortest::shortest;
 use super::sweep::sweep;
 
-/// Steps of the search for one short cube.
-const SHORTEST: usize = 64;
+/// How often the search for one short cube may go through all columns.
+const SHORTEST: usize = 32;
 
 /// Number of cubes, then of literals.
 pub(super) type Cost = (usize, usize);
@@ -61,27 +61,34 @@ pub(super) fn irredundant(pool: &Pool, cover: &mut Vec<usize>, rows: usize) {
     }
 }
 
-/// Tries `rounds` changes, and as many after each that made the cover cheaper.
+/// Tries `rounds` changes, and as many after each that made the cover cheaper, while no more than `work` words of rows
+/// are gone through.
 pub(super) fn improve(
     instance: &Instance,
     pool: &mut Pool,
     mut cover: Vec<usize>,
     rounds: usize,
+    mut work: usize,
     random: &mut Random,
 ) -> Vec<usize> {
+    let words = instance.on.rows().div_ceil(64);
     let rows = instance.on.rows();
     irredundant(pool, &mut cover, rows);
     let mut best = cost(pool, &cover);
     let mut left = rounds;
     while left > 0 && cover.len() > 1 {
         left -= 1;
+        match work.checked_sub((pool.len() + cover.len()) * words + 2 * instance.words()) {
+            Some(less) => work = less,
+            None => break,
+        }
         let mut next = cover.clone();
         let removed = ruin(&mut next, random);
         let mut open = instance.all_on();
         for prime in next.iter().filter_map(|at| pool.get(*at)) {
             open.subtract(&prime.covers);
         }
-        next.extend(recreate(instance, pool, &open, &removed, random));
+        next.extend(recreate(instance, pool, &open, &removed, random, &mut work));
         irredundant(pool, &mut next, rows);
         next.sort_unstable();
         let reached = cost(pool, &next);
@@ -125,6 +132,7 @@ fn recreate(
     open: &Bits,
     removed: &[usize],
     random: &mut Random,
+    work: &mut usize,
 ) -> Vec<usize> {
     let Some(shared) = shared(instance, open) else {
         return Vec::new();
@@ -134,7 +142,11 @@ fn recreate(
         [_] => literals,
         _ => usize::MAX,
     };
-    if let Some(cube) = shortest(instance, &shared, limit, &mut { SHORTEST }) {
+    let granted = (SHORTEST * instance.words()).min(*work);
+    let mut left = granted;
+    let short = shortest(instance, &shared, limit, &mut left);
+    *work -= granted - left;
+    if let Some(cube) = short {
         return vec![pool.add(instance, cube)];
     }
     let all = Scoring::ALL;

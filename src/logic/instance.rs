@@ -27,6 +27,11 @@ impl Instance {
         self.on.rows() + self.off.rows()
     }
 
+    /// The number of words that going through all columns once takes.
+    pub(super) fn words(&self) -> usize {
+        (self.on.rows().div_ceil(64) + self.off.rows().div_ceil(64)) * self.on.atoms()
+    }
+
     /// All ON rows.
     pub(super) fn all_on(&self) -> Bits {
         Bits::full(self.on.rows())

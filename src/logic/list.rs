@@ -113,7 +113,7 @@ fn within(
             return None;
         }
         if holds {
-            return Some(core.finish(effort));
+            return Some(core.finish(effort).cover);
         }
     }
 }

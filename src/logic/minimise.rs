@@ -22,6 +22,8 @@ pub struct Effort {
     pub seeds: usize,
     /// Changes that are tried on a cover, for each of its cubes, before it is left as it is.
     pub rounds: usize,
+    /// Words of rows that these changes may go through.
+    pub work: usize,
 }
 
 impl Default for Effort {
@@ -34,6 +36,7 @@ impl Default for Effort {
             sweeps: 1,
             seeds: 4,
             rounds: 8,
+            work: 1 << 28,
         }
     }
 }
@@ -68,7 +71,8 @@ pub fn minimise(columns: &Columns, on: &Bits, off: &Bits) -> Cover {
 
 /// As [`minimise`], with an effort, and whether the cover is proved to be smallest.
 pub fn minimise_with(columns: &Columns, on: &Bits, off: &Bits, effort: &Effort) -> Solution {
-    let mut core = Core::new(columns, on, off, effort);
+    let quick = effort.quick();
+    let mut core = Core::new(columns, on, off, &quick);
     while !core.refine() {}
-    core.solution().clone()
+    core.finish(effort)
 }

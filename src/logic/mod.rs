@@ -6,6 +6,7 @@
 mod alive;
 pub mod bits;
 pub mod columns;
+pub mod complement;
 mod core;
 mod covering;
 pub mod cube;
@@ -14,6 +15,8 @@ mod improve;
 mod instance;
 pub mod list;
 pub mod minimise;
+pub mod packed;
+pub mod pla;
 mod pool;
 mod primes;
 mod random;

@@ -5,7 +5,7 @@ use super::cube::{Cube, Literal};
 use super::instance::Instance;
 
 /// A cube with fewer than `limit` literals, all of them among `literals`, that meets no OFF row; a shortest one where the
-/// search ends within `budget` steps. `None` where none was found.
+/// search goes through no more than `budget` words of rows. `None` where none was found.
 ///
 /// It is a smallest set of literals that hits, for every OFF row, the literals that exclude it.
 pub(super) fn shortest(
@@ -14,6 +14,14 @@ pub(super) fn shortest(
     limit: usize,
     budget: &mut usize,
 ) -> Option<Cube> {
+    let all = Cube::new(literals.iter().copied());
+    if !instance
+        .off
+        .cube_meets(&all, &instance.all_off())
+        .is_empty()
+    {
+        return None;
+    }
     let excludes = literals.iter().map(|literal| {
         let mut rows = instance.all_off();
         if let (Some(column), meets) = instance.off.meeting(*literal) {
@@ -56,7 +64,9 @@ impl Search<'_> {
         if *self.budget == 0 || self.chosen.len() + 1 >= self.limit {
             return;
         }
-        *self.budget -= 1;
+        *self.budget = self
+            .budget
+            .saturating_sub(open.count() * left.words().len());
         let counts = open
             .iter()
             .filter_map(|i| Some((self.excludes.get(i)?.count_both(left), i)));

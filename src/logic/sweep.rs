@@ -84,7 +84,7 @@ pub(super) fn expansions(
     let pairs = seeds
         .iter()
         .flat_map(|seed| scorings.iter().map(|s| (*seed, *s)));
-    if instance.rows() / 64 * instance.on.atoms() < PARALLEL {
+    if instance.words() < PARALLEL {
         return pairs.map(one).collect();
     }
     pairs.collect::<Vec<_>>().into_par_iter().map(one).collect()

@@ -104,6 +104,6 @@ fn heuristic(instance: &Instance, effort: &Effort) -> (Pool, Vec<usize>) {
     }
     let cover = best.unwrap_or_default();
     let rounds = effort.rounds * (cover.len() + 24);
-    let cover = improve(instance, &mut pool, cover, rounds, &mut random);
+    let cover = improve(instance, &mut pool, cover, rounds, effort.work, &mut random);
     (pool, cover)
 }

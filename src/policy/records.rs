@@ -21,7 +21,7 @@ impl<'t> Records<'t> {
         }
     }
 
-    /// The record that starts at a byte, and those behind it.
+    /// The record, or the rest of one, that starts at a byte, and those behind it.
     pub(super) fn starting_at(text: &'t [u8], at: usize) -> Self {
         Self { text, at }
     }
@@ -32,11 +32,19 @@ impl<'t> Records<'t> {
     /// # Errors
     /// A quote that is never closed, or one that is closed within a cell. Nothing can be read behind it.
     pub(super) fn next(&mut self, cells: &mut Vec<Range<usize>>) -> Result<bool, TableError> {
-        cells.clear();
         self.skip_blank_lines();
         if self.at >= self.text.len() {
             return Ok(false);
         }
+        self.rest(cells).map(|()| true)
+    }
+
+    /// Puts the places of the cells up to the end of the line into `cells`.
+    ///
+    /// # Errors
+    /// As [`Records::next`].
+    pub(super) fn rest(&mut self, cells: &mut Vec<Range<usize>>) -> Result<(), TableError> {
+        cells.clear();
         loop {
             let start = self.at;
             if self.text.get(start) == Some(&b'"') {
@@ -49,9 +57,15 @@ impl<'t> Records<'t> {
             cells.push(start..self.at);
             match self.text.get(self.at) {
                 Some(b',') => self.at += 1,
-                _ => return Ok(true),
+                _ => return Ok(()),
             }
         }
+    }
+
+    /// Where the next record starts; the end of the text if none does.
+    pub(super) fn next_start(&mut self) -> usize {
+        self.skip_blank_lines();
+        self.at
     }
 
     fn skip_blank_lines(&mut self) {

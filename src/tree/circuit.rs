@@ -231,3 +231,63 @@ impl Circuit {
         reads.into_iter().filter(|reads| *reads).count()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::sat::Solver;
+    use super::{Circuit, Signal, truth};
+
+    /// A circuit over `inputs` inputs with random gates, and its last signal.
+    fn random(inputs: usize, seed: u64) -> (Circuit, Vec<Signal>, Signal) {
+        let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+        let mut below = |n: usize| {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            (state >> 11) as usize % n
+        };
+        let mut circuit = Circuit::new();
+        let inputs: Vec<Signal> = (0..inputs).map(|_| circuit.input()).collect();
+        let mut signals = inputs.clone();
+        for _ in 0..30 {
+            let [a, b, c] = [0; 3].map(|_| {
+                let signal = signals[below(signals.len())];
+                signal.negated_if(below(2) == 1)
+            });
+            signals.push(match below(4) {
+                0 => circuit.and(a, b),
+                1 => circuit.xor(a, b),
+                2 => circuit.choose(a, b, c),
+                _ => circuit.at_least(2, &[a, b, c]),
+            });
+        }
+        let goal = signals.iter().rev().take(4).copied();
+        let goal = circuit.all(goal.collect::<Vec<_>>());
+        (circuit, inputs, goal)
+    }
+
+    #[test]
+    fn table_and_solver_find_the_least_valuation_that_plain_evaluation_finds() {
+        let mut found = 0;
+        for seed in 1..=300 {
+            let count = 1 + (seed % 11) as usize;
+            let (circuit, inputs, goal) = random(count, seed);
+            let values =
+                |bits: u32| -> Vec<bool> { (0..count).rev().map(|i| bits >> i & 1 == 1).collect() };
+            let mut valuations = (0..1 << count).map(values);
+            let expected = valuations.find(|values| circuit.holds(goal, &inputs, values));
+            assert_eq!(truth::least(&circuit, goal, &inputs), expected, "{seed}");
+            let mut solver = Solver::new(u64::MAX);
+            let solved = solver.least(&circuit, &[goal], &inputs);
+            assert_eq!(solved, Ok(expected.clone()), "{seed}");
+            found += usize::from(expected.is_some());
+        }
+        assert!((50..250).contains(&found), "{found}");
+    }
+
+    #[test]
+    fn a_solver_whose_budget_is_spent_says_so() {
+        let (circuit, _, goal) = random(11, 7);
+        assert!(Solver::new(0).can_hold(&circuit, &[goal]).is_err());
+    }
+}

@@ -4,13 +4,18 @@ use crate::program::{self, NoFiles};
 use btc::diagnostic::{Code, Diagnostic};
 use btc::driver::export::Runtime;
 use btc::driver::load::{Loaded, Reader, load};
-use btc::driver::{compile, learn, run, target, verify};
+use btc::driver::{compile, learn, minimize, run, target, verify};
 use btc::tree::decanonicalise::{Care, Method};
 
 /// The example of an explanation that follows a heading.
 fn example(code: Code, heading: &str) -> &'static str {
     let explanation = code.explanation();
-    let start = format!("\n{heading}:\n\n```bt\n");
+    let language = if code.name().starts_with("E08") {
+        "pla"
+    } else {
+        "bt"
+    };
+    let start = format!("\n{heading}:\n\n```{language}\n");
     let at = explanation.find(&start);
     let at = at.unwrap_or_else(|| panic!("{code} has no example under {heading}")) + start.len();
     let length = explanation[at..].find("\n```").unwrap();
@@ -57,8 +62,9 @@ fn each_code_is_explained_and_provoked() {
     for &code in Code::ALL {
         let heading = format!("# {code}: {}\n\n", code.title());
         assert!(code.explanation().starts_with(&heading), "{code}");
-        // Those of the syntax are provoked beside the parser.
-        if code.name().starts_with("E01") || LATER.contains(&code) {
+        // Those of the syntax are provoked beside the parser, those of PLAs below.
+        if code.name().starts_with("E01") || code.name().starts_with("E08") || LATER.contains(&code)
+        {
             continue;
         }
         let found = codes(&wrong(code).diagnostics);
@@ -177,6 +183,24 @@ fn what_a_robot_cannot_run() {
             assert_eq!(found.code, code);
             assert!(compile::emit(&right(code), form, Some(tree)).is_ok());
         }
+    }
+}
+
+/// E0801–E0807: PLAs.
+#[test]
+fn wrong_plas() {
+    for &code in Code::ALL.iter().filter(|c| c.name().starts_with("E080")) {
+        let options = minimize::Options {
+            order: (code == Code::E0807).then_some(minimize::Order::Given),
+            limit: if code == Code::E0806 { 1 } else { 100 },
+        };
+        let minimized = |heading| {
+            let text = example(code, heading);
+            minimize::minimize("example.pla", text.into(), &options)
+        };
+        let (_, found) = minimized("Wrong").unwrap_err();
+        assert_eq!(codes(&found), [code]);
+        assert!(minimized("Right").is_ok(), "{code}");
     }
 }
 

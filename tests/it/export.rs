@@ -5,6 +5,7 @@ mod file;
 mod format;
 mod play;
 mod python;
+mod script;
 
 mod trees;
 

@@ -33,6 +33,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "world",
             "policy",
             "learn",
+            "logic",
             "tree",
             "emit",
         ],

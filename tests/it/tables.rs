@@ -2,6 +2,7 @@
 
 mod canonical;
 mod cases;
+mod command;
 mod laws;
 mod slack;
 

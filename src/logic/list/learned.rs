@@ -49,7 +49,7 @@ fn cheapest(columns: &Columns, classes: &[Class], left: &Bits, effort: &Effort) 
         let looks = |(_, (core, _)): &(usize, &mut (Core, bool))| cost(&core.solution().cover);
         match cores.iter_mut().enumerate().min_by_key(looks) {
             Some((_, (core, holds))) if !*holds => *holds = core.refine(),
-            Some((at, (core, _))) => return (at, core.finish(effort)),
+            Some((at, (core, _))) => return (at, core.finish(effort).cover),
             None => return (0, Cover::default()),
         }
     }

@@ -20,26 +20,68 @@ pub(super) fn read(text: &[u8], reading: &mut Reading) {
     });
     let names = names.collect();
     let roles = reading.columns(names, records::whole(&cells));
+    let leading = roles
+        .iter()
+        .take_while(|role| matches!(role, Role::Atom(_)));
+    let leading = leading.count();
+    let behind = roles.get(leading..).unwrap_or_default();
     while !reading.is_full() {
+        let start = records.next_start();
+        reading.begin();
+        if let Some(at) = packed(text, start, leading, reading) {
+            let mut rest = Records::starting_at(text, at);
+            if rest.rest(&mut cells).is_ok() && cells.len() == behind.len() {
+                records = rest;
+                row(text, &cells, behind, reading);
+                reading.end(start);
+                continue;
+            }
+        }
         match records.next(&mut cells) {
-            Ok(true) => row(text, &cells, &roles, reading),
+            Ok(true) if cells.len() == roles.len() => {
+                reading.begin();
+                row(text, &cells, &roles, reading);
+                reading.end(start);
+            }
+            Ok(true) => reading.mistake(TableError {
+                span: records::whole(&cells),
+                kind: TableErrorKind::Ragged {
+                    found: cells.len(),
+                    expected: roles.len(),
+                },
+            }),
             Ok(false) => return,
             Err(error) => return reading.stop(error),
         }
     }
 }
 
-fn row(text: &[u8], cells: &[Range<usize>], roles: &[Role], reading: &mut Reading) {
-    if cells.len() != roles.len() {
-        return reading.mistake(TableError {
-            span: records::whole(cells),
-            kind: TableErrorKind::Ragged {
-                found: cells.len(),
-                expected: roles.len(),
-            },
-        });
+/// Reads the first cells of the row that starts at a byte, `count` atoms, as far as each is `0` or `1` and nothing else,
+/// and says where the cells behind them start. This is what nearly all of a large table is.
+fn packed(text: &[u8], start: usize, count: usize, reading: &mut Reading) -> Option<usize> {
+    let end = start + 2 * count;
+    let cells = text.get(start..end).filter(|_| count > 0)?;
+    for (number, cells) in cells.chunks(2 * 64).enumerate() {
+        let mut word = 0;
+        let mut other = 0;
+        for cell in cells.chunks_exact(2) {
+            if let [digit, comma] = cell {
+                word = word << 1 | u64::from(digit & 1);
+                other |= (digit ^ b'0') & !1 | (comma ^ b',');
+            }
+        }
+        if other != 0 {
+            return None;
+        }
+        reading
+            .draft
+            .say_word(number, word << (64 - cells.len() / 2));
     }
-    reading.begin();
+    Some(end)
+}
+
+/// Reads cells by what their columns say.
+fn row(text: &[u8], cells: &[Range<usize>], roles: &[Role], reading: &mut Reading) {
     for (cell, role) in cells.iter().zip(roles) {
         match role {
             Role::Atom(atom) => match truth(text, cell) {
@@ -58,8 +100,6 @@ fn row(text: &[u8], cells: &[Range<usize>], roles: &[Role], reading: &mut Readin
             Role::Ignored => {}
         }
     }
-    let start = cells.first().map_or(0, |cell| cell.start);
-    reading.end(start);
 }
 
 fn truth(text: &[u8], cell: &Range<usize>) -> Option<Truth> {

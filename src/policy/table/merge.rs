@@ -14,11 +14,7 @@ pub(super) struct Merged {
 
 /// Sorts and merges. At most `most` contradictions are looked for.
 pub(super) fn merge(rows: &mut Rows, most: usize) -> Merged {
-    let mut order: Vec<u32> = (0..u32::try_from(rows.len()).unwrap_or(u32::MAX)).collect();
-    let sorted = order.is_sorted_by(|a, b| rows.compare(*a as usize, *b as usize).is_lt());
-    if !sorted {
-        order.sort_unstable_by(|a, b| rows.compare(*a as usize, *b as usize).then(a.cmp(b)));
-    }
+    let mut order = sorted(rows);
     let mut contradictions = Vec::new();
     let mut kept: Option<usize> = None;
     order.retain(|&row| {
@@ -43,4 +39,17 @@ pub(super) fn merge(rows: &mut Rows, most: usize) -> Merged {
         order,
         contradictions,
     }
+}
+
+/// The numbers of the rows in the order of a policy.
+fn sorted(rows: &Rows) -> Vec<u32> {
+    let count = u32::try_from(rows.len()).unwrap_or(u32::MAX);
+    // The first word tells most rows apart, and stands beside its row.
+    let first = |row: u32| rows.words(row as usize).first().copied().unwrap_or(0);
+    let mut keyed: Vec<(u64, u32)> = (0..count).map(|row| (first(row), row)).collect();
+    keyed.sort_unstable_by(|(word, a), (other, b)| {
+        let rest = || rows.compare(*a as usize, *b as usize).then(a.cmp(b));
+        word.cmp(other).then_with(rest)
+    });
+    keyed.into_iter().map(|(_, row)| row).collect()
 }

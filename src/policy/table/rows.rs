@@ -59,6 +59,13 @@ impl Draft {
         self.values.resize(rows.columns, f64::NAN);
     }
 
+    /// Says 64 atoms at once, the first of them in the highest bit.
+    pub(super) fn say_word(&mut self, number: usize, word: u64) {
+        if let Some(slot) = self.words.get_mut(number) {
+            *slot = word;
+        }
+    }
+
     /// Gives the value in a column of values, or nothing.
     pub(super) fn value(&mut self, column: usize, q: Option<f64>) {
         if let (Some(slot), Some(q)) = (self.values.get_mut(column), q) {

@@ -1,10 +1,12 @@
 //! BehaviorTree.CPP 4 on a small scale: it reads the exported file and ticks it as that library's sources say, so that
 //! what the file means there is compared with what the tree means to btc.
+//!
+//! Where the variable `BTC_BTCPP` names a Python that can import behaviortreepy, the library itself is asked as well.
 
 use super::file::{Leaf, inside, leaf, leaves, only};
 use super::play::{Play, Tick};
 use super::trees::{Grower, Kinds, atoms};
-use super::{names, written};
+use super::{names, script, written};
 use crate::examples;
 use crate::tree::build::{decorated, leaf as behavior, parallel};
 use crate::tree::random::Random;
@@ -12,7 +14,9 @@ use btc::driver::export::Runtime;
 use btc::ir::Program;
 use btc::ir::tree::{Decorator, Node as Root, Status};
 use roxmltree::{Document, Node as Element};
-use std::collections::{BTreeMap, BTreeSet};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 enum Kind {
     Condition(usize),
@@ -155,10 +159,10 @@ impl Node {
                 failures,
             } => {
                 for (i, child) in self.children.iter_mut().enumerate() {
-                    if !self.finished.contains_key(&i) {
+                    if let Entry::Vacant(place) = self.finished.entry(i) {
                         let status = child.tick(world);
                         if status != Status::Running {
-                            self.finished.insert(i, status);
+                            place.insert(status);
                         }
                     }
                     let count = |s| self.finished.values().filter(|f| **f == s).count();
@@ -237,33 +241,66 @@ fn by_cpp(text: &str, leaves: &BTreeMap<Leaf, (bool, usize)>, play: &Play) -> Ve
     ticks
 }
 
-/// Plays with one tree, and gives how many behaviours were ticked.
-fn compare(
-    program: &Program,
-    leaves: &BTreeMap<Leaf, (bool, usize)>,
-    root: &Root,
-    play: &Play,
-    held: bool,
-) -> usize {
-    let text = written(program, root, Runtime::BtCpp).unwrap();
-    let there = by_cpp(&text, leaves, play);
-    let here = play.by_btc(program, root, held);
-    if let Some(at) = (0..here.len()).find(|&at| here[at] != there[at]) {
-        panic!(
-            "tick {at}: {:?} here, {:?} there\n{text}",
-            here[at], there[at]
-        );
+/// A tree, what it meets, and whether btc's ticks are held.
+type Case = (Root, Play, bool);
+
+/// Plays here and there; gives how many behaviours were ticked.
+fn compare(program: &Program, cases: &[Case], there: &[Vec<Tick>], files: &[String]) -> usize {
+    let mut calls = 0;
+    assert_eq!(cases.len(), there.len());
+    for (((root, play, held), there), text) in cases.iter().zip(there).zip(files) {
+        let here = play.by_btc(program, root, *held);
+        if let Some(at) = (0..here.len()).find(|&at| here[at] != there[at]) {
+            panic!(
+                "tick {at}: {:?} here, {:?} there\n{text}",
+                here[at], there[at]
+            );
+        }
+        calls += here.iter().map(|tick| tick.calls.len()).sum::<usize>();
     }
-    here.iter().map(|tick| tick.calls.len()).sum()
+    calls
 }
 
-/// Plays with many random trees.
-fn compare_many(kinds: Kinds, learned: bool) {
-    let loaded = names();
-    let program = &loaded.program;
-    let (atoms, leaves) = (atoms(program), leaves(program));
-    let mut calls = BTreeSet::new();
-    for seed in 0..1000 {
+/// Compares with the reading above.
+fn compare_reading(program: &Program, cases: &[Case]) {
+    let leaves = leaves(program);
+    let files = files(program, cases);
+    let plays = files.iter().zip(cases);
+    let there: Vec<Vec<Tick>> = plays
+        .map(|(text, (_, play, _))| by_cpp(text, &leaves, play))
+        .collect();
+    assert!(compare(program, cases, &there, &files) > 10 * cases.len());
+}
+
+/// Compares with BehaviorTree.CPP itself, if it is there.
+fn compare_itself(program: &Program, cases: &[Case]) {
+    let Some(python) = script::python("BTC_BTCPP") else {
+        return;
+    };
+    let files = files(program, cases);
+    let plays = files.iter().zip(cases);
+    let leaves: Vec<Value> = leaves(program)
+        .iter()
+        .map(|((id, ports), (acts, position))| json!([acts, position, id, ports]))
+        .collect();
+    let job = json!({
+        "leaves": leaves,
+        "plays": plays.map(|(text, (_, play, _))| play.as_json("file", text)).collect::<Vec<_>>(),
+    });
+    let answer = script::run(&python, "play_btcpp.py", &job);
+    let there = script::plays(&answer);
+    assert!(compare(program, cases, &there, &files) > 10 * cases.len());
+}
+
+fn files(program: &Program, cases: &[Case]) -> Vec<String> {
+    let file = |(root, ..): &Case| written(program, root, Runtime::BtCpp).unwrap();
+    cases.iter().map(file).collect()
+}
+
+/// So many random trees with their plays.
+fn random(program: &Program, number: u64, kinds: Kinds, learned: bool) -> Vec<Case> {
+    let atoms = atoms(program);
+    let cases = (0..number).map(|seed| {
         let random = &mut Random::new(seed);
         let mut grower = Grower {
             random,
@@ -275,47 +312,57 @@ fn compare_many(kinds: Kinds, learned: bool) {
             false => grower.plain(4),
             true => grower.learned(2),
         };
-        let play = Play::new(random, atoms.len(), 40, learned);
-        calls.insert(compare(program, &leaves, &root, &play, learned));
-    }
-    assert!(calls.len() > 30, "the plays are all alike: {calls:?}");
+        (root, Play::new(random, atoms.len(), 40, learned), learned)
+    });
+    cases.collect()
 }
+
+const PLAIN: Kinds = Kinds {
+    counters: false,
+    timeouts: false,
+    all: true,
+};
+const LEARNED: Kinds = Kinds {
+    counters: true,
+    timeouts: false,
+    all: false,
+};
 
 /// Where no node moves on, tick by tick.
 #[test]
 fn plain_trees_do_the_same_in_each_tick() {
+    let program = names().program;
     let kinds = Kinds {
-        counters: false,
         timeouts: true,
-        all: true,
+        ..PLAIN
     };
-    compare_many(kinds, false);
+    compare_reading(&program, &random(&program, 1000, kinds, false));
+    // The clock of the library itself is that on the wall.
+    compare_itself(&program, &random(&program, 300, PLAIN, false));
 }
 
 /// What btc does in several ticks under one valuation, BehaviorTree.CPP does in one.
 #[test]
 fn learned_trees_do_the_same_one_tick_earlier_at_each_step() {
-    let kinds = Kinds {
-        counters: true,
-        timeouts: false,
-        all: false,
-    };
-    compare_many(kinds, true);
+    let program = names().program;
+    compare_reading(&program, &random(&program, 1000, LEARNED, true));
+    compare_itself(&program, &random(&program, 300, LEARNED, true));
 }
 
 #[test]
 fn examples_do_the_same() {
     for name in examples::names() {
-        let loaded = examples::example(&name);
-        let program = &loaded.program;
-        let (atoms, leaves) = (atoms(program), leaves(program));
+        let program = examples::example(&name).program;
+        let atoms = atoms(&program);
+        let mut cases = Vec::new();
         for tree in program.trees.values() {
-            for seed in 0..50 {
+            for seed in 0..20 {
                 let play = Play::new(&mut Random::new(seed), atoms.len(), 60, false);
-                let steady = play.without_failures();
-                assert!(compare(program, &leaves, &tree.root, &steady, true) > 0);
+                cases.push((tree.root.clone(), play.without_failures(), true));
             }
         }
+        compare_reading(&program, &cases);
+        compare_itself(&program, &cases);
     }
 }
 

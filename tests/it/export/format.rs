@@ -1,13 +1,17 @@
 //! The rules of the format, as BehaviorTree.CPP checks them and Groot2 needs them.
 
-use super::file::{inside, only};
-use super::trees::{Grower, Kinds, atoms};
+use super::file::{self, inside, only};
+use super::trees::{Grower, Kinds, atoms, subjects};
 use super::{names, written};
 use crate::examples;
+use crate::tree::build::selector;
 use crate::tree::random::Random;
 use btc::driver::compile::{self, Form};
 use btc::driver::export::Runtime;
 use btc::emit::btcpp::RESERVED;
+use btc::ir::Program;
+use btc::ir::law::Behavior;
+use btc::ir::program::Predicate;
 use roxmltree::{Document, Node as Element};
 use std::collections::BTreeSet;
 
@@ -141,4 +145,49 @@ fn of_random_trees() {
         };
         check(&written(program, &root, Runtime::BtCpp).unwrap());
     }
+}
+
+/// Names of foreign tables, some of them half calls, some alike but for what an id cannot say.
+#[test]
+fn of_names_from_anywhere() {
+    let mut program = Program::default();
+    let odd = [
+        "x",
+        "`x y`",
+        "`x-y`",
+        "x_y",
+        "`x(y)`",
+        "x(y)",
+        "x(`y)`)",
+        "x(y",
+        "x()",
+        "x(y, z)",
+        "x(y,)",
+        "``",
+        "`1`",
+        "`é`",
+        "`\u{1}\u{7f}\u{fffe}`",
+        "root",
+        "`name`",
+        "`a\tb`",
+        "tried",
+        "x(z = y)",
+        "class",
+        "`--`",
+        "f({y})",
+    ];
+    for name in odd {
+        let name = name.to_owned();
+        program.behaviors.push(Behavior {
+            name: name.clone(),
+            law: None,
+        });
+        program.predicates.push(Predicate { name, when: None });
+    }
+    // Each leaf has a way of its own to be written.
+    assert_eq!(file::leaves(&program).len(), 4 * odd.len());
+    let (asked, done) = subjects(&program);
+    let all = selector(asked.into_iter().chain(done).collect());
+    check(&written(&program, &all, Runtime::BtCpp).unwrap());
+    assert!(written(&program, &all, Runtime::PyTrees).is_ok());
 }

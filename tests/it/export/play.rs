@@ -60,8 +60,8 @@ impl Play {
         self
     }
 
-    /// The play of an exported module, for another language.
-    pub(super) fn as_json(&self, module: &str) -> Value {
+    /// The play of an exported tree, which is called `what`, for a script.
+    pub(super) fn as_json(&self, what: &str, exported: &str) -> Value {
         let digits = |values: &Vec<bool>| -> String {
             values.iter().map(|v| if *v { '1' } else { '0' }).collect()
         };
@@ -71,7 +71,7 @@ impl Play {
             Status::Running => 'R',
         });
         json!({
-            "module": module,
+            what: exported,
             "valuations": self.valuations.iter().map(digits).collect::<Vec<_>>(),
             "answers": letters.collect::<String>(),
             "steady": self.steady,

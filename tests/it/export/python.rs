@@ -3,6 +3,7 @@
 //! The variable `BTC_PY_TREES` names a Python that can import py_trees. Without it this cannot be tested, and says so.
 
 use super::play::{Play, Tick};
+use super::script;
 use super::trees::{Grower, Kinds, atoms, subjects};
 use super::{names, written};
 use crate::examples::{self, example};
@@ -14,16 +15,10 @@ use btc::ir::Program;
 use btc::ir::tree::{Decorator, Node, Status};
 use serde_json::{Value, json};
 use std::ffi::OsString;
-use std::io::Write;
-use std::process::{Command, Stdio};
 
 /// The Python to test with.
 fn python() -> Option<OsString> {
-    let found = std::env::var_os("BTC_PY_TREES");
-    if found.is_none() {
-        eprintln!("BTC_PY_TREES is not set: no exported module was run in py_trees");
-    }
-    found
+    script::python("BTC_PY_TREES")
 }
 
 /// The module of a tree.
@@ -44,7 +39,7 @@ fn run(
     let (asked, done) = subjects(program);
     let plays: Vec<Value> = plays
         .iter()
-        .map(|(module, play)| play.as_json(module))
+        .map(|(module, play)| play.as_json("module", module))
         .collect();
     let job = json!({
         "conditions": modules(asked),
@@ -52,36 +47,10 @@ fn run(
         "plays": plays,
         "programs": programs,
     });
-    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/cases/export/play.py");
-    let mut child = Command::new(python)
-        .arg(script)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let mut input = child.stdin.take().unwrap();
-    input.write_all(job.to_string().as_bytes()).unwrap();
-    drop(input);
-    let output = child.wait_with_output().unwrap();
-    assert!(output.status.success());
-    let answer: Value = serde_json::from_slice(&output.stdout).unwrap();
-    let ticks = |play: &Value| play.as_array().unwrap().iter().map(tick).collect();
-    let plays = answer["plays"].as_array().unwrap().iter();
+    let answer = script::run(python, "play_py_trees.py", &job);
     let drawn = answer["drawn"].as_array().unwrap().iter();
-    let text = |value: &Value| value.as_str().unwrap().to_owned();
-    (plays.map(ticks).collect(), drawn.map(text).collect())
-}
-
-fn tick(value: &Value) -> Tick {
-    let calls = value[0].as_array().unwrap().iter();
-    Tick {
-        calls: calls.map(|call| call.as_u64().unwrap() as usize).collect(),
-        status: match value[1].as_str().unwrap() {
-            "S" => Status::Success,
-            "F" => Status::Failure,
-            _ => Status::Running,
-        },
-    }
+    let drawn = drawn.map(|text| text.as_str().unwrap().to_owned());
+    (script::plays(&answer), drawn.collect())
 }
 
 /// Compares the plays of trees with btc's.

@@ -50,8 +50,8 @@ impl Soil {
         }
     }
 
-    /// A tree as people write them: selectors of guarded units to any depth, with chains if there is memory. It has a
-    /// canonical form.
+    /// A tree as people write them: selectors of guarded units to any depth, with chains if there is memory. Most
+    /// have a canonical form.
     pub(crate) fn guarded(self, random: &mut Random, depth: usize) -> Node {
         let mut children: Vec<Node> = (0..1 + random.below(3))
             .map(|_| {

@@ -1,0 +1,53 @@
+//! `btc minimize`
+
+use super::report::{Reporter, tell};
+use super::{Failure, files};
+use crate::driver::minimize::{self, Options};
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub(super) struct Arguments {
+    /// The PLA, in the format of Berkeley Espresso; `-` is standard input.
+    file: String,
+    /// Make the outputs a decision list: of the rows that hold the first decides.
+    #[arg(long, value_name = "ORDER")]
+    order: Option<Order>,
+    /// The file to write to, in the place of standard output.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Say how large the sets are before and after, as Espresso does.
+    #[arg(short, long)]
+    statistics: bool,
+    /// The most cubes that the complement of an output may have, where the file does not say where it is 0.
+    #[arg(long, value_name = "CUBES", default_value_t = 100_000)]
+    limit: usize,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Order {
+    /// The cheapest first.
+    Learned,
+    /// As in the file.
+    Given,
+    /// The output with the fewest rows first.
+    Rarest,
+}
+
+pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {
+    let (name, bytes) = files::read(&arguments.file)?;
+    let options = Options {
+        order: arguments.order.map(|order| match order {
+            Order::Learned => minimize::Order::Learned,
+            Order::Given => minimize::Order::Given,
+            Order::Rarest => minimize::Order::Rarest,
+        }),
+        limit: arguments.limit,
+    };
+    let minimized = minimize::minimize(&name, bytes, &options)
+        .map_err(|(sources, mistakes)| say.several(&sources, &mistakes))?;
+    if arguments.statistics {
+        tell(minimized.statistics.trim_end());
+    }
+    files::put(arguments.output.as_deref(), &minimized.text)
+}
