@@ -146,7 +146,7 @@ impl<'a, 'p> Beam<'a, 'p> {
                 steps.push(Step { child, rows });
             }
             let off = left.minus(&own);
-            if depth == self.shape.depth && covers.affords(covers.price(&own, &off)) {
+            if depth == self.shape.depth && covers.may_minimise(&own, &off) {
                 let child = Rc::new(Child::Guarded(number, covers.guard(&own, &off)));
                 self.stock.rules.learn(covers, &covers.cover(&own, &off));
                 steps.push(Step { child, rows: own });
@@ -284,7 +284,7 @@ impl<'a, 'p> Beam<'a, 'p> {
             let off = left.minus(&own);
             let child = match subunit.guards_itself {
                 true => Child::Bare(number),
-                false if covers.affords(covers.price(&own, &off)) => {
+                false if covers.may_minimise(&own, &off) => {
                     Child::Guarded(number, covers.guard(&own, &off))
                 }
                 false => return None,

@@ -12,8 +12,8 @@ use std::rc::Rc;
 /// Work that the minimisation of a row is counted as. A unit of work is a word of a set of rows, looked at once.
 const ROW: u64 = 256;
 
-/// Rows of a table that is large: covers are not improved any more once they are right, and Algorithm 1 is not run
-/// beside the search.
+/// Rows up to which a table is small. In larger ones covers are not improved any more once they are right, the search
+/// makes do with the rules of the list that it starts from, and Algorithm 1 is not run beside it.
 pub(super) const LARGE: usize = 4096;
 
 /// A guard with what it costs under a sequence.
@@ -63,13 +63,18 @@ impl<'a> Covers<'a> {
         self.work.set(self.work.get().saturating_add(work));
     }
 
+    /// Whether the search may minimise these.
+    pub(super) fn may_minimise(&self, on: &Bits, off: &Bits) -> bool {
+        self.problem.policy.rows.len() <= LARGE && self.affords(self.price(on, off))
+    }
+
     /// Whether so much more work is within the limit.
     pub(super) fn affords(&self, work: u64) -> bool {
         self.work.get().saturating_add(work) <= self.limit
     }
 
     /// What minimising these takes.
-    pub(super) fn price(&self, on: &Bits, off: &Bits) -> u64 {
+    fn price(&self, on: &Bits, off: &Bits) -> u64 {
         match self.known.borrow().contains_key(&(on.clone(), off.clone())) {
             true => 0,
             false => ROW * (on.count() + off.count()) as u64,
@@ -105,7 +110,7 @@ impl<'a> Covers<'a> {
         let atoms = &self.problem.policy.atoms;
         let cover = self.cover(on, off);
         let mut best = Priced::new(factored(&cover, atoms));
-        if cover.cubes().len() > 1 && self.affords(self.price(off, on)) {
+        if cover.cubes().len() > 1 && self.may_minimise(off, on) {
             let other = Priced::new(not(factored(&self.cover(off, on), atoms)));
             if other.cost < best.cost {
                 best = other;

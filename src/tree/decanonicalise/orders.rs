@@ -32,7 +32,7 @@ pub(super) fn tree(covers: &Covers, subunits: &[Subunit], list: &[(usize, Cover)
             return Some(subunit.body.clone());
         }
         let mut guard = Priced::new(factored(cover, &covers.problem.policy.atoms));
-        if cover.cubes().len() > 1 && covers.affords(covers.price(&subunit.rows, &left)) {
+        if cover.cubes().len() > 1 && covers.may_minimise(&subunit.rows, &left) {
             let other = covers.guard(&subunit.rows, &left);
             if other.cost < guard.cost {
                 guard = (*other).clone();
