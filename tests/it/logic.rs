@@ -1,6 +1,6 @@
 //! Minimisation, seen from outside.
 
-#[path = "logic/lists.rs"]
+mod espresso;
 mod lists;
-#[path = "planted.rs"]
-mod planted;
+mod minimize;
+mod random;
