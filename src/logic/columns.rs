@@ -2,6 +2,7 @@
 
 use super::bits::Bits;
 use super::cube::{Cover, Cube, Literal};
+use super::packed::Packed;
 use super::transpose::transpose;
 
 /// Rows as columns of bits: bit r of column a tells whether atom a is fixed to 1 in row r.
@@ -54,6 +55,16 @@ impl Columns {
             ones,
             rows: count,
         }
+    }
+
+    /// The table of these cubes.
+    pub fn of(atoms: usize, cubes: &[Packed]) -> Self {
+        let free: Vec<Box<[u64]>> = cubes.iter().map(|cube| cube.free(atoms)).collect();
+        let rows = cubes.iter().zip(&free).map(|(cube, free)| {
+            let is_cube = free.iter().any(|word| *word != 0);
+            (cube.values(), is_cube.then_some(&**free))
+        });
+        Self::with_free(atoms, rows)
     }
 
     /// The number of atoms.
@@ -173,9 +184,14 @@ impl Columns {
             };
             columns.iter().map(column).collect()
         };
+        let ones = gather(&self.ones);
+        let zeros = self.zeros.as_ref().map(gather);
+        // Of cubes and minterms only minterms may have been picked.
+        let fixed = |(ones, zeros): (&Bits, &Bits)| ones.count() + zeros.count() == rows.len();
+        let zeros = zeros.filter(|zeros| !ones.iter().zip(zeros).all(fixed));
         Self {
-            ones: gather(&self.ones),
-            zeros: self.zeros.as_ref().map(gather),
+            ones,
+            zeros,
             rows: rows.len(),
         }
     }

@@ -15,7 +15,7 @@ pub struct Choice {
 type Cost = (usize, usize);
 
 /// A cover by greedy choice, made irredundant: most rows first, then least weight, then order.
-pub fn greedy(rows: &Bits, choices: &[Choice]) -> Vec<usize> {
+fn greedy(rows: &Bits, choices: &[Choice]) -> Vec<usize> {
     let mut left = rows.clone();
     let mut chosen = Vec::new();
     while !left.is_empty() {
@@ -61,8 +61,9 @@ fn irredundant(rows: &Bits, choices: &[Choice], mut chosen: Vec<usize>) -> Vec<u
     chosen
 }
 
-/// The cheapest cover, found by branch and bound from the greedy one; within `budget` steps it is exact.
-pub fn cheapest(rows: &Bits, choices: &[Choice], budget: usize) -> Vec<usize> {
+/// The cheapest cover, found by branch and bound from the greedy one, and whether it is proved to be: the search ended
+/// within `budget` steps.
+pub fn cheapest(rows: &Bits, choices: &[Choice], budget: usize) -> (Vec<usize>, bool) {
     let best = greedy(rows, choices);
     let useful = undominated(choices);
     let mut through: Vec<(usize, Vec<usize>)> = rows
@@ -79,10 +80,11 @@ pub fn cheapest(rows: &Bits, choices: &[Choice], budget: usize) -> Vec<usize> {
         cost: cost(choices, &best),
         best,
         budget,
+        complete: true,
     };
     search.branch(rows, &mut Vec::new(), (0, 0));
     search.best.sort_unstable();
-    search.best
+    (search.best, search.complete)
 }
 
 /// The choices that no other makes superfluous by covering as much for as little.
@@ -116,6 +118,7 @@ struct Search<'a> {
     best: Vec<usize>,
     cost: Cost,
     budget: usize,
+    complete: bool,
 }
 
 impl Search<'_> {
@@ -128,6 +131,7 @@ impl Search<'_> {
             return;
         }
         if self.budget == 0 {
+            self.complete = false;
             return;
         }
         self.budget -= 1;

@@ -4,6 +4,7 @@ use super::bits::Bits;
 use super::columns::Columns;
 use super::core::Core;
 use super::cube::Cover;
+use super::split::split;
 
 /// How much work a minimisation may take. It is counted, never timed, so that every machine finds the same cover.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,6 +72,13 @@ pub fn minimise(columns: &Columns, on: &Bits, off: &Bits) -> Cover {
 
 /// As [`minimise`], with an effort, and whether the cover is proved to be smallest.
 pub fn minimise_with(columns: &Columns, on: &Bits, off: &Bits, effort: &Effort) -> Solution {
+    match split(columns, on, off) {
+        Some((columns, on, off)) => by_core(&columns, &on, &off, effort),
+        None => by_core(columns, on, off, effort),
+    }
+}
+
+fn by_core(columns: &Columns, on: &Bits, off: &Bits, effort: &Effort) -> Solution {
     let quick = effort.quick();
     let mut core = Core::new(columns, on, off, &quick);
     while !core.refine() {}

@@ -21,6 +21,7 @@ mod pool;
 mod primes;
 mod random;
 mod shortest;
+mod split;
 mod sweep;
 mod transpose;
 mod whole;

@@ -32,17 +32,22 @@ pub(super) fn solve(instance: &Instance, effort: &Effort) -> Solution {
             proved: true,
         };
     }
-    let (pool, chosen) = match all_primes(instance, effort) {
+    let (pool, chosen, proved) = match all_primes(instance, effort) {
         Some(primes) => {
-            let chosen = exact(instance, &primes, effort);
-            (primes, chosen)
+            let (chosen, cheapest) = exact(instance, &primes, effort);
+            // A cube may be covered by several primes together, which the choice does not see.
+            let proved = cheapest && instance.on.are_minterms();
+            (primes, chosen, proved)
         }
-        None => heuristic(instance, effort),
+        None => {
+            let (pool, chosen) = heuristic(instance, effort);
+            (pool, chosen, false)
+        }
     };
     let cubes = chosen.into_iter().filter_map(|at| pool.get(at));
     Solution {
         cover: Cover::new(cubes.map(|prime| prime.cube.clone())),
-        proved: false,
+        proved,
     }
 }
 
@@ -64,7 +69,7 @@ fn all_primes(instance: &Instance, effort: &Effort) -> Option<Pool> {
     Some(primes)
 }
 
-fn exact(instance: &Instance, pool: &Pool, effort: &Effort) -> Vec<usize> {
+fn exact(instance: &Instance, pool: &Pool, effort: &Effort) -> (Vec<usize>, bool) {
     let on = instance.all_on();
     let choices: Vec<Choice> = pool
         .primes()

@@ -53,7 +53,9 @@ pub fn pla(kind: Kind, atoms: usize, rows: usize, seed: u64) -> String {
             let row = minterm(&mut random, atoms);
             if seen.insert(row.clone()) {
                 let value = |atom: usize| row[atom / 64] >> (atom % 64) & 1 == 1;
-                let shown: String = (0..atoms).map(|a| if value(a) { '1' } else { '0' }).collect();
+                let shown: String = (0..atoms)
+                    .map(|a| if value(a) { '1' } else { '0' })
+                    .collect();
                 line(&shown, label(&mut random, &value));
             }
         }

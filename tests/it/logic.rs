@@ -1,6 +1,8 @@
 //! Minimisation, seen from outside.
 
-#[path = "logic/lists.rs"]
+mod espresso;
 mod lists;
+mod minimize;
+mod random;
 #[path = "planted.rs"]
 pub(crate) mod planted;

@@ -84,13 +84,8 @@ impl Pla {
         }
         let ones = rows.len();
         rows.extend(zeros);
-        let free: Vec<Box<[u64]>> = rows.iter().map(|row| row.free(self.inputs)).collect();
-        let table = rows.iter().zip(&free);
         Ok(Function {
-            columns: Cow::Owned(Columns::with_free(
-                self.inputs,
-                table.map(|(row, free)| (row.values(), Some(&**free))),
-            )),
+            columns: Cow::Owned(Columns::of(self.inputs, &rows)),
             on: Bits::collect(rows.len(), 0..ones),
             off: Bits::collect(rows.len(), ones..rows.len()),
         })

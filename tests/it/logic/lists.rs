@@ -1,6 +1,6 @@
 //! Decision lists.
 
-use super::planted::{planted, size};
+use crate::planted::{planted, size};
 use btc::logic::{Bits, Columns, Cover, Effort, Order, list};
 
 /// Every row meets first the cover of its own class.
@@ -34,4 +34,29 @@ fn planted_lists_are_found() {
             );
         }
     }
+}
+
+#[test]
+fn lists_are_the_same_on_any_number_of_threads() {
+    let planted = planted(24, 3_000, 5);
+    let found = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        pool.build().unwrap().install(|| {
+            [Order::Learned, Order::Given, Order::Rarest].map(|order| {
+                list(
+                    &planted.columns,
+                    &planted.classes,
+                    order,
+                    &Effort::default(),
+                )
+            })
+        })
+    };
+    let lists = found(1);
+    assert_eq!(lists, found(3));
+    for list in &lists {
+        assert_decides(&planted.columns, &planted.classes, list);
+    }
+    let given: Vec<usize> = lists[1].iter().map(|(class, _)| *class).collect();
+    assert!(given.is_sorted());
 }

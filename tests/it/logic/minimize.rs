@@ -1,0 +1,140 @@
+//! `btc minimize`, from text to text.
+
+use crate::planted::{below, planted};
+use crate::snapshot::check;
+use btc::diagnostic::render;
+use btc::driver::minimize::{Minimized, Options, Order, minimize};
+use btc::logic::pla::{Part, Pla, read};
+use rand_core::SeedableRng;
+use rand_xoshiro::Xoshiro256PlusPlus;
+use std::fmt::Write;
+
+fn run(text: &str, order: Option<Order>) -> Result<Minimized, String> {
+    let options = Options {
+        order,
+        limit: 1_000,
+    };
+    minimize("test.pla", text.into(), &options)
+        .map_err(|(sources, mistakes)| render::human(&sources, &mistakes, false))
+}
+
+#[test]
+fn outputs_share_rows_and_keep_their_names() {
+    let text = "# adder\r\n.i 3\n.o 2\n.ilb a b c\n.ob carry sum\n.p 8\n\
+        000 00\n001 01\n010|01 # one\n011 10\n100 01\n101 10\n110 10\n1 1 1 11\n.e\nrubbish\n";
+    let found = run(text, None).unwrap();
+    check(
+        "minimize.adder",
+        &format!("{}{}", found.text, found.statistics),
+    );
+}
+
+/// Without a type, and of what is both 1 and free only what is needed: as Espresso has it.
+#[test]
+fn without_a_type_what_is_not_said_is_0() {
+    let found = run(".i 3\n.o 1\n1-0 1\n11- 1\n-11 -\n.end\n", None).unwrap();
+    assert_eq!(found.text, ".i 3\n.o 1\n.p 1\n1-0 1\n.e\n");
+    let free = run(".i 3\n.o 1\n.type fr\n1-0 1\n11- 1\n0-- 0\n.end\n", None).unwrap();
+    assert_eq!(free.text, ".i 3\n.o 1\n.p 1\n1-- 1\n.e\n");
+}
+
+#[test]
+fn a_decision_list_of_outputs() {
+    let text =
+        ".i 3\n.o 3\n.type fr\n.ob a b c\n111 100\n110 100\n101 010\n001 010\n000 001\n010 001\n";
+    let found = run(text, Some(Order::Learned)).unwrap();
+    check(
+        "minimize.list",
+        &format!("{}{}", found.text, found.statistics),
+    );
+}
+
+#[test]
+fn mistakes_have_places() {
+    let text = ".i 3\n.o 1\n.type fx\n.ilb a b\n11 1\n1x1 1\n.phase 1\n";
+    check("minimize.mistakes", &run(text, None).unwrap_err());
+    let text = ".i 3\n.o 2\n.type fr\n1-1 10\n0-- 00\n-01 01 # here\n";
+    check("minimize.contradiction", &run(text, None).unwrap_err());
+}
+
+/// Random PLAs of every type: the result is 1 and 0 where the input says so.
+#[test]
+fn results_agree_with_their_inputs() {
+    let atoms = 6;
+    for seed in 0..200 {
+        let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
+        let kind = ["f", "fd", "fr", "fdr"][seed as usize % 4];
+        let mut text = format!(".i {atoms}\n.o 2\n.type {kind}\n");
+        for _ in 0..below(&mut random, 14) {
+            let inputs: String = (0..atoms)
+                .map(|_| ['0', '1', '-'][below(&mut random, 3)])
+                .collect();
+            let outputs: String = (0..2)
+                .map(|_| ['0', '1', '-', '~'][below(&mut random, 4)])
+                .collect();
+            writeln!(text, "{inputs} {outputs}").unwrap();
+        }
+        let before = read(&text).unwrap();
+        let contradicts = (0..2).any(|output| {
+            (0..1 << atoms)
+                .any(|m| says(&before, m, output, Part::On) && says(&before, m, output, Part::Off))
+        });
+        match run(&text, None) {
+            Err(said) => assert!(contradicts && said.contains("E0805"), "{text}{said}"),
+            Ok(found) => {
+                assert!(!contradicts);
+                assert_agrees(&before, &read(&found.text).unwrap(), kind, &text);
+            }
+        }
+    }
+}
+
+fn says(pla: &Pla, minterm: u64, output: usize, part: Part) -> bool {
+    let point = btc::logic::packed::Packed::new(pla.inputs, &[minterm], &[]);
+    (0..pla.rows()).any(|row| pla.part(row, output) == part && pla.cube(row).contains(&point))
+}
+
+fn assert_agrees(before: &Pla, after: &Pla, kind: &str, text: &str) {
+    for minterm in 0..1 << before.inputs {
+        for output in 0..2 {
+            let was = |part| says(before, minterm, output, part);
+            let holds = says(after, minterm, output, Part::On);
+            let free = was(Part::Free) || (kind.contains('r') && !was(Part::On) && !was(Part::Off));
+            assert!(
+                free || holds == was(Part::On),
+                "{minterm:b} of {output}\n{text}"
+            );
+            assert!(!holds || !was(Part::Off), "{minterm:b} of {output}\n{text}");
+        }
+    }
+}
+
+/// A planted list as a PLA comes out as a list that decides every row as it was.
+#[test]
+fn lists_decide_their_rows() {
+    let planted = planted(24, 2_000, 1);
+    let mut text = ".i 24\n.o 8\n.type fr\n".to_owned();
+    for (r, row) in planted.rows.iter().enumerate() {
+        let class = planted
+            .classes
+            .iter()
+            .position(|rows| rows.contains(r))
+            .unwrap();
+        let inputs: String = (0..24)
+            .map(|a| if row[0] >> a & 1 == 1 { '1' } else { '0' })
+            .collect();
+        let outputs: String = (0..8).map(|o| if o == class { '1' } else { '0' }).collect();
+        writeln!(text, "{inputs} {outputs}").unwrap();
+    }
+    for order in [Order::Learned, Order::Given, Order::Rarest] {
+        let found = read(&run(&text, Some(order)).unwrap().text).unwrap();
+        for (r, row) in planted.rows.iter().enumerate() {
+            let point = btc::logic::packed::Packed::new(24, row, &[]);
+            let first = (0..found.rows())
+                .find(|at| found.cube(*at).contains(&point))
+                .unwrap();
+            let output = (0..8).find(|o| found.part(first, *o) == Part::On).unwrap();
+            assert!(planted.classes[output].contains(r));
+        }
+    }
+}
