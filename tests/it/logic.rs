@@ -4,5 +4,3 @@ mod espresso;
 mod lists;
 mod minimize;
 mod random;
-#[path = "planted.rs"]
-pub(crate) mod planted;

@@ -2,7 +2,7 @@
 
 use super::random::{Random, policy};
 use super::walk::parts_after;
-use crate::logic::planted::{BEHAVIORS, planted};
+use crate::planted::{BEHAVIORS, planted};
 use btc::ir::Id;
 use btc::ir::tree::{Atom, Node};
 use btc::policy::{Minterm, Policy, Row};
