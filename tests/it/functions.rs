@@ -1,6 +1,6 @@
 //! Functions of one output with few rows given, of several kinds.
 
-use crate::planted::{below, cube, minterm};
+use super::planted::{below, cube, minterm};
 use btc::logic::{Cover, Cube};
 use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
