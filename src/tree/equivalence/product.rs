@@ -18,7 +18,7 @@ use std::collections::BTreeSet;
 const PATIENCE: usize = 2_000_000;
 
 /// Ticks that each row of the table adds to that.
-const PATIENCE_PER_ROW: usize = 16;
+const PATIENCE_PER_ROW: usize = 200;
 
 /// Both memories and the environment.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
