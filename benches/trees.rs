@@ -1,5 +1,9 @@
 //! How fast trees come out of tables: the proof, Algorithm 1 and the search, beside planted lists of rules.
-#![allow(clippy::unwrap_used, reason = "a bench fails where it goes wrong")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::indexing_slicing,
+    reason = "a bench fails where it goes wrong"
+)]
 
 #[allow(dead_code, unreachable_pub, reason = "shared with the tests")]
 #[path = "../tests/it/planted.rs"]
