@@ -63,7 +63,9 @@ fn each_code_is_explained_and_provoked() {
         let heading = format!("# {code}: {}\n\n", code.title());
         assert!(code.explanation().starts_with(&heading), "{code}");
         // Those of the syntax are provoked beside the parser, those of PLAs below.
-        if code.name().starts_with("E01") || code.name().starts_with("E080") || LATER.contains(&code)
+        if code.name().starts_with("E01")
+            || code.name().starts_with("E080")
+            || LATER.contains(&code)
         {
             continue;
         }

@@ -112,6 +112,9 @@ struct Lockstep<'a> {
 
 type State = (Memory, Memory, Window);
 
+/// What each side selects, how the left one's selection ends, and what comes then.
+type Ticked = ([Option<Id<Behavior>>; 2], Status, State);
+
 impl<'a> Lockstep<'a> {
     fn new(left: &'a Node, right: &'a Node, history: History) -> Self {
         let all = behaviors(left).union(&behaviors(right)).copied().collect();
@@ -129,11 +132,7 @@ impl<'a> Lockstep<'a> {
     }
 
     /// What both select, and where that leads by each assignment of statuses.
-    fn ticks(
-        &self,
-        state: &State,
-        minterm: &Minterm,
-    ) -> Vec<([Option<Id<Behavior>>; 2], Status, State)> {
+    fn ticks(&self, state: &State, minterm: &Minterm) -> Vec<Ticked> {
         let holds = super::walk::holds(&self.atoms, minterm);
         let (left, right, window) = state;
         let one = |statuses: &BTreeMap<Id<Behavior>, Status>| {
