@@ -1,6 +1,6 @@
 //! Trees without the traces of what was taken out of them.
 
-use crate::ir::tree::{Composite, Guard, Node};
+use crate::ir::tree::{Atom, Composite, Guard, Node};
 use crate::tree::formula::{and, not, or, selector};
 
 /// The same tree without what a move leaves behind: composites of one child, selectors in selectors, sequences in
@@ -40,12 +40,29 @@ fn folded(guard: Guard) -> Guard {
     match guard {
         Guard::Const(_) | Guard::Atom(_) => guard,
         Guard::Not(inner) => not(folded(*inner)),
-        Guard::And(parts) => and(parts.into_iter().map(folded)),
+        Guard::And(parts) => {
+            let mut parts: Vec<Guard> = parts.into_iter().map(folded).collect();
+            parts.sort_by_key(place);
+            and(parts)
+        }
         Guard::Or(parts) => match or(parts.into_iter().map(folded)) {
             Guard::Or(cubes) => or(absorbed(cubes)),
             guard => guard,
         },
     }
+}
+
+/// Where a part of a conjunction stands: literals by their atoms, as in a table, before what is longer.
+fn place(part: &Guard) -> (bool, Option<Atom>) {
+    let atom = match part {
+        Guard::Atom(atom) => Some(*atom),
+        Guard::Not(inner) => match **inner {
+            Guard::Atom(atom) => Some(atom),
+            _ => None,
+        },
+        _ => None,
+    };
+    (atom.is_none(), atom)
 }
 
 /// The alternatives without those that another one covers: `a or a and b` is `a`.
@@ -116,7 +133,7 @@ fn tidy_sequence(children: Vec<Node>) -> Node {
         match (flat.last_mut(), child) {
             (_, Node::Condition(Guard::Const(true))) => {}
             (Some(Node::Condition(before)), Node::Condition(guard)) => {
-                *before = and([before.clone(), guard]);
+                *before = folded(and([before.clone(), guard]));
             }
             (_, child) => flat.push(child),
         }
