@@ -5,6 +5,7 @@ mod covers;
 mod factor;
 mod list;
 mod memory;
+mod minterms;
 mod orders;
 mod pairs;
 mod paper;
@@ -15,7 +16,7 @@ mod share;
 mod subunit;
 
 use super::Size;
-use super::prove::{Proof, Refuted};
+use super::prove::{Proof, Prover, Refuted};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::{Node, Status};
@@ -108,9 +109,10 @@ pub struct Failing {
 /// The policy has no rows, or the tree that was found is refuted: with the counterexample.
 pub fn decanonicalise(policy: &Policy, options: &Options) -> Result<Decanonicalised, Refuted> {
     let policy = &*cared(policy, options.care);
-    let problem = Problem::new(policy);
+    let apart = minterms::apart(policy);
+    let problem = Problem::new(apart.as_ref().unwrap_or(policy));
     let paper = || paper::tree(&Covers::new(&problem, u64::MAX));
-    let beside = options.method == Method::Paper || policy.rows.len() <= LARGE;
+    let beside = options.method == Method::Paper || problem.policy.rows.len() <= LARGE;
     let first = beside.then(paper);
     let found = match options.method {
         Method::Paper => None,
@@ -121,7 +123,11 @@ pub fn decanonicalise(policy: &Policy, options: &Options) -> Result<Decanonicali
     };
     let paper_size = first.as_ref().map(Size::of);
     let root = found.or(first).unwrap_or_else(paper);
-    let proof = problem.prover().prove(&root)?;
+    let proof = match &apart {
+        // What was found on minterms is proved on the cubes.
+        Some(_) => Prover::new(policy).prove(&root)?,
+        None => problem.prover().prove(&root)?,
+    };
     Ok(Decanonicalised {
         size: Size::of(&root),
         paper_size,
