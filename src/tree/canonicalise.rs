@@ -1,6 +1,6 @@
 //! Trees to canonical form (paper, section IV): a selector of units `guard => behaviour`, one per behaviour.
 //!
-//! Nodes are reduced to units on a [circuit](super::circuit), in which nested conditions stay small; the guards of the
+//! Nodes are reduced to units on a circuit, in which nested conditions stay small; the guards of the
 //! units are then written out and shortened.
 
 mod reduce;
