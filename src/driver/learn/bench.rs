@@ -21,6 +21,7 @@ use crate::learn::train::{Counts, Course, train};
 use crate::tree::Runner;
 use crate::world::{End, Simulation, Simulator, Start};
 use rustc_hash::FxHashSet;
+use std::sync::{Mutex, PoisonError};
 
 /// One run of learning.
 #[derive(Clone, Debug)]
@@ -129,16 +130,29 @@ impl Bench<'_> {
             limit: learner.episode_ticks,
         });
         let proposes = method.proposes();
-        let mut points: Vec<Point> = Vec::new();
-        let mut proposals: Vec<(f64, Table)> = Vec::new();
-        let round = |table: &Table, counts: &Counts| {
-            let point = self.point(table, counts, seed);
-            if proposes {
-                proposals.push((point.total.mean, table.clone()));
-            }
-            points.push(point);
+        // Rounds are measured on other threads while learning goes on.
+        let measured: Mutex<Vec<(Point, Option<Table>)>> = Mutex::default();
+        let counts = rayon::in_place_scope(|scope| {
+            let measured = &measured;
+            let round = |table: &Table, counts: &Counts| {
+                let (table, counts) = (table.clone(), *counts);
+                scope.spawn(move |_| {
+                    let point = self.point(&table, &counts, seed);
+                    let mut measured = measured.lock().unwrap_or_else(PoisonError::into_inner);
+                    measured.push((point, proposes.then_some(table)));
+                });
+            };
+            train(&mut process, method.as_mut(), &course, round, progress)
+        });
+        let mut measured = measured
+            .into_inner()
+            .unwrap_or_else(PoisonError::into_inner);
+        measured.sort_by_key(|(point, _)| point.episodes);
+        let proposed = |(point, table): &mut (Point, Option<Table>)| {
+            table.take().map(|table| (point.total.mean, table))
         };
-        let counts = train(&mut process, method.as_mut(), &course, round, progress);
+        let proposals = measured.iter_mut().filter_map(proposed).collect();
+        let points = measured.into_iter().map(|(point, _)| point).collect();
         let elected = self.elect(proposals, seed);
         let (decisions, table) = elected.unwrap_or_else(|| {
             let table = method.table();
