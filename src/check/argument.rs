@@ -10,7 +10,7 @@ use crate::syntax::ast::{self, Arg, ArgKind, Param, Params, Ref};
 
 impl<'a> Checker<'a> {
     /// Parameters that are known by their type only.
-    pub(super) fn unknown_parameters(&mut self, params: Option<&'a Params>) -> Vec<Binding> {
+    pub fn unknown_parameters(&mut self, params: Option<&'a Params>) -> Vec<Binding> {
         let mut bindings: Vec<Binding> = Vec::new();
         for param in params.map_or(&[][..], |params| &params.params) {
             let ty = self.type_expr(&param.ty);
@@ -47,7 +47,7 @@ impl<'a> Checker<'a> {
 
     /// Matches arguments to parameters: by position, by name, by default. Every mistake is reported; `None` if there
     /// were any.
-    pub(super) fn bind_arguments(
+    pub fn bind_arguments(
         &mut self,
         params: Option<&'a Params>,
         library: bool,
@@ -159,7 +159,7 @@ impl<'a> Checker<'a> {
     }
 
     /// The positional arguments, if there are as many as are wanted.
-    pub(super) fn positional(
+    pub fn positional(
         &mut self,
         reference: &'a Ref,
         least: usize,
@@ -231,7 +231,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Checks an argument whose function is not known, for its own mistakes.
-    pub(super) fn stray_argument(&mut self, arg: &'a Arg) {
+    pub fn stray_argument(&mut self, arg: &'a Arg) {
         match &arg.kind {
             ArgKind::Positional(value) | ArgKind::Named(_, value) => {
                 self.expr(value);
@@ -240,7 +240,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    pub(super) fn in_library<T>(&mut self, library: bool, pass: impl FnOnce(&mut Self) -> T) -> T {
+    pub fn in_library<T>(&mut self, library: bool, pass: impl FnOnce(&mut Self) -> T) -> T {
         let outer = std::mem::replace(&mut self.context.library, library);
         let result = pass(self);
         self.context.library = outer;
@@ -249,7 +249,7 @@ impl<'a> Checker<'a> {
 }
 
 /// A binder among the arguments of what ranges over nothing.
-pub(super) fn no_binder(name: &str, span: Span) -> Diagnostic {
+pub fn no_binder(name: &str, span: Span) -> Diagnostic {
     Diagnostic::new(Code::E0305, span, format!("`{name}` takes no `in`"))
         .label("only any, all, count and nearest range over a kind")
 }

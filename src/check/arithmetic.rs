@@ -2,15 +2,15 @@
 
 use super::Checker;
 use super::builtin::Function;
+use super::types::units::Dim;
 use super::types::{Type, Typed};
-use super::units::Dim;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::expr::{Binary, Unary};
 use crate::syntax::ast::Ref;
 
 impl<'a> Checker<'a> {
     /// A function of one number.
-    pub(super) fn function_of_one(&mut self, function: Function, reference: &'a Ref) -> Typed {
+    pub fn function_of_one(&mut self, function: Function, reference: &'a Ref) -> Typed {
         use Function as F;
         let span = reference.span;
         let Some(&[value]) = self.positional(reference, 1, 1).as_deref() else {
@@ -81,7 +81,7 @@ impl<'a> Checker<'a> {
         })
     }
 
-    pub(super) fn two_alike(&mut self, reference: &'a Ref) -> Option<(Typed, Typed)> {
+    pub fn two_alike(&mut self, reference: &'a Ref) -> Option<(Typed, Typed)> {
         let values = self.positional(reference, 2, 2)?;
         let [first, second] = values.as_slice() else {
             return None;
@@ -93,7 +93,7 @@ impl<'a> Checker<'a> {
         (b.ty != Type::Error).then_some((a, b))
     }
 
-    pub(super) fn extremum(&mut self, op: Binary, reference: &'a Ref) -> Typed {
+    pub fn extremum(&mut self, op: Binary, reference: &'a Ref) -> Typed {
         let span = reference.span;
         let Some(values) = self.positional(reference, 2, usize::MAX) else {
             return Typed::error(span);
@@ -127,7 +127,7 @@ impl<'a> Checker<'a> {
     }
 
     /// `clamp(x, limit)` is x within ± limit, `clamp(x, low, high)` within an interval.
-    pub(super) fn clamp(&mut self, reference: &'a Ref) -> Typed {
+    pub fn clamp(&mut self, reference: &'a Ref) -> Typed {
         let span = reference.span;
         let Some(values) = self.positional(reference, 2, 3) else {
             return Typed::error(span);

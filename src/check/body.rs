@@ -14,18 +14,18 @@ const MANY: usize = 200_000;
 
 /// A body that is being checked.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Open<'a> {
+pub struct Open<'a> {
     /// Where its name is declared.
-    pub(super) at: Span,
+    pub at: Span,
     /// The name, as it is used.
-    pub(super) name: &'a str,
+    pub name: &'a str,
     /// Whether it is of the library.
-    pub(super) library: bool,
+    pub library: bool,
 }
 
 impl<'a> Checker<'a> {
     /// Checks a body with its parameters known by type only, and remembers whether it is free of mistakes.
-    pub(super) fn body_for_itself(
+    pub fn body_for_itself(
         &mut self,
         body: &'a Ident,
         region: Region,
@@ -50,7 +50,7 @@ impl<'a> Checker<'a> {
 
     /// Checks a body again under arguments. Mistakes that only these make are reported where they are given; `None`
     /// where there were any.
-    pub(super) fn unrolled<T>(
+    pub fn unrolled<T>(
         &mut self,
         body: Span,
         reference: &'a Ref,
@@ -115,7 +115,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Reports, once, that definitions within definitions do not come to an end.
-    pub(super) fn too_much(&mut self, span: Span, label: &str) {
+    pub fn too_much(&mut self, span: Span, label: &str) {
         if std::mem::replace(&mut self.gave_up, true) {
             return;
         }

@@ -2,8 +2,8 @@
 
 use super::Checker;
 use super::context::Region;
+use super::types::units::Dim;
 use super::types::{Type, Typed, Value};
-use super::units::Dim;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::expr::{Binary, Expr, Pose};
 use crate::source::Span;
@@ -104,7 +104,7 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 
 impl<'a> Checker<'a> {
     /// A built-in name without arguments.
-    pub(super) fn built_in_value(&mut self, constant: Constant, span: Span) -> Typed {
+    pub fn built_in_value(&mut self, constant: Constant, span: Span) -> Typed {
         let angle = Type::Quantity(Dim::ANGLE);
         let name = constant.name();
         match constant {
@@ -187,7 +187,7 @@ impl<'a> Checker<'a> {
         Typed { ty, value, span }
     }
 
-    pub(super) fn out_of_scope(&mut self, name: &str, span: Span, why: &str) -> Typed {
+    pub fn out_of_scope(&mut self, name: &str, span: Span, why: &str) -> Typed {
         self.report(
             Diagnostic::new(
                 Code::E0307,
@@ -200,7 +200,7 @@ impl<'a> Checker<'a> {
     }
 
     /// A call of a built-in function.
-    pub(super) fn built_in_call(&mut self, function: Function, reference: &'a Ref) -> Typed {
+    pub fn built_in_call(&mut self, function: Function, reference: &'a Ref) -> Typed {
         let span = reference.span;
         use Function as F;
         match function {

@@ -1,9 +1,15 @@
 //! Expressions: literals, operators, choices.
 
+pub mod draw;
+pub mod ending;
+pub mod quantifier;
+pub mod reading;
+pub mod reference;
+
 use super::Checker;
 use super::context::Binding;
+use super::types::units::{self, Dim};
 use super::types::{Type, Typed, Value};
-use super::units::{self, Dim};
 use crate::diagnostic::{Applicability, Code, Diagnostic, Label};
 use crate::ir::expr::{Binary, ExprId, Unary};
 use crate::source::Span;
@@ -14,7 +20,7 @@ const DEEP: usize = 700;
 
 impl<'a> Checker<'a> {
     /// Checks an expression.
-    pub(super) fn expr(&mut self, expr: &'a Expr) -> Typed {
+    pub fn expr(&mut self, expr: &'a Expr) -> Typed {
         self.depth += 1;
         let typed = if self.depth > DEEP {
             self.too_much(expr.span, "this stands too deep within");
@@ -50,13 +56,13 @@ impl<'a> Checker<'a> {
     }
 
     /// Checks an expression that has to be of a type.
-    pub(super) fn expect(&mut self, expr: &'a Expr, wanted: &Type, role: &str) -> Typed {
+    pub fn expect(&mut self, expr: &'a Expr, wanted: &Type, role: &str) -> Typed {
         let typed = self.expr(expr);
         self.coerce(typed, expr, wanted, role)
     }
 
     /// Reports an expression that is not of the wanted type; what comes back is of that type or an error.
-    pub(super) fn coerce(&mut self, typed: Typed, expr: &Expr, wanted: &Type, role: &str) -> Typed {
+    pub fn coerce(&mut self, typed: Typed, expr: &Expr, wanted: &Type, role: &str) -> Typed {
         if typed.ty.fits(wanted) {
             self.warn_plain_ratio(expr, wanted);
             return typed;
@@ -77,7 +83,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Checks an expression that has to be of the type of another one.
-    pub(super) fn expect_like(&mut self, expr: &'a Expr, first: &Typed, role: &str) -> Typed {
+    pub fn expect_like(&mut self, expr: &'a Expr, first: &Typed, role: &str) -> Typed {
         let ty = first.ty.clone();
         let before = self.diagnostics.len();
         let typed = self.expr(expr);
@@ -96,13 +102,13 @@ impl<'a> Checker<'a> {
     }
 
     /// Checks an expression that has to be a constant number of a dimension.
-    pub(super) fn constant(&mut self, expr: &'a Expr, wanted: &Type, role: &str) -> Option<f64> {
+    pub fn constant(&mut self, expr: &'a Expr, wanted: &Type, role: &str) -> Option<f64> {
         let typed = self.expect(expr, wanted, role);
         self.constant_of(&typed, role)
     }
 
     /// The number that a checked expression is, reported where it is not a constant.
-    pub(super) fn constant_of(&mut self, typed: &Typed, role: &str) -> Option<f64> {
+    pub fn constant_of(&mut self, typed: &Typed, role: &str) -> Option<f64> {
         let id = typed.scalar()?;
         let value = self.program.pool.constant(id);
         if value.is_none() {
@@ -411,7 +417,7 @@ impl<'a> Checker<'a> {
     }
 
     /// A choice between two values of one type.
-    pub(super) fn select(
+    pub fn select(
         &mut self,
         condition: &Typed,
         then: &Typed,
@@ -441,7 +447,7 @@ impl<'a> Checker<'a> {
     }
 
     /// `{ let … value }`
-    pub(super) fn yielded(&mut self, body: &'a ast::Yield) -> Typed {
+    pub fn yielded(&mut self, body: &'a ast::Yield) -> Typed {
         let depth = self.context.scope.len();
         for binding in &body.bindings {
             let value = self.binding_value(binding);
@@ -461,17 +467,12 @@ impl<'a> Checker<'a> {
     }
 
     /// The value of a `let`, of the type that it says.
-    pub(super) fn binding_value(&mut self, binding: &'a ast::Binding) -> Typed {
+    pub fn binding_value(&mut self, binding: &'a ast::Binding) -> Typed {
         self.declared(binding.ty.as_ref(), &binding.value, &binding.name.name)
     }
 
     /// A value of the type that is written beside it, if one is.
-    pub(super) fn declared(
-        &mut self,
-        ty: Option<&ast::TypeExpr>,
-        value: &'a Expr,
-        name: &str,
-    ) -> Typed {
+    pub fn declared(&mut self, ty: Option<&ast::TypeExpr>, value: &'a Expr, name: &str) -> Typed {
         match ty {
             Some(written) => {
                 let ty = self.type_expr(written);
@@ -486,7 +487,7 @@ impl<'a> Checker<'a> {
     }
 
     /// The dimension of a number; anything else is reported.
-    pub(super) fn number(&mut self, typed: &Typed) -> Option<Dim> {
+    pub fn number(&mut self, typed: &Typed) -> Option<Dim> {
         if typed.ty == Type::Error {
             return None;
         }
@@ -574,7 +575,7 @@ impl<'a> Checker<'a> {
     }
 
     /// A value that is made of scalars; unknown where one of them is.
-    pub(super) fn lifted(
+    pub fn lifted(
         &mut self,
         ty: Type,
         span: Span,
@@ -634,7 +635,7 @@ fn is_literal(expr: &Expr) -> bool {
 }
 
 /// Offers to write the unit after a literal that lacks it.
-pub(super) fn with_unit_fix(diagnostic: Diagnostic, expr: &Expr, dim: Dim) -> Diagnostic {
+pub fn with_unit_fix(diagnostic: Diagnostic, expr: &Expr, dim: Dim) -> Diagnostic {
     let (true, Some(unit)) = (is_literal(expr), dim.unit()) else {
         return diagnostic;
     };

@@ -7,31 +7,15 @@
 
 mod argument;
 mod arithmetic;
-mod behavior;
-mod block;
 mod body;
 mod builtin;
-mod call;
-mod claim;
 mod context;
-mod draw;
-mod dynamics;
-mod ending;
+mod decl;
 mod expr;
-mod learn;
 mod names;
-mod predicate;
-mod quantifier;
-mod reading;
-mod robot;
-mod sensor;
-mod setting;
-mod shape;
 mod task;
 mod tree;
-mod type_expr;
 mod types;
-mod units;
 mod world;
 
 use crate::diagnostic::{self, Code, Diagnostic};
@@ -123,10 +107,10 @@ struct Checker<'a> {
     asked: Vec<(Span, Outcome)>,
     /// The names that bodies of the user bind, with what they are and whether anything reads them.
     bound: BTreeMap<Span, Bound<'a>>,
-    predicates: BTreeMap<String, Option<predicate::PredicateId>>,
-    behaviors: BTreeMap<String, Option<behavior::BehaviorId>>,
-    states: BTreeMap<&'a str, dynamics::StateSlot>,
-    events: BTreeMap<&'a str, dynamics::EventId>,
+    predicates: BTreeMap<String, Option<decl::predicate::PredicateId>>,
+    behaviors: BTreeMap<String, Option<decl::behavior::BehaviorId>>,
+    states: BTreeMap<&'a str, decl::dynamics::StateSlot>,
+    events: BTreeMap<&'a str, decl::dynamics::EventId>,
     /// The length of a tick in seconds, once the world has said it.
     tick: Option<f64>,
     /// Whether there is a world, be it wrong.

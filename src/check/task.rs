@@ -1,10 +1,12 @@
 //! Tasks: what is observed, chosen, remembered and rewarded; how episodes start and end.
 
+pub mod learner;
+
 use super::Checker;
 use super::context::{Context, Region};
 use super::names::{Decl, START_WORDS, unknown};
+use super::types::units::Dim;
 use super::types::{Type, Typed, Value};
-use super::units::Dim;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
@@ -17,7 +19,7 @@ use std::collections::BTreeMap;
 
 impl<'a> Checker<'a> {
     /// `task name { … }`
-    pub(super) fn task(&mut self, task: &'a ast::Task) {
+    pub fn task(&mut self, task: &'a ast::Task) {
         let zero = self.program.pool.num(0.0);
         let mut built = Task {
             name: super::world::spelled(&task.name.name),
@@ -147,7 +149,7 @@ impl<'a> Checker<'a> {
     }
 
     /// The behaviour that a reference names; anything else is reported.
-    pub(super) fn behavior_ref(&mut self, reference: &'a Ref) -> Option<Id<Behavior>> {
+    pub fn behavior_ref(&mut self, reference: &'a Ref) -> Option<Id<Behavior>> {
         match self.names.value(&reference.name.name, false) {
             Some((Decl::Behavior(behavior), library)) => {
                 match self.behavior_instance(behavior, library, reference)? {
@@ -170,7 +172,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Offers the library where it would bring the missing name.
-    pub(super) fn perhaps_of_library(&self, diagnostic: Diagnostic, name: &str) -> Diagnostic {
+    pub fn perhaps_of_library(&self, diagnostic: Diagnostic, name: &str) -> Diagnostic {
         let used = self
             .names
             .value("idle", true)
@@ -194,7 +196,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Reports a name of the wrong kind.
-    pub(super) fn wrong_kind(&mut self, reference: &Ref, wanted: &str, found: &str) {
+    pub fn wrong_kind(&mut self, reference: &Ref, wanted: &str, found: &str) {
         self.report(
             Diagnostic::new(
                 Code::E0203,
@@ -205,7 +207,7 @@ impl<'a> Checker<'a> {
         );
     }
 
-    pub(super) fn not_named(&mut self, expr: &Expr, wanted: &str, declaration: &str) {
+    pub fn not_named(&mut self, expr: &Expr, wanted: &str, declaration: &str) {
         if !matches!(expr.kind, ExprKind::Error) {
             self.report(
                 Diagnostic::new(Code::E0203, expr.span, format!("{wanted} is needed here"))
@@ -241,7 +243,7 @@ impl<'a> Checker<'a> {
     }
 
     /// A time as a whole number of ticks, at least one.
-    pub(super) fn ticks(&mut self, expr: &'a Expr, role: &str) -> Option<u64> {
+    pub fn ticks(&mut self, expr: &'a Expr, role: &str) -> Option<u64> {
         let time = Type::Quantity(Dim::TIME);
         let seconds = self.constant(expr, &time, role)?;
         let ticks = (seconds / self.tick?).round();
@@ -260,11 +262,7 @@ impl<'a> Checker<'a> {
     }
 
     /// `start { … }`
-    pub(super) fn start(
-        &mut self,
-        start: &'a ast::Start,
-        history: Option<History>,
-    ) -> Vec<StartLine> {
+    pub fn start(&mut self, start: &'a ast::Start, history: Option<History>) -> Vec<StartLine> {
         self.context = Context::new(Region::Start);
         self.kept = history;
         let mut lines: Vec<StartLine> = Vec::new();

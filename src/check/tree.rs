@@ -1,8 +1,10 @@
 //! Trees: composites, guards over atoms, subtrees unrolled.
 
+pub mod claim;
+
 use super::Checker;
 use super::context::{Binding, Region};
-use super::ending::keeping;
+use super::expr::ending::keeping;
 use super::names::{Decl, unknown};
 use super::types::{Type, Value};
 use crate::diagnostic::{Applicability, Code, Diagnostic};
@@ -20,7 +22,7 @@ impl<'a> Checker<'a> {
     /// `tree name(params) for task = node`
     ///
     /// A tree of a used file gives way to one of its name in a file that uses it.
-    pub(super) fn tree(&mut self, tree: &'a ast::Tree, docs: &[String]) {
+    pub fn tree(&mut self, tree: &'a ast::Tree, docs: &[String]) {
         if let Some((Decl::Tree(known), _)) = self.names.value(&tree.name.name, false)
             && known.name.span.file != tree.name.span.file
         {

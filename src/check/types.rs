@@ -1,6 +1,9 @@
 //! Types, and the values that expressions have while they are checked.
 
-use super::units::Dim;
+pub mod units;
+pub mod written;
+
+use super::types::units::Dim;
 use crate::ir::Id;
 use crate::ir::expr::ExprId;
 use crate::ir::law::Behavior;

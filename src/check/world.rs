@@ -1,11 +1,16 @@
 //! The world: arena, walls, places and the robot.
 
+pub mod robot;
+pub mod sensor;
+pub mod setting;
+pub mod shape;
+
 use super::Checker;
 use super::builtin::{Constant, Function};
 use super::context::{Context, Region};
-use super::robot::no_robot;
 use super::types::Type;
-use super::units::Dim;
+use super::types::units::Dim;
+use super::world::robot::no_robot;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::table::Table;
 use crate::ir::world::{Place, Point, Shape, Wall, World};
@@ -13,7 +18,7 @@ use crate::syntax::ast::{self, Expr, Field, Item, ItemKind, WorldEntryKind};
 
 impl<'a> Checker<'a> {
     /// The one world of a program.
-    pub(super) fn worlds(&mut self, items: impl Iterator<Item = &'a Item>) {
+    pub fn worlds(&mut self, items: impl Iterator<Item = &'a Item>) {
         let mut first: Option<&'a ast::World> = None;
         for item in items {
             let ItemKind::World(world) = &item.kind else {
@@ -108,7 +113,7 @@ impl<'a> Checker<'a> {
     }
 
     /// `wall … when condition`: checked once the states are known.
-    pub(super) fn conditions_of_walls(&mut self, world: &'a ast::World) {
+    pub fn conditions_of_walls(&mut self, world: &'a ast::World) {
         for entry in &world.entries {
             if let WorldEntryKind::Wall {
                 name,
@@ -166,7 +171,7 @@ impl<'a> Checker<'a> {
 }
 
 /// A name as the language writes it: in backquotes if it is no identifier or means something already.
-pub(super) fn spelled(name: &str) -> String {
+pub fn spelled(name: &str) -> String {
     crate::syntax::print::name(name)
 }
 
@@ -193,6 +198,6 @@ fn contains(shape: &Shape, [x, y]: Point) -> bool {
 }
 
 /// Whether a name is one that the compiler knows.
-pub(super) fn is_built_in(name: &str) -> bool {
+pub fn is_built_in(name: &str) -> bool {
     Constant::named(name).is_some() || Function::named(name).is_some()
 }

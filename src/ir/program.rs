@@ -39,8 +39,6 @@ pub struct Program {
     pub trees: Table<Tree>,
     /// The claims.
     pub claims: Vec<Claim>,
-    /// Tables that the file `use`s as the environment of its proofs, by path as written.
-    pub environments: Vec<String>,
 }
 
 /// A state variable; a point is two of them.

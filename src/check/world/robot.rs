@@ -1,11 +1,11 @@
 //! Robots: body, drive and contact.
 
-use super::Checker;
-use super::builtin::Function;
-use super::names::{Decl, unknown};
-use super::types::Type;
-use super::units::Dim;
-use super::world::spelled;
+use crate::check::Checker;
+use crate::check::builtin::Function;
+use crate::check::names::{Decl, unknown};
+use crate::check::types::Type;
+use crate::check::types::units::Dim;
+use crate::check::world::spelled;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::table::Table;
 use crate::ir::world::{Contact, Drive, DriveKind, Robot};
@@ -15,7 +15,7 @@ use crate::syntax::ast::{
 
 impl<'a> Checker<'a> {
     /// The robot that learns; others are checked, and not built yet.
-    pub(super) fn robots(&mut self, world: &'a ast::World) {
+    pub fn robots(&mut self, world: &'a ast::World) {
         let mut acting: Option<&'a ast::Ident> = None;
         for entry in &world.entries {
             let WorldEntryKind::Robot { name, entries } = &entry.kind else {
@@ -193,7 +193,7 @@ impl<'a> Checker<'a> {
 }
 
 /// The robot of a world that has not said it yet.
-pub(super) fn no_robot() -> Robot {
+pub fn no_robot() -> Robot {
     Robot {
         name: String::new(),
         radius: 0.1,

@@ -1,10 +1,10 @@
 //! Behaviours: bodies are checked for themselves, then once more for every set of arguments that is used.
 
-use super::Checker;
-use super::block::Home;
-use super::context::{Binding, Region};
-use super::types::{Type, Value};
-use super::world::spelled;
+use crate::check::Checker;
+use crate::check::context::{Binding, Region};
+use crate::check::decl::statement::Home;
+use crate::check::types::{Type, Value};
+use crate::check::world::spelled;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::Id;
 use crate::ir::expr::{Expr, ExprId, Local};
@@ -15,11 +15,11 @@ use crate::syntax::ast::{self, ArgKind, BehaviorBody, Clause, ClauseKind, Ref};
 use crate::syntax::print;
 
 /// The id of a behaviour with its arguments.
-pub(super) type BehaviorId = Id<Behavior>;
+pub type BehaviorId = Id<Behavior>;
 
 impl<'a> Checker<'a> {
     /// Checks a behaviour for itself.
-    pub(super) fn behavior(&mut self, behavior: &'a ast::Behavior) {
+    pub fn behavior(&mut self, behavior: &'a ast::Behavior) {
         if self.clean_bodies.contains_key(&behavior.name.span) {
             return;
         }
@@ -43,7 +43,7 @@ impl<'a> Checker<'a> {
 
     /// The behaviour with the given arguments: a known value, or an unknown one inside a body that is checked for
     /// itself. `None` if a mistake was reported.
-    pub(super) fn behavior_instance(
+    pub fn behavior_instance(
         &mut self,
         behavior: &'a ast::Behavior,
         library: bool,
@@ -238,7 +238,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Keeps what the parameters of a family are called, for those who write its instances in other languages.
-    pub(super) fn keeps_parameters(&mut self, family: &ast::Ident, params: Option<&ast::Params>) {
+    pub fn keeps_parameters(&mut self, family: &ast::Ident, params: Option<&ast::Params>) {
         if let Some(params) = params {
             let names = params.params.iter().map(|param| param.name.name.clone());
             let family = spelled(&family.name);
@@ -248,7 +248,7 @@ impl<'a> Checker<'a> {
 
     /// A reference with its arguments as they are printed: by position as long as none is left out, then by name;
     /// arguments that say what the default says are left out.
-    pub(super) fn instance_name(
+    pub fn instance_name(
         &self,
         params: Option<&ast::Params>,
         reference: &Ref,

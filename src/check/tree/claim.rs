@@ -1,9 +1,9 @@
 //! Claims on trees.
 
-use super::Checker;
-use super::context::{Context, Region};
-use super::names::{Decl, unknown};
-use super::types::Type;
+use crate::check::Checker;
+use crate::check::context::{Context, Region};
+use crate::check::names::{Decl, unknown};
+use crate::check::types::Type;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::Id;
 use crate::ir::program::Event;
@@ -13,7 +13,7 @@ use crate::syntax::print;
 
 impl<'a> Checker<'a> {
     /// `claim tree equals tree`, `claim tree never event …`
-    pub(super) fn claim(&mut self, claim: &'a ast::Claim) {
+    pub fn claim(&mut self, claim: &'a ast::Claim) {
         self.context = Context::new(Region::Tree);
         let tree = self.tree_ref(&claim.tree);
         let kind = match &claim.what {
@@ -36,7 +36,7 @@ impl<'a> Checker<'a> {
 
     /// A tree of the program, or one that a learner will learn.
     fn tree_ref(&mut self, name: &Ident) -> Option<TreeRef> {
-        let spelled = super::world::spelled(&name.name);
+        let spelled = crate::check::world::spelled(&name.name);
         if let Some(id) = self.program.trees.find(|tree| tree.name == spelled) {
             return Some(TreeRef::Tree(id));
         }

@@ -1,9 +1,9 @@
 //! Sensors of a robot.
 
-use super::Checker;
-use super::types::{Type, Value};
-use super::units::Dim;
-use super::world::spelled;
+use crate::check::Checker;
+use crate::check::types::units::Dim;
+use crate::check::types::{Type, Value};
+use crate::check::world::spelled;
 use crate::ir::world::{Point, Sensor, SensorKind};
 use crate::syntax::ast::{self, ArgKind, Expr, ExprKind, Ref};
 use std::f64::consts::TAU;
@@ -13,7 +13,7 @@ const SENSORS: [&str; 3] = ["scanner(…)", "range_finder(…)", "beacon(…)"];
 
 impl<'a> Checker<'a> {
     /// `sensor name = scanner(…)`, `range_finder(…)`, `beacon(…)`
-    pub(super) fn sensor(&mut self, name: &'a ast::Ident, value: &'a Expr) -> Option<Sensor> {
+    pub fn sensor(&mut self, name: &'a ast::Ident, value: &'a Expr) -> Option<Sensor> {
         let ExprKind::Ref(reference) = &value.kind else {
             self.choice_of(value, "a sensor", &SENSORS);
             return None;

@@ -1,9 +1,9 @@
 //! How behaviours end: what events ask and what a history starts with.
 
-use super::Checker;
-use super::builtin::Function;
-use super::context::Region;
-use super::types::{Type, Typed, Value};
+use crate::check::Checker;
+use crate::check::builtin::Function;
+use crate::check::context::Region;
+use crate::check::types::{Type, Typed, Value};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::expr::Expr;
 use crate::ir::task::History;
@@ -38,7 +38,7 @@ impl<'a> Checker<'a> {
     }
 
     /// `success(b)`, `failure(b)`: the behaviour ended so in this tick; in a `history` line, that it did.
-    pub(super) fn ended(&mut self, function: Function, reference: &'a Ref) -> Typed {
+    pub fn ended(&mut self, function: Function, reference: &'a Ref) -> Typed {
         let span = reference.span;
         let Some(&[value]) = self.positional(reference, 1, 1).as_deref() else {
             return Typed::error(span);
@@ -96,7 +96,7 @@ impl<'a> Checker<'a> {
 }
 
 /// The `history` line that keeps an outcome besides what is kept already.
-pub(super) fn keeping(history: History, outcome: &str) -> String {
+pub fn keeping(history: History, outcome: &str) -> String {
     let window = history.window.max(1);
     if history.success || history.failure {
         format!("history last {window} success, failure")

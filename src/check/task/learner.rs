@@ -1,10 +1,10 @@
 //! Learners: the settings by which a task is learned.
 
-use super::Checker;
-use super::context::{Context, Region};
-use super::names::{learned_name, stranger, unknown};
-use super::types::Type;
-use super::units::Dim;
+use crate::check::Checker;
+use crate::check::context::{Context, Region};
+use crate::check::names::{learned_name, stranger, unknown};
+use crate::check::types::Type;
+use crate::check::types::units::Dim;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::expr::{Binary, Expr, ExprId};
 use crate::ir::task::{Discount, Learner, Method};
@@ -26,14 +26,14 @@ const METHODS: [(&str, Method); 3] = [
 
 impl<'a> Checker<'a> {
     /// `learn name for task { … }`
-    pub(super) fn learn(&mut self, learn: &'a ast::Learn) {
+    pub fn learn(&mut self, learn: &'a ast::Learn) {
         self.context = Context::new(Region::Schedule);
         let task = self.names.tasks.get(learn.task.name.as_str()).copied();
         if task.is_none() {
             let diagnostic = unknown(&learn.task, "task", self.names.tasks.keys().copied());
             self.report(diagnostic);
         }
-        let spelled = super::world::spelled(&learn.task.name);
+        let spelled = crate::check::world::spelled(&learn.task.name);
         let task = self.program.tasks.find(|task| task.name == spelled);
         let pool = &mut self.program.pool;
         // The defaults: steps of visits^-0.7, exploration from 30 % to 5 %.
@@ -43,7 +43,7 @@ impl<'a> Checker<'a> {
         let (from, to) = (pool.num(0.3), pool.num(0.05));
         let explore = self.ramp(from, to);
         let mut built = Learner {
-            name: super::world::spelled(learned_name(learn)),
+            name: crate::check::world::spelled(learned_name(learn)),
             task: task.unwrap_or(crate::ir::Id::new(0)),
             method: Method::QLearning,
             episodes: 0,

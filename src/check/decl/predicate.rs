@@ -1,8 +1,8 @@
 //! Predicates and their families.
 
-use super::Checker;
-use super::context::{Binding, Region};
-use super::types::{Type, Typed, Value};
+use crate::check::Checker;
+use crate::check::context::{Binding, Region};
+use crate::check::types::{Type, Typed, Value};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::Id;
 use crate::ir::expr::ExprId;
@@ -10,11 +10,11 @@ use crate::ir::program::Predicate;
 use crate::syntax::ast::{self, Ref};
 
 /// The id of a predicate with its arguments.
-pub(super) type PredicateId = Id<Predicate>;
+pub type PredicateId = Id<Predicate>;
 
 impl<'a> Checker<'a> {
     /// Checks a predicate for itself.
-    pub(super) fn predicate(&mut self, predicate: &'a ast::Predicate) {
+    pub fn predicate(&mut self, predicate: &'a ast::Predicate) {
         if self.clean_bodies.contains_key(&predicate.name.span) {
             return;
         }
@@ -44,7 +44,7 @@ impl<'a> Checker<'a> {
     }
 
     /// A predicate as a truth value in an expression.
-    pub(super) fn predicate_value(
+    pub fn predicate_value(
         &mut self,
         predicate: &'a ast::Predicate,
         library: bool,
@@ -85,7 +85,7 @@ impl<'a> Checker<'a> {
     }
 
     /// The predicate with the given arguments, as an atom of tables and trees.
-    pub(super) fn predicate_instance(
+    pub fn predicate_instance(
         &mut self,
         predicate: &'a ast::Predicate,
         library: bool,

@@ -1,15 +1,15 @@
 //! `any`, `all`, `count` and `nearest` over the members of a kind.
 
-use super::Checker;
-use super::builtin::Function;
-use super::context::Binding;
-use super::types::{Type, Typed, Value};
+use crate::check::Checker;
+use crate::check::builtin::Function;
+use crate::check::context::Binding;
+use crate::check::types::{Type, Typed, Value};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::syntax::ast::{ArgKind, Ident, Ref};
 
 impl<'a> Checker<'a> {
     /// Whether a type has members that something can range over; reported if not.
-    pub(super) fn has_members(&mut self, ty: &Type, domain: &Ident) -> bool {
+    pub fn has_members(&mut self, ty: &Type, domain: &Ident) -> bool {
         let has = matches!(ty, Type::Place(_) | Type::Wall(_) | Type::Enum(_));
         if !has {
             self.report(
@@ -25,7 +25,7 @@ impl<'a> Checker<'a> {
     }
 
     /// `any(b in bush: …)` and its relatives.
-    pub(super) fn quantified(&mut self, function: Function, reference: &'a Ref) -> Typed {
+    pub fn quantified(&mut self, function: Function, reference: &'a Ref) -> Typed {
         let span = reference.span;
         let binder = match reference.args.as_deref() {
             Some([arg]) => match &arg.kind {

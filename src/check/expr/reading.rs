@@ -1,9 +1,9 @@
 //! What is read of targets: places, points, walls and sensors become arithmetic on the pose, or a reading.
 
-use super::Checker;
-use super::builtin::Function;
-use super::types::{Type, Typed, Value};
-use super::units::Dim;
+use crate::check::Checker;
+use crate::check::builtin::Function;
+use crate::check::types::units::Dim;
+use crate::check::types::{Type, Typed, Value};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::expr::{Binary, Echo, Expr, ExprId, Pose, Unary};
 use crate::ir::world::Shape;
@@ -11,7 +11,7 @@ use crate::syntax::ast::Ref;
 
 impl<'a> Checker<'a> {
     /// `distance(t)`, `bearing(t)`, `direction(t)`, `visible(t)`, `inside(p)`, `facing(p)`.
-    pub(super) fn reading(&mut self, function: Function, reference: &'a Ref) -> Typed {
+    pub fn reading(&mut self, function: Function, reference: &'a Ref) -> Typed {
         let span = reference.span;
         let most = if function == Function::Distance { 2 } else { 1 };
         let Some(values) = self.positional(reference, 1, most) else {

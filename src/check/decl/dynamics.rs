@@ -1,11 +1,11 @@
 //! State variables, events, and what they do.
 
-use super::Checker;
-use super::block::Home;
-use super::context::{Binding, Context, Region};
-use super::names::{Decl, TypeDecl, unknown};
-use super::types::{Type, Typed, Value};
-use super::world::spelled;
+use crate::check::Checker;
+use crate::check::context::{Binding, Context, Region};
+use crate::check::decl::statement::Home;
+use crate::check::names::{Decl, TypeDecl, unknown};
+use crate::check::types::{Type, Typed, Value};
+use crate::check::world::spelled;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::Id;
 use crate::ir::expr::Expr;
@@ -13,20 +13,20 @@ use crate::ir::program::{Effect, Event, State, ValueKind};
 use crate::syntax::ast::{self, Ident, Ref, Trigger};
 
 /// The id of an event.
-pub(super) type EventId = Id<Event>;
+pub type EventId = Id<Event>;
 
 /// The variables behind a declared state: one, or two for a point.
 #[derive(Clone, Debug)]
-pub(super) struct StateSlot {
+pub struct StateSlot {
     /// The declared type.
-    pub(super) ty: Type,
+    pub ty: Type,
     /// The variables.
-    pub(super) ids: Vec<Id<State>>,
+    pub ids: Vec<Id<State>>,
 }
 
 impl<'a> Checker<'a> {
     /// `state name: type = constant`
-    pub(super) fn state(&mut self, state: &'a ast::State) {
+    pub fn state(&mut self, state: &'a ast::State) {
         self.context = Context::new(Region::World);
         if let Some(params) = &state.params {
             let scope = self.unknown_parameters(Some(params));
@@ -83,7 +83,7 @@ impl<'a> Checker<'a> {
     }
 
     /// `enum name { … }`: names are collected already; an empty one is a mistake.
-    pub(super) fn enumeration(&mut self, decl: &'a ast::Enum) {
+    pub fn enumeration(&mut self, decl: &'a ast::Enum) {
         if decl.variants.is_empty() {
             self.report(
                 Diagnostic::new(
@@ -104,7 +104,7 @@ impl<'a> Checker<'a> {
     }
 
     /// A state variable as it is now.
-    pub(super) fn state_value(&mut self, state: &'a ast::State, reference: &'a Ref) -> Typed {
+    pub fn state_value(&mut self, state: &'a ast::State, reference: &'a Ref) -> Typed {
         let span = reference.span;
         if self.context.region == Region::World {
             self.report(
@@ -162,7 +162,7 @@ impl<'a> Checker<'a> {
     }
 
     /// `event name = expr`
-    pub(super) fn event(&mut self, event: &'a ast::Event) {
+    pub fn event(&mut self, event: &'a ast::Event) {
         let scope = self.unknown_parameters(event.params.as_ref());
         let mut when = None;
         self.body_for_itself(&event.name, Region::Event, scope, |checker| {
@@ -182,7 +182,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Whether an event happens in this tick.
-    pub(super) fn event_value(&mut self, event: &'a ast::Event, reference: &'a Ref) -> Typed {
+    pub fn event_value(&mut self, event: &'a ast::Event, reference: &'a Ref) -> Typed {
         let span = reference.span;
         if event.params.is_some() {
             let params = event.params.as_ref();
@@ -257,7 +257,7 @@ impl<'a> Checker<'a> {
     }
 
     /// `each tick { … }`
-    pub(super) fn each_tick(&mut self, block: &'a ast::Block) {
+    pub fn each_tick(&mut self, block: &'a ast::Block) {
         self.context = Context::new(Region::EachTick);
         if let Some(block) = self.block(block, &Home::Effect) {
             self.program.each_tick.0.extend(block.0);
@@ -289,7 +289,7 @@ impl<'a> Checker<'a> {
     }
 
     /// `on event { … }`
-    pub(super) fn on(&mut self, on: &'a ast::On) {
+    pub fn on(&mut self, on: &'a ast::On) {
         self.context = Context::new(Region::Event);
         match &on.trigger {
             Trigger::Expr(event) => {

@@ -1,9 +1,9 @@
 //! Shapes of the world: constants, checked for sense.
 
-use super::Checker;
-use super::builtin::Function;
-use super::types::{Type, Value};
-use super::units::Dim;
+use crate::check::Checker;
+use crate::check::builtin::Function;
+use crate::check::types::units::Dim;
+use crate::check::types::{Type, Value};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::world::{Point, Shape};
 use crate::source::Span;
@@ -11,7 +11,7 @@ use crate::syntax::ast::{self, Ref};
 
 impl<'a> Checker<'a> {
     /// `disc(centre, radius)`, `rect(corner, corner)`, `polygon(…)`, `polyline(…)`, `line(from, to)`.
-    pub(super) fn shape(&mut self, function: Function, reference: &'a Ref) -> Option<Shape> {
+    pub fn shape(&mut self, function: Function, reference: &'a Ref) -> Option<Shape> {
         let span = reference.span;
         match function {
             Function::Disc => {
@@ -73,7 +73,7 @@ impl<'a> Checker<'a> {
     }
 
     /// A length above zero.
-    pub(super) fn radius(&mut self, value: &'a ast::Expr) -> Option<f64> {
+    pub fn radius(&mut self, value: &'a ast::Expr) -> Option<f64> {
         let length = Type::Quantity(Dim::LENGTH);
         let radius = self.constant(value, &length, "a radius")?;
         if radius > 0.0 {
@@ -84,7 +84,7 @@ impl<'a> Checker<'a> {
     }
 
     /// A shape, as the value of a place, a wall or the arena.
-    pub(super) fn shape_of(&mut self, value: &'a ast::Expr, role: &str) -> Option<Shape> {
+    pub fn shape_of(&mut self, value: &'a ast::Expr, role: &str) -> Option<Shape> {
         match self.expect(value, &Type::Shape, role).value {
             Value::Shape(shape) => Some(shape),
             _ => None,
@@ -107,7 +107,7 @@ impl<'a> Checker<'a> {
             _ => return None,
         };
         let mut coordinate = |id| {
-            let part = super::types::Typed {
+            let part = crate::check::types::Typed {
                 value: Value::Scalar(id),
                 ..typed.clone()
             };

@@ -1,9 +1,9 @@
 //! Types as they are written.
 
-use super::Checker;
-use super::names::{TypeDecl, unknown};
-use super::types::Type;
-use super::units::Dim;
+use crate::check::Checker;
+use crate::check::names::{TypeDecl, unknown};
+use crate::check::types::Type;
+use crate::check::types::units::Dim;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::syntax::ast::{Ident, TypeExpr};
 
@@ -27,7 +27,7 @@ const BUILT_IN: &[(&str, Type)] = &[
 
 impl<'a> Checker<'a> {
     /// The type that is written.
-    pub(super) fn type_expr(&mut self, written: &TypeExpr) -> Type {
+    pub fn type_expr(&mut self, written: &TypeExpr) -> Type {
         if let [(name, false)] = written.factors.as_slice() {
             return self.named_type(name);
         }
@@ -57,7 +57,7 @@ impl<'a> Checker<'a> {
     }
 
     /// The type of that name: built in, an enum or a kind.
-    pub(super) fn named_type(&mut self, name: &Ident) -> Type {
+    pub fn named_type(&mut self, name: &Ident) -> Type {
         if let Some((_, ty)) = BUILT_IN.iter().find(|(known, _)| *known == name.name) {
             return ty.clone();
         }

@@ -1,11 +1,11 @@
 //! References: names and calls, with their arguments matched to parameters.
 
-use super::Checker;
-use super::builtin;
-use super::context::Region;
-use super::names::{Decl, unknown};
-use super::types::{Type, Typed, Value};
-use super::world::spelled;
+use crate::check::Checker;
+use crate::check::builtin;
+use crate::check::context::Region;
+use crate::check::names::{Decl, unknown};
+use crate::check::types::{Type, Typed, Value};
+use crate::check::world::spelled;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::expr::Expr;
 use crate::source::Span;
@@ -13,7 +13,7 @@ use crate::syntax::ast::{self, LetBody, Ref};
 
 impl<'a> Checker<'a> {
     /// A name, or a call.
-    pub(super) fn reference(&mut self, reference: &'a Ref) -> Typed {
+    pub fn reference(&mut self, reference: &'a Ref) -> Typed {
         let name = reference.name.name.as_str();
         let span = reference.span;
         if reference.args.is_none() {
@@ -157,7 +157,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Checks a `let` for itself.
-    pub(super) fn shared(&mut self, shared: &'a ast::Let) {
+    pub fn shared(&mut self, shared: &'a ast::Let) {
         if self.clean_bodies.contains_key(&shared.name.span) {
             return;
         }
@@ -203,7 +203,7 @@ impl<'a> Checker<'a> {
     }
 
     /// A leaf of the pool with its type.
-    pub(super) fn leaf(&mut self, expr: Expr, ty: Type, span: Span) -> Typed {
+    pub fn leaf(&mut self, expr: Expr, ty: Type, span: Span) -> Typed {
         let id = self.program.pool.leaf(expr);
         Typed {
             ty,

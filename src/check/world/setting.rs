@@ -1,8 +1,8 @@
 //! Fields and settings of the world: each by its name, each once, constants all.
 
-use super::Checker;
-use super::names::{listed, stranger};
-use super::types::Type;
+use crate::check::Checker;
+use crate::check::names::{listed, stranger};
+use crate::check::types::Type;
 use crate::diagnostic::{Applicability, Code, Diagnostic, suggest};
 use crate::source::Span;
 use crate::syntax::ast::{Arg, ArgKind, Expr, ExprKind, Field, Ident, Ref};
@@ -10,7 +10,7 @@ use crate::syntax::ast::{Arg, ArgKind, Expr, ExprKind, Field, Ident, Ref};
 impl<'a> Checker<'a> {
     /// Constant settings by name; those without a default have to be there. Values with their places, in the order of
     /// `wanted`.
-    pub(super) fn settings(
+    pub fn settings(
         &mut self,
         reference: &'a Ref,
         wanted: &[(&str, Type, Option<f64>)],
@@ -88,7 +88,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Reports fields that are unknown or there twice.
-    pub(super) fn fields(&mut self, fields: &[&'a Field], known: &[&str], what: &str) {
+    pub fn fields(&mut self, fields: &[&'a Field], known: &[&str], what: &str) {
         for (i, field) in fields.iter().enumerate() {
             let name = &field.name;
             let before = fields
@@ -103,7 +103,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    pub(super) fn missing(&mut self, span: Span, owner: &str, missing: &str, example: &str) {
+    pub fn missing(&mut self, span: Span, owner: &str, missing: &str, example: &str) {
         self.report(
             Diagnostic::new(
                 Code::E0402,
@@ -116,7 +116,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Reports a value that is none of the words that can stand there.
-    pub(super) fn choice_of(&mut self, value: &Expr, what: &str, choices: &[&str]) {
+    pub fn choice_of(&mut self, value: &Expr, what: &str, choices: &[&str]) {
         let name = match &value.kind {
             ExprKind::Error => return,
             ExprKind::Ref(reference) => Some(&reference.name),
@@ -144,7 +144,7 @@ impl<'a> Checker<'a> {
         self.report(diagnostic);
     }
 
-    pub(super) fn positive(&mut self, value: f64, span: Span) -> Option<()> {
+    pub fn positive(&mut self, value: f64, span: Span) -> Option<()> {
         if value > 0.0 {
             return Some(());
         }
@@ -153,13 +153,13 @@ impl<'a> Checker<'a> {
     }
 
     /// A number that makes no sense where it stands.
-    pub(super) fn out_of_range(&mut self, span: Span, why: &str, label: &str) {
+    pub fn out_of_range(&mut self, span: Span, why: &str, label: &str) {
         self.report(Diagnostic::new(Code::E0309, span, why).label(label));
     }
 }
 
 /// A field or a setting that is there a second time.
-pub(super) fn said_twice(name: &Ident, first: Span) -> Diagnostic {
+pub fn said_twice(name: &Ident, first: Span) -> Diagnostic {
     Diagnostic::new(
         Code::E0503,
         name.span,

@@ -1,15 +1,15 @@
 //! Random draws.
 
-use super::Checker;
-use super::builtin::Function;
-use super::types::{Type, Typed, Value};
+use crate::check::Checker;
+use crate::check::builtin::Function;
+use crate::check::types::{Type, Typed, Value};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::expr::{Binary, Draw};
 use crate::syntax::ast::Ref;
 
 impl<'a> Checker<'a> {
     /// `uniform(a, b)`, `normal(mean, deviation)`, `chance(p)`, `one_of(…)`
-    pub(super) fn random(&mut self, function: Function, reference: &'a Ref) -> Typed {
+    pub fn random(&mut self, function: Function, reference: &'a Ref) -> Typed {
         let span = reference.span;
         if !self.context.region.draws() {
             self.report(

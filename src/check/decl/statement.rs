@@ -1,11 +1,11 @@
 //! Statements of control laws and effects.
 
-use super::Checker;
-use super::argument::no_binder;
-use super::context::{Binding, Region};
-use super::names::{Decl, stranger, unknown};
-use super::types::{Type, Typed, Value};
-use super::units::Dim;
+use crate::check::Checker;
+use crate::check::argument::no_binder;
+use crate::check::context::{Binding, Region};
+use crate::check::names::{Decl, stranger, unknown};
+use crate::check::types::units::Dim;
+use crate::check::types::{Type, Typed, Value};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::Id;
 use crate::ir::expr::{Binary, Expr, ExprId, Local, Temp};
@@ -17,7 +17,7 @@ use crate::syntax::ast::{self, ArgKind, AssignOp, Else, Ref, StmtKind};
 
 /// Whose statements they are.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Home {
+pub enum Home {
     /// An effect: sets states.
     Effect,
     /// A control law: sets its locals and drives.
@@ -32,7 +32,7 @@ enum Slot {
 
 impl<'a> Checker<'a> {
     /// A block with a scope of its own; `None` if something in it is not known.
-    pub(super) fn block(&mut self, block: &'a ast::Block, home: &Home) -> Option<Block> {
+    pub fn block(&mut self, block: &'a ast::Block, home: &Home) -> Option<Block> {
         let depth = self.context.scope.len();
         let mut stmts = Some(Vec::new());
         for stmt in &block.stmts {
@@ -246,7 +246,7 @@ impl<'a> Checker<'a> {
                 );
                 None
             }
-            None if super::world::is_built_in(name) => {
+            None if crate::check::world::is_built_in(name) => {
                 self.report(
                     Diagnostic::new(Code::E0310, target.span, format!("`{name}` cannot be set"))
                         .label("the world sets it"),
@@ -396,11 +396,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Reports every `drive` that a path reaches after another; whether some path drives.
-    pub(super) fn drives_once(
-        &mut self,
-        block: &'a ast::Block,
-        mut before: Option<Span>,
-    ) -> Option<Span> {
+    pub fn drives_once(&mut self, block: &'a ast::Block, mut before: Option<Span>) -> Option<Span> {
         for stmt in &block.stmts {
             match &stmt.kind {
                 StmtKind::Call(call) if call.name.name == "drive" => {

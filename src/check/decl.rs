@@ -1,0 +1,6 @@
+//! What a program declares: states, events with their effects, predicates, behaviours.
+
+pub mod behavior;
+pub mod dynamics;
+pub mod predicate;
+pub mod statement;
