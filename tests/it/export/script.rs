@@ -7,13 +7,10 @@ use std::ffi::{OsStr, OsString};
 use std::io::Write;
 use std::process::{Command, Stdio};
 
-/// The Python that a variable names; without one, says that there was no test.
-pub(super) fn python(variable: &str) -> Option<OsString> {
+/// The Python that a variable names.
+pub(super) fn python(variable: &str) -> OsString {
     let found = std::env::var_os(variable);
-    if found.is_none() {
-        eprintln!("{variable} is not set: no exported tree was run there");
-    }
-    found
+    found.unwrap_or_else(|| panic!("{variable} has to name a Python to run exported trees with"))
 }
 
 /// What a script answers to a job.
