@@ -2,5 +2,6 @@
 
 pub mod behavior;
 pub mod dynamics;
+pub mod instance;
 pub mod predicate;
 pub mod statement;

@@ -19,8 +19,8 @@ mod types;
 mod world;
 
 use crate::diagnostic::{self, Code, Diagnostic};
-use crate::ir::Program;
 use crate::ir::task::History;
+use crate::ir::{Name, Program};
 use crate::source::Span;
 use crate::syntax::ast::{self, ItemKind, Outcome};
 use context::{Context, Region};
@@ -107,8 +107,8 @@ struct Checker<'a> {
     asked: Vec<(Span, Outcome)>,
     /// The names that bodies of the user bind, with what they are and whether anything reads them.
     bound: BTreeMap<Span, Bound<'a>>,
-    predicates: BTreeMap<String, Option<decl::predicate::PredicateId>>,
-    behaviors: BTreeMap<String, Option<decl::behavior::BehaviorId>>,
+    predicates: BTreeMap<Name, Option<decl::predicate::PredicateId>>,
+    behaviors: BTreeMap<Name, Option<decl::behavior::BehaviorId>>,
     states: BTreeMap<&'a str, decl::dynamics::StateSlot>,
     events: BTreeMap<&'a str, decl::dynamics::EventId>,
     /// The length of a tick in seconds, once the world has said it.

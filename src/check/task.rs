@@ -8,10 +8,10 @@ use super::names::{Decl, START_WORDS, unknown};
 use super::types::units::Dim;
 use super::types::{Type, Typed, Value};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::program::Predicate;
 use crate::ir::task::{History, RewardLine, StartLine, Task};
+use crate::ir::{Id, Name};
 use crate::source::Span;
 use crate::syntax::ast::{self, AspectKind, Expr, ExprKind, Outcome, Ref, Spanned};
 use crate::syntax::print;
@@ -22,7 +22,7 @@ impl<'a> Checker<'a> {
     pub fn task(&mut self, task: &'a ast::Task) {
         let zero = self.program.pool.num(0.0);
         let mut built = Task {
-            name: super::world::spelled(&task.name.name),
+            name: Name::word(&task.name.name),
             observe: Vec::new(),
             choose: Vec::new(),
             history: History::default(),

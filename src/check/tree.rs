@@ -11,7 +11,7 @@ use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::ir::law::{Block, Stmt};
 use crate::ir::task::Task;
 use crate::ir::tree::{Atom, Composite, Decorator, Guard, Node, Tree};
-use crate::ir::{Id, law};
+use crate::ir::{Id, Name, law};
 use crate::source::Span;
 use crate::syntax::ast::{
     self, Arg, ArgKind, BinaryOp, Expr, ExprKind, NodeKind, Outcome, Ref, Spanned, UnaryOp, Word,
@@ -30,8 +30,8 @@ impl<'a> Checker<'a> {
         }
         let task = match &tree.task {
             Some(name) => {
-                let spelled = super::world::spelled(&name.name);
-                let task = self.program.tasks.find(|task| task.name == spelled);
+                let called = Name::word(&name.name);
+                let task = self.program.tasks.find(|task| task.name == called);
                 if task.is_none() && !self.names.tasks.contains_key(name.name.as_str()) {
                     let diagnostic = unknown(name, "task", self.names.tasks.keys().copied());
                     self.report(diagnostic);
@@ -54,7 +54,7 @@ impl<'a> Checker<'a> {
             self.asks_kept_history(task);
         }
         self.program.trees.push(Tree {
-            name: super::world::spelled(&tree.name.name),
+            name: Name::word(&tree.name.name),
             docs: docs.to_vec(),
             task,
             root,

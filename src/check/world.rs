@@ -12,6 +12,7 @@ use super::types::Type;
 use super::types::units::Dim;
 use super::world::robot::no_robot;
 use crate::diagnostic::{Code, Diagnostic};
+use crate::ir::Name;
 use crate::ir::table::Table;
 use crate::ir::world::{Place, Point, Shape, Wall, World};
 use crate::syntax::ast::{self, Expr, Field, Item, ItemKind, WorldEntryKind};
@@ -87,7 +88,7 @@ impl<'a> Checker<'a> {
             Some(shape)
         });
         self.program.world = Some(World {
-            name: world.name.name.clone(),
+            name: Name::word(&world.name.name),
             tick: self.tick.unwrap_or(0.1),
             arena: arena.clone().unwrap_or(Shape::Disc {
                 center: [0.0; 2],
@@ -152,7 +153,7 @@ impl<'a> Checker<'a> {
         }
         if let Some(world) = &mut self.program.world {
             world.places.push(Place {
-                name: spelled(&name.name),
+                name: Name::word(&name.name),
                 shape,
                 facing: facing.map(crate::math::wrap),
             });
@@ -163,16 +164,11 @@ impl<'a> Checker<'a> {
         let shape = self.shape_of(shape, "a wall");
         if let (Some(shape), Some(world)) = (shape, &mut self.program.world) {
             world.walls.push(Wall {
-                name: spelled(&name.name),
+                name: Name::word(&name.name),
                 shape,
             });
         }
     }
-}
-
-/// A name as the language writes it: in backquotes if it is no identifier or means something already.
-pub fn spelled(name: &str) -> String {
-    crate::syntax::print::name(name)
 }
 
 /// Whether a point lies in a closed shape.

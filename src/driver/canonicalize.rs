@@ -5,8 +5,8 @@ use super::load::Loaded;
 use super::target;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::emit;
-use crate::ir::Program;
 use crate::ir::tree::{Atom, Node, Tree};
+use crate::ir::{Name, Program};
 use crate::policy::{Minterm, Policy, Row, decisions};
 use crate::syntax::print;
 use crate::tree::atoms::atoms;
@@ -50,28 +50,25 @@ pub fn canonicalize(
 /// The canonical tree in a program.
 fn file(loaded: &Loaded, tree: &Tree, canonical: &Canonical, path: Option<&str>) -> String {
     let program = &loaded.program;
-    let plain = tree.name.trim_matches('`');
-    let name = print::name(&format!("{plain}_canonical"));
+    let plain = &tree.name.family;
     let memory = if tree.root.remembers() {
         ", with memory read from the history"
     } else {
         ""
     };
     let docs = vec![format!("The canonical form of `{plain}`{memory}.")];
-    let root = canonical.tree();
+    let canonical = Tree {
+        name: Name::word(format!("{plain}_canonical")),
+        docs,
+        task: tree.task,
+        root: canonical.tree(),
+    };
     if is_declared_only(program) {
         let mut program = program.clone();
-        program.trees = std::iter::once(Tree {
-            name,
-            docs,
-            task: None,
-            root,
-        })
-        .collect();
+        program.trees = std::iter::once(canonical).collect();
         return emit::bt::declared(&program, &["Made by `btc canonicalize`.".to_owned()]);
     }
-    let task = tree.task.map(|task| program.tasks[task].name.as_str());
-    let item = emit::bt::tree(program, &name, &docs, task, &root);
+    let item = emit::bt::tree(program, &canonical);
     match path {
         Some(path) => format!("//! Made by `btc canonicalize`.\nuse \"{path}\"\n\n{item}"),
         None => {
@@ -120,14 +117,14 @@ fn table(program: &Program, tree: &Tree, canonical: &Canonical) -> (String, Opti
     let warning = (!canonical.is_total(&policy.atoms, window)).then(|| {
         format!(
             "warning: `{}` selects nothing in some minterms, and these have no row",
-            tree.name.trim_matches('`')
+            tree.name.family
         )
     });
     (decisions::write_bare(&policy, program), warning)
 }
 
 fn irreducible(loaded: &Loaded, tree: &Tree, why: &Irreducible) -> Diagnostic {
-    let message = format!("`{}` has no canonical form", tree.name.trim_matches('`'));
+    let message = format!("`{}` has no canonical form", tree.name.family);
     Diagnostic::new(Code::E0819, export::place(loaded, tree, &why.path), message)
         .label(why.message())
 }

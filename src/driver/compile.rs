@@ -6,6 +6,7 @@ use super::target;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::emit;
 use crate::ir::Id;
+use crate::ir::name::{self, Name};
 use crate::ir::tree::Tree;
 use crate::ir::world::{DriveKind, Shape};
 use crate::syntax::print;
@@ -43,18 +44,14 @@ pub fn emit(loaded: &Loaded, form: Form, tree: Option<&str>) -> Result<String, D
             let text = loaded.sources.get(loaded.main).map(|s| s.text.as_str());
             print::file(&loaded.ast, text)
         }
-        (Form::Bt, Some(id)) => {
-            let tree = &program.trees[id];
-            let task = tree.task.map(|task| program.tasks[task].name.as_str());
-            emit::bt::tree(program, &tree.name, &tree.docs, task, &tree.root)
-        }
+        (Form::Bt, Some(id)) => emit::bt::tree(program, &program.trees[id]),
         (Form::Dot, named) => {
             let tree = &program.trees[one_tree(loaded, named)?];
-            emit::dot::tree(&tree.name, &tree.root, program)
+            emit::dot::tree(program, tree)
         }
         (Form::Svg, named) => {
             let tree = &program.trees[one_tree(loaded, named)?];
-            emit::svg::tree::tree(&tree.name, &tree.root, program)
+            emit::svg::tree::tree(program, tree)
         }
         (Form::Robot(runtime), named) => {
             export::of_program(loaded, one_tree(loaded, named)?, runtime)?
@@ -72,16 +69,16 @@ fn one_tree(loaded: &Loaded, named: Option<Id<Tree>>) -> Result<Id<Tree>, Diagno
     match ids.as_slice() {
         [one] => Ok(*one),
         _ => {
-            let names: Vec<&str> = trees.values().map(|tree| tree.name.as_str()).collect();
+            let names = name::list(trees.values().map(|tree| &tree.name));
             Err(Diagnostic::new(
                 Code::E0504,
                 target::end_of_file(loaded),
-                match names.as_slice() {
+                match ids.as_slice() {
                     [] => "the program has no tree".to_owned(),
-                    names => format!("the program has several trees: {}", names.join(", ")),
+                    _ => format!("the program has several trees: {names}"),
                 },
             )
-            .label(match names.as_slice() {
+            .label(match ids.as_slice() {
                 [] => "`tree NAME = …` is missing",
                 _ => "say which one with `--tree NAME`",
             }))
@@ -106,16 +103,13 @@ pub fn summary(loaded: &Loaded) -> String {
                 world.tick
             ),
         );
-        let names = |names: Vec<&str>| {
-            if names.is_empty() {
-                "none".to_owned()
-            } else {
-                names.join(", ")
-            }
+        let names = |names: Vec<&Name>| match names.as_slice() {
+            [] => "none".to_owned(),
+            _ => name::list(names),
         };
         line(
             "places",
-            names(world.places.values().map(|p| p.name.as_str()).collect()),
+            names(world.places.values().map(|p| &p.name).collect()),
         );
         line(
             "robot",
@@ -129,38 +123,20 @@ pub fn summary(loaded: &Loaded) -> String {
                 },
                 robot.drive.max_speed,
                 robot.drive.max_turn,
-                names(robot.sensors.values().map(|s| s.name.as_str()).collect())
+                names(robot.sensors.values().map(|s| &s.name).collect())
             ),
         );
     }
-    let list = |names: Vec<&str>| match names.len() {
+    let list = |names: Vec<&Name>| match names.len() {
         0 => "none".to_owned(),
-        n => format!("{n}: {}", names.join(", ")),
+        n => format!("{n}: {}", name::list(names)),
     };
-    line(
-        "predicates",
-        list(
-            program
-                .predicates
-                .values()
-                .map(|p| p.name.as_str())
-                .collect(),
-        ),
-    );
-    line(
-        "behaviours",
-        list(
-            program
-                .behaviors
-                .values()
-                .map(|b| b.name.as_str())
-                .collect(),
-        ),
-    );
-    line(
-        "events",
-        list(program.events.values().map(|e| e.name.as_str()).collect()),
-    );
+    let predicates = program.predicates.values();
+    line("predicates", list(predicates.map(|p| &p.name).collect()));
+    let behaviors = program.behaviors.values();
+    line("behaviours", list(behaviors.map(|b| &b.name).collect()));
+    let events = program.events.values();
+    line("events", list(events.map(|e| &e.name).collect()));
     for (id, task) in program.tasks.iter() {
         let atoms = program.atoms(id).len();
         let history = atoms - task.observe.len();

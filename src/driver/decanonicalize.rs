@@ -6,12 +6,11 @@ use super::slack::{self, Slack};
 use super::table::{self, Refused, Text};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::emit;
-use crate::ir::Program;
 use crate::ir::tree::Tree;
+use crate::ir::{Name, Program};
 use crate::policy::table::{AtomName, Table};
 use crate::policy::{Policy, decisions};
 use crate::source::{FileId, Span};
-use crate::syntax::print;
 use crate::tree::decanonicalise::{self, Care, Decanonicalised, Method, Order};
 use crate::tree::prove::Refuted;
 
@@ -91,7 +90,7 @@ pub fn read(text: Text, recorded: Option<Recorded>, options: &Options) -> Result
         let help = "call the tree otherwise, with `--name NAME`";
         return Err(Refused::new(text, |file| vec![told(file).help(help)]));
     }
-    let (program, policy) = decisions::declared(&read, print::name);
+    let (program, policy) = decisions::declared(&read);
     let mut asked = Asked {
         program,
         policy,
@@ -154,7 +153,7 @@ pub fn decanonicalize(asked: Asked, options: &Options) -> Result<Made, Refused> 
     let found = slack.as_ref().map_or(&exact, |slack| &slack.found);
     let docs = vec![doc(&source, &policy, found, slack.as_ref(), options.slack)];
     program.trees.push(Tree {
-        name: print::name(options.name),
+        name: Name::word(options.name),
         docs,
         task: None,
         root: found.root.clone(),

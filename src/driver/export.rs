@@ -50,9 +50,7 @@ pub fn of_program(loaded: &Loaded, id: Id<Tree>, runtime: Runtime) -> Result<Str
 /// Where the node at a path of child positions is written; a subtree is one leaf.
 pub(super) fn place(loaded: &Loaded, tree: &Tree, path: &[usize]) -> Span {
     let written = loaded.ast.items.iter().find_map(|item| match &item.kind {
-        ItemKind::Tree(item) if crate::syntax::print::name(&item.name.name) == tree.name => {
-            Some(&item.root)
-        }
+        ItemKind::Tree(item) if tree.name.as_word() == Some(&item.name.name) => Some(&item.root),
         _ => None,
     });
     written.map_or_else(|| target::end_of_file(loaded), |root| node_at(root, path))

@@ -167,7 +167,7 @@ pub fn learn(
         progress(Stage::Testing);
         let care = results::care_set(options.care, &met, run);
         let tested = bench.test(&trees.chosen().root, &care, options.tests, seed);
-        Some(tested.map_err(|atom| run::internal(loaded, &program.atom_name(atom)))?)
+        Some(tested.map_err(|atom| run::internal(loaded, &program.atom_name(atom).to_string()))?)
     } else {
         None
     };
@@ -236,7 +236,7 @@ pub(super) fn minterm_text(
         .iter()
         .zip(minterm.values())
         .filter(|(_, holds)| *holds)
-        .map(|(atom, _)| program.atom_name(*atom))
+        .map(|(atom, _)| program.atom_name(*atom).to_string())
         .collect();
     if held.is_empty() {
         "{}".to_owned()

@@ -75,7 +75,7 @@ pub fn run(loaded: &Loaded, subject: Subject, episodes: u64, seed: u64) -> Resul
         events: program
             .events
             .values()
-            .map(|event| event.name.clone())
+            .map(|event| event.name.to_string())
             .collect(),
         ends: end_names(program, task),
     })
@@ -110,7 +110,7 @@ pub(super) fn ready(
     let simulator = simulator(loaded, task, &asked)?;
     can_run(loaded, root)?;
     let runner = Runner::new(root, simulator.atoms())
-        .map_err(|atom| internal(loaded, &loaded.program.atom_name(atom)))?;
+        .map_err(|atom| internal(loaded, &loaded.program.atom_name(atom).to_string()))?;
     Ok((simulator, runner))
 }
 
@@ -216,7 +216,7 @@ pub(super) fn unseen(program: &Program, task: Id<Task>) -> Id<Behavior> {
 /// What ends the episodes of a task, by name.
 pub(super) fn end_names(program: &Program, task: &Task) -> Vec<String> {
     let name = |(i, id): (usize, &crate::ir::ExprId)| match program.pool.get(*id) {
-        crate::ir::Expr::Event(event) => program.events[event].name.clone(),
+        crate::ir::Expr::Event(event) => program.events[event].name.to_string(),
         _ => format!("end {}", i + 1),
     };
     task.end_on.iter().enumerate().map(name).collect()

@@ -36,7 +36,7 @@ pub fn sizes(loaded: &Loaded, names: &[String]) -> Result<String, Vec<Diagnostic
         let Tree { name, root, .. } = &trees[id];
         let size = Size::of(root);
         [
-            name.clone(),
+            name.to_string(),
             size.nodes.to_string(),
             size.literals.to_string(),
             size.depth.to_string(),

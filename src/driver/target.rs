@@ -2,6 +2,7 @@
 
 use super::load::Loaded;
 use crate::diagnostic::{Code, Diagnostic, suggest};
+use crate::ir::name::{self, Name};
 use crate::ir::task::{Learner, Task};
 use crate::ir::tree::Tree;
 use crate::ir::{Id, Program};
@@ -32,11 +33,9 @@ pub fn world_span(loaded: &Loaded) -> Span {
 /// There is none: a diagnostic that offers the likely one.
 pub fn tree(loaded: &Loaded, name: &str) -> Result<Id<Tree>, Diagnostic> {
     let trees = &loaded.program.trees;
-    let found = trees.find(|tree| tree.name == name || tree.name.trim_matches('`') == name);
-    found.ok_or_else(|| {
-        let names: Vec<&str> = trees.values().map(|tree| tree.name.as_str()).collect();
-        missing(loaded, "tree", name, &names)
-    })
+    trees
+        .find(|tree| tree.name.is(name))
+        .ok_or_else(|| missing(loaded, "tree", name, trees.values().map(|tree| &tree.name)))
 }
 
 /// The learner of that name, or the only one.
@@ -45,12 +44,12 @@ pub fn tree(loaded: &Loaded, name: &str) -> Result<Id<Tree>, Diagnostic> {
 /// There is none, or there are several and no name was given.
 pub fn learner(loaded: &Loaded, name: Option<&str>) -> Result<Id<Learner>, Diagnostic> {
     let learners = &loaded.program.learners;
-    let names: Vec<&str> = learners.values().map(|l| l.name.as_str()).collect();
+    let names = learners.values().map(|learner| &learner.name);
     match name {
         Some(name) => learners
-            .find(|learner| learner.name == name)
-            .ok_or_else(|| missing(loaded, "learner", name, &names)),
-        None => only(loaded, "learn", &names, learners.ids()),
+            .find(|learner| learner.name.is(name))
+            .ok_or_else(|| missing(loaded, "learner", name, names)),
+        None => only(loaded, "learn", names, learners.ids()),
     }
 }
 
@@ -63,14 +62,14 @@ pub fn task_of(loaded: &Loaded, tree: Option<Id<Tree>>) -> Result<Id<Task>, Diag
     if let Some(task) = tree.and_then(|tree| program.trees[tree].task) {
         return Ok(task);
     }
-    let names: Vec<&str> = program.tasks.values().map(|t| t.name.as_str()).collect();
-    only(loaded, "task", &names, program.tasks.ids())
+    let names = program.tasks.values().map(|task| &task.name);
+    only(loaded, "task", names, program.tasks.ids())
 }
 
-fn only<T>(
+fn only<'n, T>(
     loaded: &Loaded,
     word: &str,
-    names: &[&str],
+    names: impl Iterator<Item = &'n Name>,
     ids: impl Iterator<Item = Id<T>>,
 ) -> Result<Id<T>, Diagnostic> {
     let ids: Vec<Id<T>> = ids.collect();
@@ -87,7 +86,7 @@ fn only<T>(
             end_of_file(loaded),
             format!(
                 "the program has several `{word}` items: {}",
-                names.join(", ")
+                name::list(names)
             ),
         )
         .label(match word {
@@ -97,14 +96,20 @@ fn only<T>(
     }
 }
 
-fn missing(loaded: &Loaded, what: &str, name: &str, names: &[&str]) -> Diagnostic {
+fn missing<'n>(
+    loaded: &Loaded,
+    what: &str,
+    name: &str,
+    names: impl Iterator<Item = &'n Name>,
+) -> Diagnostic {
     let diagnostic = Diagnostic::new(
         Code::E0504,
         end_of_file(loaded),
         format!("the program has no {what} `{name}`"),
     )
     .label("not in this file, nor in those that it uses");
-    match suggest::nearest(name, names.iter().copied()) {
+    let names: Vec<String> = names.map(Name::to_string).collect();
+    match suggest::nearest(name, names.iter().map(String::as_str)) {
         Some(likely) => diagnostic.help(format!("did you mean `{likely}`?")),
         None if names.is_empty() => diagnostic,
         None => diagnostic.help(format!("it has: {}", names.join(", "))),

@@ -10,9 +10,9 @@ use super::learn::Learned;
 use super::load::Loaded;
 use super::target;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::ir::Program;
 use crate::ir::task::{ClaimKind, History, Learner, TreeRef};
-use crate::ir::tree::{Atom, Node};
+use crate::ir::tree::{Atom, Node, Tree};
+use crate::ir::{Id, Name, Program};
 use crate::policy::Policy;
 use crate::tree::atoms::atoms;
 use crate::tree::equivalence::{Environment, Side, Verdict, compare};
@@ -34,27 +34,35 @@ pub struct Proved {
 /// There is no such tree, the trees are for different tasks, or the table that is named does not fit.
 pub fn trees(loaded: &Loaded, left: &str, right: &str) -> Result<Proved, Vec<Diagnostic>> {
     let one = |mistake| vec![mistake];
-    let left_id = target::tree(loaded, left).map_err(one)?;
-    let right_id = target::tree(loaded, right).map_err(one)?;
+    let left = target::tree(loaded, left).map_err(one)?;
+    let right = target::tree(loaded, right).map_err(one)?;
+    compared(loaded, left, right)
+}
+
+fn compared(loaded: &Loaded, left: Id<Tree>, right: Id<Tree>) -> Result<Proved, Vec<Diagnostic>> {
+    let one = |mistake| vec![mistake];
     let program = &loaded.program;
-    let (a, b) = (&program.trees[left_id], &program.trees[right_id]);
+    let (a, b) = (&program.trees[left], &program.trees[right]);
     if program.tasks.is_empty() {
         let pair = Pair {
             loaded,
             history: assumed(&[&a.root, &b.root]),
             recorded: None,
         };
-        return pair.prove((left, &a.root), (right, &b.root));
+        return pair.prove((&a.name, &a.root), (&b.name, &b.root));
     }
-    let task = target::task_of(loaded, Some(left_id)).map_err(one)?;
-    let other = target::task_of(loaded, Some(right_id)).map_err(one)?;
+    let task = target::task_of(loaded, Some(left)).map_err(one)?;
+    let other = target::task_of(loaded, Some(right)).map_err(one)?;
     if task != other {
         let (first, second) = (&program.tasks[task].name, &program.tasks[other].name);
         return Err(vec![
             Diagnostic::new(
                 Code::E0504,
                 target::end_of_file(loaded),
-                format!("`{left}` is for the task `{first}`, `{right}` for `{second}`"),
+                format!(
+                    "`{}` is for the task `{first}`, `{}` for `{second}`",
+                    a.name, b.name
+                ),
             )
             .label("trees for different tasks are not compared"),
         ]);
@@ -68,7 +76,7 @@ pub fn trees(loaded: &Loaded, left: &str, right: &str) -> Result<Proved, Vec<Dia
         history: program.tasks[task].history,
         recorded: recorded.as_ref(),
     };
-    pair.prove((left, &a.root), (right, &b.root))
+    pair.prove((&a.name, &a.root), (&b.name, &b.root))
 }
 
 /// Proves or tests every claim of the program whose trees are there.
@@ -87,9 +95,7 @@ pub fn claims(loaded: &Loaded) -> Result<Vec<Proved>, Vec<Diagnostic>> {
         };
         let tree = &program.trees[id];
         results.push(match &claim.kind {
-            ClaimKind::Equals(TreeRef::Tree(other)) => {
-                trees(loaded, &tree.name, &program.trees[*other].name)?
-            }
+            ClaimKind::Equals(TreeRef::Tree(other)) => compared(loaded, id, *other)?,
             ClaimKind::Equals(TreeRef::Learned(_)) => not_learned(&claim.text),
             ClaimKind::Never(occurrence) | ClaimKind::Reaches(occurrence) => {
                 let task = target::task_of(loaded, Some(id)).map_err(one)?;
@@ -169,7 +175,7 @@ fn side<'a>(
     program: &'a Program,
     learned: &'a Learned,
     tree: TreeRef,
-) -> Option<(&'a str, &'a Node)> {
+) -> Option<(&'a Name, &'a Node)> {
     if is_learned(program, learned, tree) {
         let learner: &Learner = &program.learners[learned.learner];
         return Some((&learner.name, &learned.root));
@@ -193,8 +199,8 @@ struct Pair<'a> {
 impl Pair<'_> {
     fn prove(
         &self,
-        (left, a): (&str, &Node),
-        (right, b): (&str, &Node),
+        (left, a): (&Name, &Node),
+        (right, b): (&Name, &Node),
     ) -> Result<Proved, Vec<Diagnostic>> {
         let program = &self.loaded.program;
         let environment = match self.recorded {

@@ -1,32 +1,22 @@
 //! Trees as text of the language; laid out by the formatter, so that what is printed parses back.
 
 use crate::ir::Program;
-use crate::ir::tree::{Composite, Decorator, Guard, Node};
+use crate::ir::tree::{Composite, Decorator, Guard, Node, Tree};
 use crate::source::FileId;
 use crate::syntax;
 
-/// A tree as an item of the language, with a documentation line each.
-///
-/// `task` is the name of the task that it is for.
-pub fn tree(
-    program: &Program,
-    name: &str,
-    docs: &[String],
-    task: Option<&str>,
-    root: &Node,
-) -> String {
+/// A tree as an item of the language, with its documentation.
+pub fn tree(program: &Program, tree: &Tree) -> String {
     let mut text = String::new();
-    for line in docs {
+    for line in &tree.docs {
         text.push_str(&format!("/// {line}\n"));
     }
-    text.push_str("tree ");
-    text.push_str(name);
-    if let Some(task) = task {
-        text.push_str(" for ");
-        text.push_str(task);
+    text.push_str(&format!("tree {}", tree.name));
+    if let Some(task) = tree.task {
+        text.push_str(&format!(" for {}", program.tasks[task].name));
     }
     text.push_str(" = ");
-    node(program, root, &mut text);
+    node(program, &tree.root, &mut text);
     text.push('\n');
     laid_out(text)
 }
@@ -47,9 +37,7 @@ pub fn declared(program: &Program, docs: &[String]) -> String {
     text.push('\n');
     for tree in program.trees.values() {
         text.push('\n');
-        text.push_str(&self::tree(
-            program, &tree.name, &tree.docs, None, &tree.root,
-        ));
+        text.push_str(&self::tree(program, tree));
     }
     laid_out(text)
 }
@@ -74,7 +62,7 @@ fn laid_out(text: String) -> String {
 fn node(program: &Program, at: &Node, text: &mut String) {
     match at {
         Node::Condition(guard) => formula(program, guard, 0, text),
-        Node::Behavior(id) => text.push_str(&program.behaviors[*id].name),
+        Node::Behavior(id) => text.push_str(&program.behaviors[*id].name.to_string()),
         Node::Composite {
             kind: Composite::Sequence,
             memory: false,
@@ -142,7 +130,7 @@ fn list(program: &Program, children: &[Node], text: &mut String) {
 fn formula(program: &Program, at: &Guard, binding: u8, text: &mut String) {
     let (parts, word, own): (&[Guard], &str, u8) = match at {
         Guard::Const(value) => return text.push_str(if *value { "true" } else { "false" }),
-        Guard::Atom(atom) => return text.push_str(&program.atom_name(*atom)),
+        Guard::Atom(atom) => return text.push_str(&program.atom_name(*atom).to_string()),
         Guard::Not(inner) => {
             text.push_str("not ");
             return formula(program, inner, 3, text);

@@ -7,7 +7,7 @@
 
 mod xml;
 
-use super::leaves::{Leaves, Subject, Words, unquoted};
+use super::leaves::{Leaves, Subject, Words};
 use super::notes;
 use super::refusal::{self, Reason, Refusal, answers_at_once};
 use crate::ir::Program;
@@ -91,7 +91,7 @@ pub fn tree(program: &Program, tree: &Tree) -> Result<String, Refusal> {
     }
     let mut words = Words::new(RESERVED);
     let leaves = Leaves::of(&tree.root, program, &mut words);
-    let id = words.new_id(&tree.name);
+    let id = words.new_id(&tree.name.family);
     let writer = Writer {
         program,
         leaves: &leaves,
@@ -138,7 +138,7 @@ fn remarks(tree: &Tree, tick: Option<f64>) -> Vec<String> {
     }
     lines.push(format!(
         "The behaviour tree {}, written by btc for BehaviorTree.CPP 4.",
-        unquoted(&tree.name)
+        tree.name.family
     ));
     if let Some(tick) = tick {
         lines.push(format!("Tick it every {tick} ms."));
@@ -220,8 +220,8 @@ impl Writer<'_> {
             return Element::new("AlwaysFailure");
         };
         let mut element = Element::new(&family.id);
-        if !family.same {
-            element = element.with("name", unquoted(&subject.name(self.program)));
+        if family.id != family.name {
+            element = element.with("name", subject.name(self.program).bare());
         }
         for (parameter, value) in values {
             element = element.with(&parameter.id, value);

@@ -4,7 +4,7 @@
 //! decorators diamonds (the paper's Figure 1). Children stand from the left as in the text.
 
 use crate::ir::Program;
-use crate::ir::tree::{Composite, Decorator, Node};
+use crate::ir::tree::{Composite, Decorator, Tree};
 use crate::tree::drawing::{Drawing, Shape};
 use std::fmt::Write;
 
@@ -13,11 +13,11 @@ const HEAD: &str = r##"    graph [ordering=out, ranksep=0.4, nodesep=0.25, splin
     edge [arrowhead=none, penwidth=1.2, color="#78909c"]
 "##;
 
-/// A tree as a `digraph` of that name.
-pub fn tree(name: &str, root: &Node, program: &Program) -> String {
-    let mut out = format!("digraph {} {{\n{HEAD}\n", quoted(name));
+/// A tree as a `digraph` of its name.
+pub fn tree(program: &Program, tree: &Tree) -> String {
+    let mut out = format!("digraph {} {{\n{HEAD}\n", quoted(&tree.name.to_string()));
     let mut count = 0;
-    draw(&Drawing::of(root), program, &mut out, &mut count);
+    draw(&Drawing::of(&tree.root), program, &mut out, &mut count);
     out.push_str("}\n");
     out
 }
@@ -72,9 +72,9 @@ fn look(shape: Shape, program: &Program) -> String {
         }
         Shape::Behavior(id) => format!(
             r##"shape=box, height=0.4, fillcolor="#d7ecd9", label={}"##,
-            quoted(&program.behaviors[id].name)
+            quoted(&program.behaviors[id].name.to_string())
         ),
-        Shape::Literal(atom, true) => oval(&program.atom_name(atom)),
+        Shape::Literal(atom, true) => oval(&program.atom_name(atom).to_string()),
         Shape::Literal(atom, false) => oval(&format!("not {}", program.atom_name(atom))),
         Shape::Const(value) => oval(if value { "true" } else { "false" }),
     }

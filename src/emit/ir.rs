@@ -2,8 +2,10 @@
 
 use crate::ir::expr::{Draw, Expr, ExprId};
 use crate::ir::law::{Block, Law, Stmt};
+use crate::ir::name;
 use crate::ir::program::{Program, ValueKind};
 use crate::ir::task::{Discount, StartLine, TreeRef};
+use crate::ir::tree::Tree;
 use std::fmt::Write;
 
 /// The program, a definition a line, expressions written out.
@@ -76,7 +78,7 @@ impl Out<'_> {
             let kind = match &state.kind {
                 ValueKind::Bool => "bool".to_owned(),
                 ValueKind::Quantity => "quantity".to_owned(),
-                ValueKind::Enum(variants) => format!("enum {{{}}}", variants.join(", ")),
+                ValueKind::Enum(variants) => format!("enum {{{}}}", name::list(variants)),
             };
             let initial = self.expr(state.initial);
             self.line(
@@ -178,18 +180,10 @@ impl Out<'_> {
         let program = self.program;
         for (id, task) in program.tasks.iter() {
             self.line(0, format!("task {id:?} {}", task.name));
-            let observe: Vec<&str> = task
-                .observe
-                .iter()
-                .map(|id| program.predicates[*id].name.as_str())
-                .collect();
-            let choose: Vec<&str> = task
-                .choose
-                .iter()
-                .map(|id| program.behaviors[*id].name.as_str())
-                .collect();
-            self.line(1, format!("observe {}", observe.join(", ")));
-            self.line(1, format!("choose {}", choose.join(", ")));
+            let observe = task.observe.iter().map(|id| &program.predicates[*id].name);
+            let choose = task.choose.iter().map(|id| &program.behaviors[*id].name);
+            self.line(1, format!("observe {}", name::list(observe)));
+            self.line(1, format!("choose {}", name::list(choose)));
             self.line(
                 1,
                 format!("{:?} patience {:?}", task.history, task.patience),
@@ -261,8 +255,11 @@ impl Out<'_> {
     fn trees(&mut self) {
         let program = self.program;
         for (id, tree) in program.trees.iter() {
-            let task = tree.task.map(|task| program.tasks[task].name.as_str());
-            let text = super::bt::tree(program, &tree.name, &[], task, &tree.root);
+            let plain = Tree {
+                docs: Vec::new(),
+                ..tree.clone()
+            };
+            let text = super::bt::tree(program, &plain);
             self.line(0, format!("tree {id:?}"));
             for line in text.lines() {
                 self.line(1, line);
@@ -283,7 +280,7 @@ impl Out<'_> {
         match program.pool.get(id) {
             Expr::Num(value) => format!("{value}"),
             Expr::Bool(value) => format!("{value}"),
-            Expr::State(id) => program.states[id].name.clone(),
+            Expr::State(id) => program.states[id].name.to_string(),
             Expr::Local(id) => format!("local{id:?}"),
             Expr::Temp(id) => format!("t{}", id.index()),
             Expr::Pose(pose) => lower(&pose),
@@ -299,7 +296,7 @@ impl Out<'_> {
             Expr::Ended(id, status) => {
                 format!("{}({})", status.name(), program.behaviors[id].name)
             }
-            Expr::Event(id) => program.events[id].name.clone(),
+            Expr::Event(id) => program.events[id].name.to_string(),
             Expr::Unary(op, a) => format!("{}({})", lower(&op), sub(a)),
             Expr::Binary(op, a, b) => format!("{}({}, {})", lower(&op), sub(a), sub(b)),
             Expr::Select(c, a, b) => format!("select({}, {}, {})", sub(c), sub(a), sub(b)),

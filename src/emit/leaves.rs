@@ -3,14 +3,10 @@
 //! Conditions and actions share one space of identifiers. Every name of the program has its own, whichever tree is
 //! written, so that a robot needs each of them once.
 
-mod call;
-
-pub(super) use call::unquoted;
-
 use crate::ir::law::Behavior;
+use crate::ir::name::{Name, Value};
 use crate::ir::tree::{Atom, Node};
 use crate::ir::{Id, Program};
-use call::{Argument, Call, argument};
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -24,33 +20,11 @@ pub(super) enum Subject {
 }
 
 impl Subject {
-    /// As the language writes it.
-    pub fn name(self, program: &Program) -> String {
+    /// Its name.
+    pub fn name(self, program: &Program) -> Name {
         match self {
             Subject::Condition(atom) => program.atom_name(atom),
             Subject::Action(id) => program.behaviors[id].name.clone(),
-        }
-    }
-
-    /// The name of its family, as the language writes it.
-    pub fn family(self, program: &Program) -> String {
-        self.call(program).family
-    }
-
-    /// What is called, with which arguments.
-    fn call(self, program: &Program) -> Call {
-        let history = |family: &str, id: Id<Behavior>| Call {
-            family: family.to_owned(),
-            arguments: vec![Argument {
-                parameter: Some("behavior".to_owned()),
-                value: argument(&program.behaviors[id].name).to_owned(),
-            }],
-        };
-        match self {
-            Subject::Condition(Atom::Done(id)) => history(HISTORY[0], id),
-            Subject::Condition(Atom::Failed(id)) => history(HISTORY[1], id),
-            Subject::Condition(Atom::Predicate(id)) => Call::of(&program.predicates[id].name),
-            Subject::Action(id) => Call::of(&program.behaviors[id].name),
         }
     }
 }
@@ -63,9 +37,9 @@ const HISTORY: [&str; 2] = ["done", "failed"];
 pub(super) struct Family {
     /// Its identifier.
     pub id: String,
-    /// Whether the identifier is its name in the language.
-    pub same: bool,
-    /// Its parameters.
+    /// Its name in the language, without backquotes.
+    pub name: String,
+    /// The parameters that some leaf of the tree gives a value, as declared.
     pub parameters: Vec<Parameter>,
     /// The leaves of the tree that are of it, in order.
     pub subjects: Vec<Subject>,
@@ -76,8 +50,6 @@ pub(super) struct Family {
 pub(super) struct Parameter {
     /// Its identifier.
     pub id: String,
-    /// As the language calls it.
-    name: String,
     /// Whether some leaf of the tree leaves it out.
     pub optional: bool,
 }
@@ -101,44 +73,60 @@ impl Leaves {
         root.visit_behaviors(&mut |id| {
             subjects.insert(Subject::Action(id));
         });
-        let ids = words.of_program(program);
-        let mut families: Vec<Family> = Vec::new();
-        let mut known: BTreeMap<Key, usize> = BTreeMap::new();
-        let mut placed = Vec::new();
+        let mut grouped: Vec<(Key, Vec<Subject>)> = Vec::new();
         for subject in subjects {
-            let mut call = subject.call(program);
-            call.complete(program.parameters.get(&call.family));
-            let key = Key::new(subject, &call);
-            let at = *known.entry(key.clone()).or_insert_with(|| {
-                let id = ids.get(&key).cloned().unwrap_or_default();
-                families.push(Family {
-                    same: id == call.family,
-                    id,
-                    parameters: Vec::new(),
-                    subjects: Vec::new(),
-                });
-                families.len() - 1
-            });
-            if let Some(family) = families.get_mut(at) {
-                family.subjects.push(subject);
-                family.takes(&call, words, program.parameters.get(&call.family));
+            let key = Key::new(subject, program);
+            match grouped.iter_mut().find(|(known, _)| *known == key) {
+                Some((_, of_family)) => of_family.push(subject),
+                None => grouped.push((key, vec![subject])),
             }
-            placed.push((subject, at, call));
         }
-        let mut calls = BTreeMap::new();
-        for (subject, at, call) in placed {
-            let Some(family) = families.get_mut(at) else {
-                continue;
-            };
-            let mut values = Vec::new();
-            for parameter in &mut family.parameters {
-                let value = call.value(&parameter.name).map(str::to_owned);
-                parameter.optional |= value.is_none();
-                values.push(value);
-            }
-            calls.insert(subject, (at, values));
+        let ids = words.of_program(program);
+        let mut leaves = Self {
+            families: Vec::new(),
+            calls: BTreeMap::new(),
+        };
+        for (key, subjects) in grouped {
+            let id = ids.get(&key).cloned().unwrap_or_default();
+            leaves.family(id, key.1, subjects, program, words);
         }
-        Self { families, calls }
+        leaves
+    }
+
+    /// Adds a family with its leaves.
+    fn family(
+        &mut self,
+        id: String,
+        name: String,
+        subjects: Vec<Subject>,
+        program: &Program,
+        words: &Words,
+    ) {
+        let names: Vec<Name> = subjects.iter().map(|s| s.name(program)).collect();
+        let declared = names.iter().map(|name| name.arguments.len()).max();
+        let given: Vec<usize> = (0..declared.unwrap_or(0))
+            .filter(|at| names.iter().any(|name| value(name, *at).is_some()))
+            .collect();
+        let mut taken = BTreeSet::new();
+        let parameters = given.iter().filter_map(|at| {
+            let declared = names.iter().find_map(|name| name.arguments.get(*at))?;
+            Some(Parameter {
+                id: words.free(&declared.parameter, &mut taken),
+                optional: names.iter().any(|name| value(name, *at).is_none()),
+            })
+        });
+        let parameters = parameters.collect();
+        for (subject, name) in subjects.iter().zip(&names) {
+            let values = given.iter().map(|at| value(name, *at).map(argument));
+            let values = values.collect();
+            self.calls.insert(*subject, (self.families.len(), values));
+        }
+        self.families.push(Family {
+            id,
+            name,
+            parameters,
+            subjects,
+        });
     }
 
     /// The family of a leaf with the parameters that it gives and their values.
@@ -151,24 +139,21 @@ impl Leaves {
     }
 }
 
-impl Family {
-    /// Adds the parameters that a call gives, in the order in which they are declared.
-    fn takes(&mut self, call: &Call, words: &Words, declared: Option<&Vec<String>>) {
-        for name in call.arguments.iter().filter_map(|a| a.parameter.as_ref()) {
-            if self.parameters.iter().any(|known| known.name == *name) {
-                continue;
-            }
-            let mut taken = self.parameters.iter().map(|p| p.id.clone()).collect();
-            self.parameters.push(Parameter {
-                id: words.free(name, &mut taken),
-                name: name.clone(),
-                optional: false,
-            });
-        }
-        let place = |parameter: &Parameter| {
-            declared.and_then(|names| names.iter().position(|name| *name == parameter.name))
-        };
-        self.parameters.sort_by_key(place);
+/// What a name gives the parameter at a position.
+fn value(name: &Name, at: usize) -> Option<&Value> {
+    name.arguments.get(at)?.value.as_ref()
+}
+
+/// A value as an argument: a word without its backquotes, unless it would look like a call, or like an entry of the
+/// blackboard of BehaviorTree.CPP.
+fn argument(value: &Value) -> String {
+    let word = match value {
+        Value::Name(name) => name.as_word(),
+        Value::Text(_) => None,
+    };
+    match word.filter(|word| !word.contains(['(', '{'])) {
+        Some(word) => word.to_owned(),
+        None => value.to_string(),
     }
 }
 
@@ -177,8 +162,9 @@ impl Family {
 struct Key(bool, String);
 
 impl Key {
-    fn new(subject: Subject, call: &Call) -> Self {
-        Self(matches!(subject, Subject::Action(_)), call.family.clone())
+    fn new(subject: Subject, program: &Program) -> Self {
+        let is_action = matches!(subject, Subject::Action(_));
+        Self(is_action, subject.name(program).family)
     }
 }
 
@@ -211,16 +197,11 @@ impl Words {
     fn of_program(&mut self, program: &Program) -> BTreeMap<Key, String> {
         let history = HISTORY.map(|family| Key(false, family.to_owned()));
         let predicates = program.predicates.values();
-        let predicates = predicates.map(|predicate| Key(false, Call::of(&predicate.name).family));
+        let predicates = predicates.map(|predicate| Key(false, predicate.name.family.clone()));
         let behaviors = program.behaviors.values();
-        let behaviors = behaviors.map(|behavior| Key(true, Call::of(&behavior.name).family));
-        let keys: Vec<Key> = history
-            .into_iter()
-            .chain(predicates)
-            .chain(behaviors)
-            .collect();
-        let (legal, others): (Vec<Key>, Vec<Key>) =
-            keys.into_iter().partition(|key| self.legal(&key.1));
+        let behaviors = behaviors.map(|behavior| Key(true, behavior.name.family.clone()));
+        let keys = history.into_iter().chain(predicates).chain(behaviors);
+        let (legal, others): (Vec<Key>, Vec<Key>) = keys.partition(|key| self.legal(&key.1));
         let mut ids = BTreeMap::new();
         for key in legal.into_iter().chain(others) {
             if let Entry::Vacant(place) = ids.entry(key) {
@@ -233,8 +214,7 @@ impl Words {
 
     /// An identifier near to `name` that is not among `taken`, and joins them.
     fn free(&self, name: &str, taken: &mut BTreeSet<String>) -> String {
-        let text = unquoted(name);
-        let parts = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
+        let parts = name.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
         let parts: Vec<&str> = parts.filter(|part| !part.is_empty()).collect();
         let mut id = parts.join("_").trim_start_matches('_').to_owned();
         if !id.starts_with(|c: char| c.is_ascii_alphabetic()) {

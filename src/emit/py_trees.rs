@@ -6,7 +6,7 @@
 mod code;
 mod module;
 
-use super::leaves::{Leaves, Subject, Words, unquoted};
+use super::leaves::{Leaves, Subject, Words};
 use super::notes;
 use super::refusal::{self, Reason, Refusal};
 use crate::ir::Program;
@@ -76,11 +76,9 @@ pub fn tree(program: &Program, tree: &Tree) -> Result<String, Refusal> {
         tick: tick.unwrap_or_default(),
         imports: Imports::default(),
     };
-    let name = unquoted(&tree.name);
-    let root = writer.node(&Drawing::of(&tree.root), Some(name));
+    let root = writer.node(&Drawing::of(&tree.root), Some(&tree.name.family));
     let history = tree.task.map(|task| program.tasks[task].history);
     let parts = module::Parts {
-        program,
         leaves: &leaves,
         history,
         imports: writer.imports,
@@ -156,7 +154,7 @@ impl Writer<'_> {
             Shape::Literal(atom, false) => {
                 let subject = Subject::Condition(atom);
                 let asked = self.condition(subject);
-                let name = format!("not {}", unquoted(&subject.name(self.program)));
+                let name = format!("not {}", subject.name(self.program).bare());
                 self.imports.take("decorators", "Inverter");
                 Code::call("Inverter", vec![string(&name), asked])
             }
@@ -215,7 +213,7 @@ impl Writer<'_> {
     /// `Condition("low", robot.low)`, `Condition("vis(A)", lambda: robot.vis("A"))`
     fn condition(&mut self, subject: Subject) -> Code {
         self.imports.take("common", "Status");
-        let name = string(unquoted(&subject.name(self.program)));
+        let name = string(&subject.name(self.program).bare());
         let asked = match self.method(subject) {
             Some((method, arguments)) if arguments.is_empty() => Code::Plain(method),
             Some((method, arguments)) => Code::call(&method, arguments).after("lambda: "),

@@ -4,6 +4,7 @@
 //! What is left is numbers and truth values; both run as `f64`.
 
 use super::law::Behavior;
+use super::name::Name;
 use super::program::{Event, State};
 use super::table::Id;
 use super::tree::Status;
@@ -15,7 +16,7 @@ use rustc_hash::FxHashMap;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Local {
     /// Its name.
-    pub name: String,
+    pub name: Name,
     /// Its value when the behaviour starts; later ones may read earlier ones.
     pub initial: ExprId,
 }
@@ -24,7 +25,7 @@ pub struct Local {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Temp {
     /// The name.
-    pub name: String,
+    pub name: Name,
 }
 
 /// An expression of the [`Pool`].

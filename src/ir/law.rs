@@ -1,14 +1,15 @@
 //! Behaviours: control laws with their partition of the state space (paper, sections II-C and V).
 
 use super::expr::{ExprId, Local, Temp};
+use super::name::Name;
 use super::program::State;
 use super::table::{Id, Table};
 
 /// A behaviour with its arguments, such as `goto(A)`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Behavior {
-    /// As it is written in the language.
-    pub name: String,
+    /// Its name, with its arguments.
+    pub name: Name,
     /// What it does; `None` if it is declared only.
     pub law: Option<Law>,
 }

@@ -5,6 +5,7 @@
 
 pub mod expr;
 pub mod law;
+pub mod name;
 pub mod program;
 pub mod table;
 pub mod task;
@@ -12,5 +13,6 @@ pub mod tree;
 pub mod world;
 
 pub use expr::{Expr, ExprId, Pool};
+pub use name::Name;
 pub use program::Program;
 pub use table::{Id, Table};

@@ -2,11 +2,11 @@
 
 use super::expr::{ExprId, Pool, Temp};
 use super::law::{Behavior, Block};
+use super::name::Name;
 use super::table::{Id, Table};
 use super::task::{Claim, Learner, Task};
 use super::tree::{Atom, Tree};
 use super::world::World;
-use std::collections::BTreeMap;
 
 /// A checked program.
 #[derive(Clone, Debug, Default)]
@@ -29,8 +29,6 @@ pub struct Program {
     pub predicates: Table<Predicate>,
     /// The behaviours.
     pub behaviors: Table<Behavior>,
-    /// The parameters of the families that predicates and behaviours are of, by the family's name as it is written.
-    pub parameters: BTreeMap<String, Vec<String>>,
     /// The tasks.
     pub tasks: Table<Task>,
     /// The learners.
@@ -44,8 +42,8 @@ pub struct Program {
 /// A state variable; a point is two of them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State {
-    /// As it is written in the language.
-    pub name: String,
+    /// Its name, with the coordinate if it is one of a point.
+    pub name: Name,
     /// How its number is to be read.
     pub kind: ValueKind,
     /// Its value at the start of an episode; a constant.
@@ -60,14 +58,14 @@ pub enum ValueKind {
     /// A quantity in SI base units.
     Quantity,
     /// The index of a variant.
-    Enum(Vec<String>),
+    Enum(Vec<Name>),
 }
 
 /// An event.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Event {
-    /// As it is written in the language.
-    pub name: String,
+    /// Its name.
+    pub name: Name,
     /// Whether it happens in this tick.
     pub when: ExprId,
 }
@@ -84,19 +82,19 @@ pub struct Effect {
 /// A predicate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Predicate {
-    /// As it is written in the language, such as `vis(A)`.
-    pub name: String,
+    /// Its name, with its arguments, such as `vis(A)`.
+    pub name: Name,
     /// When it holds; `None` if it is declared only.
     pub when: Option<ExprId>,
 }
 
 impl Program {
-    /// An atom as the language writes it.
-    pub fn atom_name(&self, atom: Atom) -> String {
+    /// The name of an atom.
+    pub fn atom_name(&self, atom: Atom) -> Name {
         match atom {
             Atom::Predicate(id) => self.predicates[id].name.clone(),
-            Atom::Done(id) => format!("done({})", self.behaviors[id].name),
-            Atom::Failed(id) => format!("failed({})", self.behaviors[id].name),
+            Atom::Done(id) => Name::history("done", &self.behaviors[id].name),
+            Atom::Failed(id) => Name::history("failed", &self.behaviors[id].name),
         }
     }
 

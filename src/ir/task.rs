@@ -2,6 +2,7 @@
 
 use super::expr::ExprId;
 use super::law::Behavior;
+use super::name::Name;
 use super::program::{Event, Predicate, State};
 use super::table::Id;
 use super::tree::Tree;
@@ -10,7 +11,7 @@ use super::tree::Tree;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Task {
     /// Its name.
-    pub name: String,
+    pub name: Name,
     /// The predicates of a minterm, in order.
     pub observe: Vec<Id<Predicate>>,
     /// The behaviours of the policy, in order; ties are decided by it.
@@ -87,7 +88,7 @@ impl StartLine {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Learner {
     /// The name of the tree that it learns.
-    pub name: String,
+    pub name: Name,
     /// The task.
     pub task: Id<Task>,
     /// The method.

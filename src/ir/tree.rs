@@ -1,6 +1,7 @@
 //! Behaviour trees: subtrees inlined, guards over atoms.
 
 use super::law::Behavior;
+use super::name::Name;
 use super::program::Predicate;
 use super::table::Id;
 use super::task::Task;
@@ -9,13 +10,25 @@ use super::task::Task;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tree {
     /// Its name.
-    pub name: String,
+    pub name: Name,
     /// The `///` lines before it.
     pub docs: Vec<String>,
     /// The task that it is for, whose predicates and behaviours it uses.
     pub task: Option<Id<Task>>,
     /// The tree.
     pub root: Node,
+}
+
+impl Tree {
+    /// A tree for no task, without documentation.
+    pub fn plain(name: Name, root: Node) -> Self {
+        Self {
+            name,
+            docs: Vec::new(),
+            task: None,
+            root,
+        }
+    }
 }
 
 /// What a guard can ask: a predicate, or what the history window says of a behaviour.

@@ -1,5 +1,6 @@
 //! The world: geometry in metres, angles in radians, counter-clockwise from the x axis.
 
+use super::name::Name;
 use super::table::Table;
 
 /// A point of the plane, in metres.
@@ -9,7 +10,7 @@ pub type Point = [f64; 2];
 #[derive(Clone, Debug, PartialEq)]
 pub struct World {
     /// Its name.
-    pub name: String,
+    pub name: Name,
     /// The length of a tick in seconds.
     pub tick: f64,
     /// The free area; its boundary is a wall.
@@ -101,7 +102,7 @@ fn middle(points: &[Point]) -> Point {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wall {
     /// Its name.
-    pub name: String,
+    pub name: Name,
     /// Its shape.
     pub shape: Shape,
 }
@@ -110,7 +111,7 @@ pub struct Wall {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Place {
     /// Its name.
-    pub name: String,
+    pub name: Name,
     /// Its shape.
     pub shape: Shape,
     /// The heading of a robot that stands here as it should.
@@ -121,7 +122,7 @@ pub struct Place {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Robot {
     /// Its name.
-    pub name: String,
+    pub name: Name,
     /// The radius of its body in metres.
     pub radius: f64,
     /// How it moves.
@@ -169,7 +170,7 @@ pub enum Contact {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensor {
     /// Its name.
-    pub name: String,
+    pub name: Name,
     /// What it is.
     pub kind: SensorKind,
     /// The standard deviation of its noise in metres; one draw a tick, shared by all that read it.

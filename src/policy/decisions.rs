@@ -11,17 +11,17 @@ use crate::ir::law::Behavior;
 use crate::ir::program::Predicate;
 use crate::ir::task::Task;
 use crate::ir::tree::Atom;
-use crate::ir::{Id, Program};
+use crate::ir::{Id, Name, Program};
 use crate::policy::names::{self, AtomName};
-use std::collections::BTreeMap;
 
 /// The most minterms that a row with `-` may stand for, as a power of two.
 const WIDEST: usize = 16;
 
 /// The decisions of a policy as text.
 pub fn write(policy: &Policy, program: &Program) -> String {
-    let name = |id: &Id<Behavior>| program.behaviors[*id].name.clone();
-    let atoms = policy.atoms.iter().map(|atom| program.atom_name(*atom));
+    let name = |id: &Id<Behavior>| program.behaviors[*id].name.to_string();
+    let atoms = policy.atoms.iter();
+    let atoms = atoms.map(|atom| program.atom_name(*atom).to_string());
     let fixed = ["behavior", "visits", "q_gap"].map(str::to_owned);
     let values = policy.behaviors.iter().map(|id| format!("q:{}", name(id)));
     let header = atoms.chain(fixed).chain(values).collect();
@@ -41,11 +41,11 @@ pub fn write(policy: &Policy, program: &Program) -> String {
 /// The decisions alone as text, under names without backquotes: a table as anybody writes it.
 pub fn write_bare(policy: &Policy, program: &Program) -> String {
     let atoms = policy.atoms.iter();
-    let atoms = atoms.map(|atom| AtomName::of(&program.atom_name(*atom)).to_string());
+    let atoms = atoms.map(|atom| AtomName::of(*atom, program).to_string());
     let header = atoms.chain(["behavior".to_owned()]).collect();
     let rows = policy.rows.iter().map(|row| {
-        let behavior = names::plain(&program.behaviors[row.behavior].name);
-        cells(row).chain([behavior.to_owned()]).collect()
+        let behavior = program.behaviors[row.behavior].name.bare();
+        cells(row).chain([behavior]).collect()
     });
     sheet::write(std::iter::once(header).chain(rows))
 }
@@ -94,9 +94,9 @@ pub fn of_program(
     task: Option<Id<Task>>,
 ) -> Result<Policy, Vec<TableError>> {
     let mut unknown = Vec::new();
-    let known = atoms(program);
+    let known = names::atoms(program);
     let atoms = table.atoms.iter().filter_map(|(name, place)| {
-        let atom = known.get(&name.to_string());
+        let atom = known.get(name);
         if atom.is_none() {
             unknown.push(TableError {
                 span: place.clone(),
@@ -106,9 +106,9 @@ pub fn of_program(
         atom.copied()
     });
     let atoms: Vec<Atom> = atoms.collect();
-    let known = behaviors(program);
+    let known = names::behaviors(program);
     let ids = table.behaviors.iter().filter_map(|(name, place)| {
-        let id = known.get(name.as_str());
+        let id = known.get(name);
         if id.is_none() {
             unknown.push(TableError {
                 span: place.clone(),
@@ -129,35 +129,32 @@ pub fn of_program(
     Ok(table.policy(atoms, &ids, chosen, history))
 }
 
-/// The policy in a table of its own names, with a program that declares them, as `spelled` writes them in the language,
-/// and says nothing more.
-pub fn declared(table: &Table, spelled: impl Fn(&str) -> String) -> (Program, Policy) {
+/// The policy in a table of its own names, with a program that declares them and says nothing more.
+pub fn declared(table: &Table) -> (Program, Policy) {
     let mut program = Program::default();
-    let policy = joined(table, &mut program, spelled);
+    let policy = joined(table, &mut program);
     (program, policy)
 }
 
-/// The policy in a table beside a program, which is let declare the names that it does not have, as `spelled` writes
-/// them in the language.
-pub fn joined(table: &Table, program: &mut Program, spelled: impl Fn(&str) -> String) -> Policy {
-    let known: BTreeMap<String, Id<Behavior>> = behaviors(program)
-        .into_iter()
-        .map(|(name, id)| (name.to_owned(), id))
-        .collect();
+/// The policy in a table beside a program; the names that the program does not have are declared in it.
+pub fn joined(table: &Table, program: &mut Program) -> Policy {
+    let known = names::behaviors(program);
     let ids = table.behaviors.iter().map(|(name, _)| {
         known.get(name).copied().unwrap_or_else(|| {
-            let name = spelled(name);
-            program.behaviors.push(Behavior { name, law: None })
+            program.behaviors.push(Behavior {
+                name: Name::word(name),
+                law: None,
+            })
         })
     });
     let ids: Vec<Id<Behavior>> = ids.collect();
-    let known = atoms(program);
+    let known = names::atoms(program);
     let atoms = table.atoms.iter().filter_map(|(name, _)| {
-        let found = known.get(&name.to_string()).copied();
+        let found = known.get(name).copied();
         found.or_else(|| match name {
             AtomName::Predicate(name) => {
                 Some(Atom::Predicate(program.predicates.push(Predicate {
-                    name: spelled(name),
+                    name: Name::word(name),
                     when: None,
                 })))
             }
@@ -172,27 +169,6 @@ pub fn joined(table: &Table, program: &mut Program, spelled: impl Fn(&str) -> St
 /// The behaviours that a table chooses, in its order.
 fn chosen(table: &Table, ids: &[Id<Behavior>]) -> Vec<Id<Behavior>> {
     ids.iter().take(table.chosen).copied().collect()
-}
-
-/// The names of a program's behaviours, without backquotes around them.
-pub(super) fn behaviors(program: &Program) -> BTreeMap<&str, Id<Behavior>> {
-    let behaviors = program.behaviors.iter();
-    behaviors
-        .map(|(id, b)| (names::plain(&b.name), id))
-        .collect()
-}
-
-/// The names of a program's atoms, without backquotes around what they name.
-pub(super) fn atoms(program: &Program) -> BTreeMap<String, Atom> {
-    let predicates = program.predicates.ids().map(Atom::Predicate);
-    let history = program
-        .behaviors
-        .ids()
-        .flat_map(|b| [Atom::Done(b), Atom::Failed(b)]);
-    predicates
-        .chain(history)
-        .map(|atom| (AtomName::of(&program.atom_name(atom)).to_string(), atom))
-        .collect()
 }
 
 /// Puts the minterms that a policy's rows stand for in their place, sorted, each once.

@@ -3,15 +3,16 @@
 //! The header has the names of the atoms, `behavior`, `visits`, `q` and `squares`, the sum of the squares of the
 //! targets that the value was moved towards.
 
-use super::decisions;
 use super::error::{TableError, TableErrorKind};
+use super::names;
 use super::sheet::{self, Sheet};
 use super::{Policy, Value};
 use crate::ir::Program;
 
 /// The evidence of a policy as text.
 pub fn write(policy: &Policy, program: &Program) -> String {
-    let atoms = policy.atoms.iter().map(|atom| program.atom_name(*atom));
+    let atoms = policy.atoms.iter();
+    let atoms = atoms.map(|atom| program.atom_name(*atom).to_string());
     let fixed = ["behavior", "visits", "q", "squares"].map(str::to_owned);
     let header = atoms.chain(fixed).collect();
     let rows = policy.rows.iter().flat_map(|row| {
@@ -19,7 +20,7 @@ pub fn write(policy: &Policy, program: &Program) -> String {
         tried.filter_map(|(behavior, value)| {
             let value = (*value)?;
             let known = [
-                program.behaviors[*behavior].name.clone(),
+                program.behaviors[*behavior].name.to_string(),
                 value.visits.to_string(),
                 value.q.to_string(),
                 value.squares.to_string(),
@@ -51,7 +52,7 @@ pub fn read(text: &str, program: &Program, policy: &mut Policy) -> Result<(), Ta
     for row in &mut policy.rows {
         row.values = vec![None; policy.behaviors.len()];
     }
-    let names = decisions::behaviors(program);
+    let names = names::behaviors(program);
     for cells in &sheet.rows {
         let [Some(name), Some(visits), Some(q), Some(squares)] = fixed.map(|i| cells.get(i)) else {
             continue;

@@ -1,10 +1,17 @@
 //! What the names in a table mean.
+//!
+//! A table has names as text, and anybody may have written it: a name is found in a program by its bare form.
 
 use super::error::TableErrorKind;
+use crate::ir::Id;
+use crate::ir::Program;
+use crate::ir::law::Behavior;
+use crate::ir::tree::Atom;
+use std::collections::BTreeMap;
 use std::fmt;
 
 /// What an atom's column is called, without the backquotes of the language.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum AtomName {
     /// A predicate.
     Predicate(String),
@@ -15,8 +22,17 @@ pub enum AtomName {
 }
 
 impl AtomName {
+    /// What the column of an atom is called.
+    pub(super) fn of(atom: Atom, program: &Program) -> Self {
+        match atom {
+            Atom::Predicate(id) => Self::Predicate(program.predicates[id].name.bare()),
+            Atom::Done(id) => Self::Done(program.behaviors[id].name.bare()),
+            Atom::Failed(id) => Self::Failed(program.behaviors[id].name.bare()),
+        }
+    }
+
     /// What a column of this name asks. `done(NAME)` and `failed(NAME)` ask the history; all else is a predicate.
-    pub(super) fn of(column: &str) -> Self {
+    pub(super) fn read(column: &str) -> Self {
         let inside = |word: &str| column.strip_prefix(word)?.strip_suffix(')');
         match (inside("done("), inside("failed(")) {
             (Some(behavior), _) => Self::Done(plain(behavior).to_owned()),
@@ -51,7 +67,26 @@ impl fmt::Display for AtomName {
     }
 }
 
-/// A name without the backquotes that it may stand in, as the language writes it.
+/// The behaviours of a program by their bare names.
+pub(super) fn behaviors(program: &Program) -> BTreeMap<String, Id<Behavior>> {
+    let behaviors = program.behaviors.iter();
+    behaviors.map(|(id, b)| (b.name.bare(), id)).collect()
+}
+
+/// The atoms of a program by what their columns are called.
+pub(super) fn atoms(program: &Program) -> BTreeMap<AtomName, Atom> {
+    let predicates = program.predicates.ids().map(Atom::Predicate);
+    let history = program
+        .behaviors
+        .ids()
+        .flat_map(|b| [Atom::Done(b), Atom::Failed(b)]);
+    predicates
+        .chain(history)
+        .map(|atom| (AtomName::of(atom, program), atom))
+        .collect()
+}
+
+/// A name without the backquotes that it may stand in.
 pub(super) fn plain(name: &str) -> &str {
     let name = name.trim();
     let inside = name.strip_prefix('`').and_then(|n| n.strip_suffix('`'));

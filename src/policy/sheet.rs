@@ -109,14 +109,15 @@ impl Sheet {
         let mut known = BTreeMap::new();
         for (i, cell) in self.header.iter().enumerate() {
             if let Some(name) = cell.text.strip_prefix(prefix) {
-                known.insert(AtomName::of(name).to_string(), i);
+                known.insert(AtomName::read(name), i);
             }
         }
-        let names = atoms.iter().map(|atom| program.atom_name(*atom));
-        names
-            .map(|name| {
-                let found = known.get(&AtomName::of(&name).to_string()).copied();
-                found.ok_or_else(|| self.missing(&format!("{prefix}{name}")))
+        let atoms = atoms.iter();
+        atoms
+            .map(|atom| {
+                let found = known.get(&AtomName::of(*atom, program)).copied();
+                let name = || program.atom_name(*atom);
+                found.ok_or_else(|| self.missing(&format!("{prefix}{}", name())))
             })
             .collect()
     }
@@ -149,7 +150,7 @@ pub(super) fn whole(row: &[Cell]) -> Range<usize> {
 /// The behaviour that a cell names.
 pub(super) fn behavior(
     cell: &Cell,
-    names: &BTreeMap<&str, Id<Behavior>>,
+    names: &BTreeMap<String, Id<Behavior>>,
 ) -> Result<Id<Behavior>, TableError> {
     let name = names::plain(&cell.text);
     names

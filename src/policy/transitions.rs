@@ -3,8 +3,8 @@
 //! The header has the names of the atoms, `behavior`, `status`, the names again as `next:NAME`, and `count`. A start
 //! minterm is a row with status `start` whose `next` it is; an ended episode has no next minterm.
 
-use super::decisions;
 use super::error::{TableError, TableErrorKind};
+use super::names;
 use super::sheet::{self, Cell, Sheet};
 use super::{Policy, Transition};
 use crate::ir::Program;
@@ -12,7 +12,10 @@ use crate::ir::tree::Status;
 
 /// The start minterms and greedy transitions of a policy as text.
 pub fn write(policy: &Policy, program: &Program) -> String {
-    let names = || policy.atoms.iter().map(|atom| program.atom_name(*atom));
+    let names = || {
+        let atoms = policy.atoms.iter();
+        atoms.map(|atom| program.atom_name(*atom).to_string())
+    };
     let fixed = ["behavior", "status"].map(str::to_owned);
     let next = names().map(|name| format!("next:{name}"));
     let header = names()
@@ -28,7 +31,7 @@ pub fn write(policy: &Policy, program: &Program) -> String {
     });
     let transitions = policy.transitions.iter().map(|t| {
         let decided = [
-            program.behaviors[t.behavior].name.clone(),
+            program.behaviors[t.behavior].name.to_string(),
             t.status.name().to_owned(),
         ];
         let next: Vec<String> = match &t.to {
@@ -59,7 +62,7 @@ pub fn read(text: &str, program: &Program, policy: &mut Policy) -> Result<(), Ta
             return Err(cell.error(TableErrorKind::UnknownColumn(cell.text.clone())));
         }
     }
-    let names = decisions::behaviors(program);
+    let names = names::behaviors(program);
     let (mut starts, mut transitions) = (Vec::new(), Vec::new());
     for row in &sheet.rows {
         let [Some(behavior), Some(status), Some(count)] = fixed.map(|i| row.get(i)) else {

@@ -5,9 +5,10 @@ use super::build::units_note;
 use super::expected;
 use super::grammar::Rule;
 use super::tokens::{Kind, Token, is_blank};
-use super::words::{ITEMS, RESERVED, UNITS};
+use super::words::{ITEMS, UNITS};
 use crate::diagnostic::{Applicability, Code, Diagnostic, suggest};
 use crate::source::{FileId, Span};
+use crate::spelling::RESERVED;
 
 /// A text that does not parse.
 pub(super) struct Failure {

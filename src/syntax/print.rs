@@ -65,11 +65,6 @@ pub fn expr(expr: &ast::Expr) -> String {
     flat::expr(expr)
 }
 
-/// A name as text, in backquotes if it needs them.
-pub fn name(name: &str) -> String {
-    flat::name(name)
-}
-
 /// The lines that are printed so far, and the one that is being written.
 struct Printer<'a> {
     lines: Vec<Line>,

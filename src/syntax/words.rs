@@ -2,33 +2,6 @@
 
 use super::ast::Word;
 
-/// The words that are no names.
-pub(super) const RESERVED: [&str; 23] = [
-    "and",
-    "or",
-    "not",
-    "if",
-    "else",
-    "for",
-    "in",
-    "true",
-    "false",
-    "let",
-    "use",
-    "world",
-    "enum",
-    "state",
-    "event",
-    "each",
-    "on",
-    "predicate",
-    "behavior",
-    "task",
-    "learn",
-    "tree",
-    "claim",
-];
-
 /// The words that begin an item.
 pub(super) const ITEMS: [&str; 14] = [
     "use",
@@ -96,14 +69,4 @@ impl Word {
             .find(|(_, word)| *word == self)
             .map_or("selector", |(spelling, _)| spelling)
     }
-}
-
-/// Whether `name` needs no backquotes.
-pub(super) fn is_plain_name(name: &str) -> bool {
-    let mut letters = name.chars();
-    letters
-        .next()
-        .is_some_and(|first| first.is_ascii_alphabetic() || first == '_')
-        && letters.all(|letter| letter.is_ascii_alphanumeric() || letter == '_')
-        && !RESERVED.contains(&name)
 }

@@ -1,6 +1,7 @@
 //! Why a world cannot be simulated.
 
 use crate::eval::TooLarge;
+use crate::ir::Name;
 use std::fmt;
 
 /// Why a world cannot be simulated.
@@ -9,7 +10,7 @@ pub enum BuildError {
     /// The program has no world.
     NoWorld,
     /// This predicate or behaviour is declared only.
-    Declared(String),
+    Declared(Name),
     /// The program does not fit the machine.
     TooLarge,
     /// The task has this many atoms; a minterm holds 128.

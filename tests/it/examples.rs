@@ -47,7 +47,7 @@ fn in_every_form() {
         }
         for tree in loaded.program.trees.values() {
             for (form, ending) in [(Form::Bt, "bt"), (Form::Dot, "dot")] {
-                let text = compile::emit(&loaded, form, Some(&tree.name)).unwrap();
+                let text = compile::emit(&loaded, form, Some(&tree.name.to_string())).unwrap();
                 snapshot::check(&format!("{name}.{}.{ending}", tree.name), &text);
             }
         }
@@ -61,7 +61,7 @@ fn printed_trees_mean_what_they_meant() {
         let path = format!("{}/examples/{name}.bt", env!("CARGO_MANIFEST_DIR"));
         let source = fs::read_to_string(path).unwrap();
         for tree in loaded.program.trees.values() {
-            let printed = compile::emit(&loaded, Form::Bt, Some(&tree.name)).unwrap();
+            let printed = compile::emit(&loaded, Form::Bt, Some(&tree.name.to_string())).unwrap();
             let renamed = printed.replace(
                 &format!("tree {} for", tree.name),
                 &format!("tree {}_again for", tree.name),

@@ -32,7 +32,7 @@ fn names() -> Loaded {
 /// A tree of these names for a robot.
 fn written(program: &Program, root: &Node, runtime: Runtime) -> Result<String, Diagnostic> {
     let subject = Tree {
-        name: "tried".to_owned(),
+        name: "tried".into(),
         docs: Vec::new(),
         task: program.tasks.ids().next(),
         root: root.clone(),

@@ -2,6 +2,7 @@
 
 use btc::diagnostic::render;
 use btc::driver::load::{Loaded, Reader, beside, load};
+use btc::ir::name::{Argument, Name, Value};
 use std::path::Path;
 
 /// No file but the one that is asked for.
@@ -34,6 +35,23 @@ pub(crate) fn named(name: &str, path: &Path) -> Loaded {
 pub(crate) fn with_text(path: &Path, text: String) -> Loaded {
     let name = path.file_name().unwrap().to_str().unwrap();
     load(name, text.into(), &mut Folder(path.parent().unwrap()))
+}
+
+/// A name as the language writes it, its parameters numbered.
+pub(crate) fn called(text: &str) -> Name {
+    let quoted = text.strip_prefix('`').and_then(|t| t.strip_suffix('`'));
+    if let Some(word) = quoted.filter(|word| !word.contains('`')) {
+        return Name::word(word);
+    }
+    let call = text.strip_suffix(')').and_then(|t| t.split_once('('));
+    let Some((family, list)) = call.filter(|(_, list)| !list.is_empty()) else {
+        return Name::word(text);
+    };
+    let arguments = list.split(", ").enumerate().map(|(i, value)| Argument {
+        parameter: format!("argument_{i}"),
+        value: Some(Value::Name(called(value))),
+    });
+    Name::instance(family, arguments.collect())
 }
 
 /// What a person is shown of a program.

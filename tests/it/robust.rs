@@ -15,7 +15,7 @@ fn holds(bytes: Vec<u8>) -> Loaded {
             // Of several trees it has to be said which one is drawn.
             let _ = compile::emit(&loaded, form, None);
             for tree in loaded.program.trees.values() {
-                compile::emit(&loaded, form, Some(&tree.name)).unwrap();
+                compile::emit(&loaded, form, Some(&tree.name.to_string())).unwrap();
             }
         }
     }

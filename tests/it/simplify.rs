@@ -6,7 +6,7 @@ use btc::driver::target;
 use btc::emit;
 use btc::ir::Id;
 use btc::ir::task::Task;
-use btc::ir::tree::{Atom, Guard, Node};
+use btc::ir::tree::{Atom, Guard, Node, Tree};
 use btc::tree::Size;
 use btc::tree::prune::{Change, Cost, Decided, candidates, flat, oddities, plainer, tidy};
 
@@ -56,7 +56,7 @@ const EXPERT: &str = "selector {
 }";
 
 fn printed(loaded: &Loaded, root: &Node) -> String {
-    emit::bt::tree(&loaded.program, "given", &[], None, root)
+    emit::bt::tree(&loaded.program, &Tree::plain("given".into(), root.clone()))
 }
 
 /// No composite of one child, no constant and no nesting that the printer would have to show.

@@ -1,5 +1,6 @@
 //! Pictures: what they show, that they are XML whatever the names are, and that nothing in them overlaps.
 
+use crate::program::called;
 use crate::snapshot::check;
 use btc::driver::load::{Loaded, Reader, load};
 use btc::driver::run::Subject;
@@ -8,7 +9,7 @@ use btc::emit::svg;
 use btc::emit::svg::curve::Point;
 use btc::emit::svg::layout::{Block, Placed, place};
 use btc::ir::law::Behavior;
-use btc::ir::tree::{Atom, Composite, Decorator, Guard, Node};
+use btc::ir::tree::{Atom, Composite, Decorator, Guard, Node, Tree};
 use btc::ir::{Id, Program};
 
 /// The examples stand alone.
@@ -114,33 +115,33 @@ fn every_name_is_escaped() {
     let mut loaded = example("delivery_large.bt");
     let program = &mut loaded.program;
     for id in program.behaviors.ids() {
-        program.behaviors[id].name = HOSTILE.to_owned();
+        program.behaviors[id].name = HOSTILE.into();
     }
     for id in program.predicates.ids() {
-        program.predicates[id].name = HOSTILE.to_owned();
+        program.predicates[id].name = HOSTILE.into();
     }
     for id in program.events.ids() {
-        program.events[id].name = HOSTILE.to_owned();
+        program.events[id].name = HOSTILE.into();
     }
     for id in program.trees.ids() {
         program.trees[id].docs = vec![HOSTILE.to_owned()];
     }
     let scene = program.world.as_mut().unwrap();
-    scene.name = HOSTILE.to_owned();
+    scene.name = HOSTILE.into();
     for id in scene.places.ids() {
-        scene.places[id].name = HOSTILE.to_owned();
+        scene.places[id].name = HOSTILE.into();
     }
     for id in scene.walls.ids() {
-        scene.walls[id].name = HOSTILE.to_owned();
+        scene.walls[id].name = HOSTILE.into();
     }
     for id in scene.robot.sensors.ids() {
-        scene.robot.sensors[id].name = HOSTILE.to_owned();
+        scene.robot.sensors[id].name = HOSTILE.into();
     }
     let root = loaded.program.trees[target::tree(&loaded, "expert").unwrap()]
         .root
         .clone();
     let pictures = [
-        svg::tree::tree(HOSTILE, &root, &loaded.program),
+        svg::tree::tree(&loaded.program, &Tree::plain(HOSTILE.into(), root)),
         world(&loaded, 700),
         svg::curve::curve(&[], HOSTILE, HOSTILE),
     ];
@@ -180,11 +181,11 @@ fn every_node_has_its_box() {
     let mut program = Program::default();
     for name in ["goto(A)", "goto(B)", "goto(C)", "dock(C)"] {
         program.behaviors.push(Behavior {
-            name: name.to_owned(),
+            name: called(name),
             law: None,
         });
     }
-    let picture = svg::tree::tree("everything", &root, &program);
+    let picture = svg::tree::tree(&program, &Tree::plain("everything".into(), root));
     check("tree.everything.svg", &picture);
     let document = parsed(&picture);
     let titles = document

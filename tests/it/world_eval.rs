@@ -5,7 +5,7 @@ use btc::ir::expr::{Binary, Draw, Echo, Local, Pose, Temp, Unary};
 use btc::ir::law::{Behavior, Block, Law, Stmt};
 use btc::ir::program::{State, ValueKind};
 use btc::ir::world::{Contact, Drive, DriveKind, Robot, Sensor, SensorKind, Shape, Wall, World};
-use btc::ir::{Expr, ExprId, Id, Program, Table};
+use btc::ir::{Expr, ExprId, Id, Name, Program, Table};
 use btc::random::Random;
 use proptest::prelude::*;
 use std::collections::BTreeMap;
@@ -342,7 +342,7 @@ impl Inventor {
             statements.push(match self.pick(8) {
                 0..=2 => {
                     let value = self.number(3, draws);
-                    let name = String::new();
+                    let name = Name::default();
                     let temp = self.program.temps.push(Temp { name });
                     let read = self.program.pool.leaf(Expr::Temp(temp));
                     self.numbers.extend([read; 4]);
@@ -390,24 +390,24 @@ fn invent(seed: u64) -> (Program, Law) {
     let zero = program.pool.num(0.0);
     for _ in 0..STATES {
         program.states.push(State {
-            name: String::new(),
+            name: Name::default(),
             kind: ValueKind::Quantity,
             initial: zero,
         });
     }
     program.world = Some(World {
-        name: String::new(),
+        name: Name::default(),
         tick: 0.1,
         arena: Shape::Polyline(vec![]),
         walls: [Wall {
-            name: String::new(),
+            name: Name::default(),
             shape: Shape::Polyline(vec![]),
         }]
         .into_iter()
         .collect(),
         places: Table::default(),
         robot: Robot {
-            name: String::new(),
+            name: Name::default(),
             radius: 0.1,
             drive: Drive {
                 kind: DriveKind::Holonomic,
@@ -418,7 +418,7 @@ fn invent(seed: u64) -> (Program, Law) {
             },
             contact: Contact::Stop,
             sensors: [Sensor {
-                name: String::new(),
+                name: Name::default(),
                 kind: SensorKind::RangeFinder {
                     at: 0.0,
                     range: 1.0,
@@ -468,7 +468,7 @@ fn invent(seed: u64) -> (Program, Law) {
     let mut locals = Table::default();
     for _ in 0..LOCALS {
         locals.push(Local {
-            name: String::new(),
+            name: Name::default(),
             initial: zero,
         });
     }
@@ -481,7 +481,7 @@ fn invent(seed: u64) -> (Program, Law) {
     };
     let mut program = inventor.program;
     program.behaviors.push(Behavior {
-        name: String::new(),
+        name: Name::default(),
         law: Some(law.clone()),
     });
     (program, law)

@@ -1,7 +1,7 @@
 //! The geometry of the inner loop beside parry's, on random worlds.
 
-use btc::ir::Table;
 use btc::ir::world::{Contact, Drive, DriveKind, Point, Robot, Shape, Wall, World};
+use btc::ir::{Name, Table};
 use btc::random::Random;
 use btc::world::Scene;
 use parry2d_f64::math::{Pose, Rotation, Vector};
@@ -71,7 +71,7 @@ pub(crate) fn twin(random: &mut Random, contact: Contact) -> Twin {
         };
         obstacles.push(parry_of(&shape));
         walls.push(Wall {
-            name: String::new(),
+            name: Name::default(),
             shape,
         });
     }
@@ -92,13 +92,13 @@ pub(crate) fn twin(random: &mut Random, contact: Contact) -> Twin {
     }
     Twin {
         world: World {
-            name: String::new(),
+            name: Name::default(),
             tick: 0.1,
             arena,
             walls,
             places: Table::default(),
             robot: Robot {
-                name: String::new(),
+                name: Name::default(),
                 radius: 0.15,
                 drive: Drive {
                     kind: DriveKind::Holonomic,
@@ -290,7 +290,7 @@ fn a_solid_rectangle_and_its_polygon_are_one() {
         max: [9.0, 9.0],
     };
     twin.world.walls = [Wall {
-        name: String::new(),
+        name: Name::default(),
         shape: Shape::Rect {
             min: [1.0, 1.0],
             max: [2.0, 3.0],

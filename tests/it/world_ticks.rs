@@ -7,7 +7,7 @@ use btc::ir::program::{Effect, Event, Predicate, State, ValueKind};
 use btc::ir::task::{History, RewardLine, StartLine, Task};
 use btc::ir::tree::{Atom, Status};
 use btc::ir::world::{Contact, Drive, DriveKind, Robot, Sensor, SensorKind, Shape, Wall, World};
-use btc::ir::{Expr, ExprId, Id, Program, Table};
+use btc::ir::{Expr, ExprId, Id, Name, Program, Table};
 use btc::world::{BuildError, End, Simulation, Simulator, Start};
 
 /// One world is shared between threads.
@@ -107,7 +107,7 @@ pub(crate) fn small_program() -> Program {
             fail: no,
             control: Block(control),
         });
-        let name = String::new();
+        let name = Name::default();
         program.behaviors.push(Behavior { name, law })
     };
     let done = law(yes, yes, vec![]);
@@ -191,7 +191,7 @@ pub(crate) fn small_program() -> Program {
         otherwise,
     });
     program.world = Some(World {
-        name: String::new(),
+        name: Name::default(),
         tick: 0.5,
         arena: Shape::Rect {
             min: [0.0, 0.0],
@@ -200,7 +200,7 @@ pub(crate) fn small_program() -> Program {
         walls: Table::default(),
         places: Table::default(),
         robot: Robot {
-            name: String::new(),
+            name: Name::default(),
             radius: 0.2,
             drive: Drive {
                 kind: DriveKind::Differential,
@@ -487,7 +487,7 @@ fn what_cannot_run_is_refused_when_it_is_built() {
     assert_eq!(edit(|p| p.world = None), Some(BuildError::NoWorld));
     assert_eq!(
         edit(|p| p.behaviors[Id::new(GO)].law = None),
-        Some(BuildError::Declared(String::new()))
+        Some(BuildError::Declared(Name::default()))
     );
     assert_eq!(
         edit(|p| p.predicates[Id::new(0)].when = None),
@@ -500,7 +500,7 @@ fn what_cannot_run_is_refused_when_it_is_built() {
     assert_eq!(
         edit(|p| {
             let wall = Wall {
-                name: String::new(),
+                name: Name::default(),
                 shape: Shape::Disc {
                     center: [1.0, 2.0],
                     radius: 0.3,

@@ -4,15 +4,13 @@ use crate::check::Checker;
 use crate::check::context::{Binding, Region};
 use crate::check::decl::statement::Home;
 use crate::check::types::{Type, Value};
-use crate::check::world::spelled;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::ir::Id;
 use crate::ir::expr::{Expr, ExprId, Local};
 use crate::ir::law::{Behavior, Block, Law};
 use crate::ir::table::Table;
+use crate::ir::{Id, Name};
 use crate::source::Span;
-use crate::syntax::ast::{self, ArgKind, BehaviorBody, Clause, ClauseKind, Ref};
-use crate::syntax::print;
+use crate::syntax::ast::{self, BehaviorBody, Clause, ClauseKind, Ref};
 
 /// The id of a behaviour with its arguments.
 pub type BehaviorId = Id<Behavior>;
@@ -84,7 +82,6 @@ impl<'a> Checker<'a> {
                     BehaviorBody::Clauses(clauses) => checker.law(clauses, locals).map(Some),
                 },
             );
-        self.keeps_parameters(&behavior.name, behavior.params.as_ref());
         let id = law.flatten().map(|law| {
             self.program.behaviors.push(Behavior {
                 name: name.clone(),
@@ -115,7 +112,7 @@ impl<'a> Checker<'a> {
                 return id;
             }
             let local = locals.push(Local {
-                name: binding.name.clone(),
+                name: Name::word(&binding.name),
                 initial: id,
             });
             self.program.pool.leaf(Expr::Local(local))
@@ -211,7 +208,7 @@ impl<'a> Checker<'a> {
             .into_iter()
             .map(|initial| {
                 locals.push(Local {
-                    name: spelled(&name.name),
+                    name: Name::word(&name.name),
                     initial,
                 })
             })
@@ -235,94 +232,6 @@ impl<'a> Checker<'a> {
             span: name.span,
         });
         known
-    }
-
-    /// Keeps what the parameters of a family are called, for those who write its instances in other languages.
-    pub fn keeps_parameters(&mut self, family: &ast::Ident, params: Option<&ast::Params>) {
-        if let Some(params) = params {
-            let names = params.params.iter().map(|param| param.name.name.clone());
-            let family = spelled(&family.name);
-            self.program.parameters.insert(family, names.collect());
-        }
-    }
-
-    /// A reference with its arguments as they are printed: by position as long as none is left out, then by name;
-    /// arguments that say what the default says are left out.
-    pub fn instance_name(
-        &self,
-        params: Option<&ast::Params>,
-        reference: &Ref,
-        scope: &[Binding],
-    ) -> String {
-        let params: &[ast::Param] = params.map_or(&[], |params| &params.params);
-        let mut by_name = false;
-        let mut shown = Vec::new();
-        let args = reference.args.as_deref().unwrap_or_default();
-        let positional: Vec<&ast::Expr> = args
-            .iter()
-            .filter_map(|arg| match &arg.kind {
-                ArgKind::Positional(value) => Some(value),
-                _ => None,
-            })
-            .collect();
-        for (position, (param, binding)) in params.iter().zip(scope).enumerate() {
-            let named = args.iter().find_map(|arg| match &arg.kind {
-                ArgKind::Named(name, value) if name.name == param.name.name => Some(value),
-                _ => None,
-            });
-            let given = positional.get(position).copied().or(named);
-            match given {
-                None => by_name = true,
-                Some(given) => {
-                    let text = self.value_text(given, &binding.value);
-                    let default = param.default.as_ref();
-                    if default.is_some_and(|default| print::expr(default) == text) {
-                        by_name = true;
-                    } else if by_name {
-                        shown.push(format!("{} = {text}", spelled(&param.name.name)));
-                    } else {
-                        shown.push(text);
-                    }
-                }
-            }
-        }
-        let name = spelled(&reference.name.name);
-        if shown.is_empty() {
-            name
-        } else {
-            format!("{name}({})", shown.join(", "))
-        }
-    }
-
-    /// An argument as it is printed: a target by its name, a literal in its own spelling.
-    fn value_text(&self, given: &ast::Expr, value: &Value) -> String {
-        let world = self.program.world.as_ref();
-        let by_name = match value {
-            Value::Place(id) => world.map(|world| world.places[*id].name.clone()),
-            Value::Wall(id) => world.map(|world| world.walls[*id].name.clone()),
-            Value::Sensor(id) => world.map(|world| world.robot.sensors[*id].name.clone()),
-            Value::Behavior(id) => Some(self.program.behaviors[*id].name.clone()),
-            // A parameter of a subtree or a shared expression stands for a number that has no spelling here.
-            Value::Scalar(id) if self.mentions_parameter(given) => self
-                .program
-                .pool
-                .constant(*id)
-                .map(|number| number.to_string()),
-            _ => None,
-        };
-        by_name.unwrap_or_else(|| print::expr(given))
-    }
-
-    fn mentions_parameter(&self, given: &ast::Expr) -> bool {
-        match &given.kind {
-            ast::ExprKind::Ref(reference) => self.context.lookup(&reference.name.name).is_some(),
-            ast::ExprKind::Paren(inner) => self.mentions_parameter(inner),
-            ast::ExprKind::Unary { operand, .. } => self.mentions_parameter(operand),
-            ast::ExprKind::Binary { left, right, .. } => {
-                self.mentions_parameter(left) || self.mentions_parameter(right)
-            }
-            _ => false,
-        }
     }
 }
 

@@ -5,11 +5,11 @@ use crate::check::context::{Binding, Context, Region};
 use crate::check::decl::statement::Home;
 use crate::check::names::{Decl, TypeDecl, unknown};
 use crate::check::types::{Type, Typed, Value};
-use crate::check::world::spelled;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::ir::Id;
 use crate::ir::expr::Expr;
+use crate::ir::name::Coordinate;
 use crate::ir::program::{Effect, Event, State, ValueKind};
+use crate::ir::{Id, Name};
 use crate::syntax::ast::{self, Ident, Ref, Trigger};
 
 /// The id of an event.
@@ -54,10 +54,13 @@ impl<'a> Checker<'a> {
                 return;
             }
         };
-        let name = spelled(&state.name.name);
+        let name = Name::word(&state.name.name);
         let parts = match value.value {
             Value::Scalar(id) => vec![(name, id)],
-            Value::Point(x, y) => vec![(format!("{name}.x"), x), (format!("{name}.y"), y)],
+            Value::Point(x, y) => vec![
+                (name.coordinate(Coordinate::X), x),
+                (name.coordinate(Coordinate::Y), y),
+            ],
             _ => return,
         };
         let mut ids = Vec::new();
@@ -96,9 +99,11 @@ impl<'a> Checker<'a> {
         }
     }
 
-    fn variants(&self, name: &str) -> Vec<String> {
+    fn variants(&self, name: &str) -> Vec<Name> {
         match self.names.types.get(name) {
-            Some(TypeDecl::Enum(decl)) => decl.variants.iter().map(|v| spelled(&v.name)).collect(),
+            Some(TypeDecl::Enum(decl)) => {
+                decl.variants.iter().map(|v| Name::word(&v.name)).collect()
+            }
             _ => Vec::new(),
         }
     }
@@ -175,7 +180,7 @@ impl<'a> Checker<'a> {
         }
         let never = self.program.pool.bool(false);
         let id = self.program.events.push(Event {
-            name: spelled(&event.name.name),
+            name: Name::word(&event.name.name),
             when: when.unwrap_or(never),
         });
         self.events.insert(&event.name.name, id);

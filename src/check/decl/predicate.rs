@@ -113,7 +113,6 @@ impl<'a> Checker<'a> {
         } else {
             Some(Some(None))
         };
-        self.keeps_parameters(&predicate.name, predicate.params.as_ref());
         let id = when.flatten().map(|when| {
             self.program.predicates.push(Predicate {
                 name: name.clone(),

@@ -7,11 +7,11 @@ use crate::check::names::{Decl, stranger, unknown};
 use crate::check::types::units::Dim;
 use crate::check::types::{Type, Typed, Value};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::ir::Id;
 use crate::ir::expr::{Binary, Expr, ExprId, Local, Temp};
 use crate::ir::law::{Block, Stmt};
 use crate::ir::program::State;
 use crate::ir::world::DriveKind;
+use crate::ir::{Id, Name};
 use crate::source::Span;
 use crate::syntax::ast::{self, ArgKind, AssignOp, Else, Ref, StmtKind};
 
@@ -88,7 +88,7 @@ impl<'a> Checker<'a> {
                 return id;
             }
             let temp = checker.program.temps.push(Temp {
-                name: binding.name.name.clone(),
+                name: Name::word(&binding.name.name),
             });
             stmts.push(Stmt::Let(temp, id));
             checker.program.pool.leaf(Expr::Temp(temp))

@@ -5,8 +5,8 @@ use crate::check::builtin;
 use crate::check::context::Region;
 use crate::check::names::{Decl, unknown};
 use crate::check::types::{Type, Typed, Value};
-use crate::check::world::spelled;
 use crate::diagnostic::{Code, Diagnostic};
+use crate::ir::Name;
 use crate::ir::expr::Expr;
 use crate::source::Span;
 use crate::syntax::ast::{self, LetBody, Ref};
@@ -121,13 +121,17 @@ impl<'a> Checker<'a> {
             Decl::Place(name, kind) => known(
                 Type::Place(kind.map(|kind| kind.name.clone())),
                 world
-                    .and_then(|world| world.places.find(|place| place.name == spelled(&name.name)))
+                    .and_then(|world| {
+                        world
+                            .places
+                            .find(|place| place.name == Name::word(&name.name))
+                    })
                     .map(Value::Place),
             ),
             Decl::Wall(name, kind) => known(
                 Type::Wall(kind.map(|kind| kind.name.clone())),
                 world
-                    .and_then(|world| world.walls.find(|wall| wall.name == spelled(&name.name)))
+                    .and_then(|world| world.walls.find(|wall| wall.name == Name::word(&name.name)))
                     .map(Value::Wall),
             ),
             Decl::Sensor(name) => known(
@@ -137,7 +141,7 @@ impl<'a> Checker<'a> {
                         world
                             .robot
                             .sensors
-                            .find(|sensor| sensor.name == spelled(&name.name))
+                            .find(|sensor| sensor.name == Name::word(&name.name))
                     })
                     .map(Value::Sensor),
             ),

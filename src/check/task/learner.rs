@@ -6,6 +6,7 @@ use crate::check::names::{learned_name, stranger, unknown};
 use crate::check::types::Type;
 use crate::check::types::units::Dim;
 use crate::diagnostic::{Code, Diagnostic};
+use crate::ir::Name;
 use crate::ir::expr::{Binary, Expr, ExprId};
 use crate::ir::task::{Discount, Learner, Method};
 use crate::source::Span;
@@ -33,8 +34,8 @@ impl<'a> Checker<'a> {
             let diagnostic = unknown(&learn.task, "task", self.names.tasks.keys().copied());
             self.report(diagnostic);
         }
-        let spelled = crate::check::world::spelled(&learn.task.name);
-        let task = self.program.tasks.find(|task| task.name == spelled);
+        let called = Name::word(&learn.task.name);
+        let task = self.program.tasks.find(|task| task.name == called);
         let pool = &mut self.program.pool;
         // The defaults: steps of visits^-0.7, exploration from 30 % to 5 %.
         let visits = pool.leaf(Expr::Visits);
@@ -43,7 +44,7 @@ impl<'a> Checker<'a> {
         let (from, to) = (pool.num(0.3), pool.num(0.05));
         let explore = self.ramp(from, to);
         let mut built = Learner {
-            name: crate::check::world::spelled(learned_name(learn)),
+            name: Name::word(learned_name(learn)),
             task: task.unwrap_or(crate::ir::Id::new(0)),
             method: Method::QLearning,
             episodes: 0,

@@ -5,9 +5,9 @@ use crate::check::context::{Context, Region};
 use crate::check::names::{Decl, unknown};
 use crate::check::types::Type;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::ir::Id;
 use crate::ir::program::Event;
 use crate::ir::task::{Claim, ClaimKind, Occurrence, TreeRef};
+use crate::ir::{Id, Name};
 use crate::syntax::ast::{self, ClaimWhat, Expr, ExprKind, Ident, Item, ItemKind};
 use crate::syntax::print;
 
@@ -36,15 +36,11 @@ impl<'a> Checker<'a> {
 
     /// A tree of the program, or one that a learner will learn.
     fn tree_ref(&mut self, name: &Ident) -> Option<TreeRef> {
-        let spelled = crate::check::world::spelled(&name.name);
-        if let Some(id) = self.program.trees.find(|tree| tree.name == spelled) {
+        let called = Name::word(&name.name);
+        if let Some(id) = self.program.trees.find(|tree| tree.name == called) {
             return Some(TreeRef::Tree(id));
         }
-        if let Some(id) = self
-            .program
-            .learners
-            .find(|learner| learner.name == spelled)
-        {
+        if let Some(id) = self.program.learners.find(|learner| learner.name == called) {
             return Some(TreeRef::Learned(id));
         }
         let known = self.names.learners.contains_key(name.name.as_str());

@@ -5,8 +5,8 @@ use crate::check::builtin::Function;
 use crate::check::names::{Decl, unknown};
 use crate::check::types::Type;
 use crate::check::types::units::Dim;
-use crate::check::world::spelled;
 use crate::diagnostic::{Code, Diagnostic};
+use crate::ir::Name;
 use crate::ir::table::Table;
 use crate::ir::world::{Contact, Drive, DriveKind, Robot};
 use crate::syntax::ast::{
@@ -84,7 +84,7 @@ impl<'a> Checker<'a> {
         self.fields(&fields, &["body", "drive", "contact", "runs"], "a robot");
         let find = |name: &str| fields.iter().copied().find(|field| field.name.name == name);
         let mut robot = Robot {
-            name: spelled(&name.name),
+            name: Name::word(&name.name),
             ..no_robot()
         };
         match find("body") {
@@ -195,7 +195,7 @@ impl<'a> Checker<'a> {
 /// The robot of a world that has not said it yet.
 pub fn no_robot() -> Robot {
     Robot {
-        name: String::new(),
+        name: Name::default(),
         radius: 0.1,
         drive: Drive {
             kind: DriveKind::Differential,

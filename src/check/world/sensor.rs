@@ -3,7 +3,7 @@
 use crate::check::Checker;
 use crate::check::types::units::Dim;
 use crate::check::types::{Type, Value};
-use crate::check::world::spelled;
+use crate::ir::Name;
 use crate::ir::world::{Point, Sensor, SensorKind};
 use crate::syntax::ast::{self, ArgKind, Expr, ExprKind, Ref};
 use std::f64::consts::TAU;
@@ -81,7 +81,7 @@ impl<'a> Checker<'a> {
             }
         };
         Some(Sensor {
-            name: spelled(&name.name),
+            name: Name::word(&name.name),
             kind,
             noise,
         })

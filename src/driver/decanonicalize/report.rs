@@ -24,7 +24,7 @@ impl Subject<'_> {
         let Some(slack) = self.slack else {
             return Vec::new();
         };
-        let name = |id| self.program.behaviors[id].name.as_str();
+        let name = |id| &self.program.behaviors[id].name;
         let mut lines = vec![format!(
             "warning: the tree is NOT equal to the table: it decides {} of {} otherwise",
             slack.otherwise.len(),
@@ -82,8 +82,8 @@ impl Subject<'_> {
         }
         for failing in &self.exact.failing {
             let then = failing.then.iter().map(|next| match next {
-                Some(id) => self.program.behaviors[*id].name.as_str(),
-                None => "nothing",
+                Some(id) => self.program.behaviors[*id].name.to_string(),
+                None => "nothing".to_owned(),
             });
             line(
                 "fails",

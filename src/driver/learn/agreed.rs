@@ -57,9 +57,8 @@ impl Agreement {
                 .task
                 .choose
                 .iter()
-                .map(|id| &bench.program.behaviors[*id].name);
+                .map(|id| bench.program.behaviors[*id].name.to_string());
             let mut named: Vec<(String, usize)> = names
-                .cloned()
                 .zip(votes.votes)
                 .filter(|(_, count)| *count > 0)
                 .collect();

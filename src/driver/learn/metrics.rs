@@ -111,7 +111,11 @@ impl Writer<'_> {
         let program = self.bench.program;
         let ran = Ran {
             summary: summary.clone(),
-            events: program.events.values().map(|e| e.name.clone()).collect(),
+            events: program
+                .events
+                .values()
+                .map(|e| e.name.to_string())
+                .collect(),
             ends: run::end_names(program, self.bench.task),
         };
         ran.json()

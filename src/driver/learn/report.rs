@@ -222,7 +222,7 @@ impl Report<'_> {
                 "{:.3}, 95 % [{low:.3}, {high:.3}], in 1000 ticks",
                 rate.mean
             );
-            self.line(&event.name, text);
+            self.line(&event.name.to_string(), text);
         }
         let ends = run::end_names(program, self.bench.task);
         for (end, count) in ends.iter().zip(&summary.ended) {
@@ -251,10 +251,10 @@ impl Report<'_> {
         let program = self.bench.program;
         for failing in &self.results.trees.chosen().failing {
             let then = failing.then.iter().map(|next| match next {
-                Some(id) => program.behaviors[*id].name.as_str(),
-                None => "nothing",
+                Some(id) => program.behaviors[*id].name.to_string(),
+                None => "nothing".to_owned(),
             });
-            let then: Vec<&str> = then.collect();
+            let then: Vec<String> = then.collect();
             let text = format!(
                 "{} failed outright {} times ({} with no change) in {}; the tree goes on to {}",
                 program.behaviors[failing.behavior].name,

@@ -8,9 +8,9 @@ use crate::driver::load::Loaded;
 use crate::driver::simplify::Simplified;
 use crate::driver::target;
 use crate::emit;
-use crate::ir::Id;
 use crate::ir::task::Learner;
-use crate::ir::tree::Tree;
+use crate::ir::tree::{Node, Tree};
+use crate::ir::{Id, Name};
 use crate::learn::process::Key;
 use crate::learn::rollout::RollOut;
 use crate::learn::statistics::{Mean, Summary};
@@ -147,8 +147,11 @@ pub(super) fn write(
     let file = options.source.rsplit('/').next().unwrap_or_default();
     let exact = &results.trees.chosen().root;
     let name = &bench.learner.name;
-    let item = |name: &str, docs: &[String], root| {
-        emit::bt::tree(program, name, docs, Some(&bench.task.name), root)
+    let named = |name: &Name, docs: &[String], root: &Node| Tree {
+        name: name.clone(),
+        docs: docs.to_vec(),
+        task: Some(bench.learner.task),
+        root: root.clone(),
     };
     let mut program_text = format!(
         "//! Written by `btc learn`. The table is what the greedy policy met; proofs go along its paths.\n\
@@ -158,12 +161,15 @@ pub(super) fn write(
     let mut docs = vec![results.origin(file)];
     let mut root = exact;
     if let Some(simplified) = &results.simplified {
-        program_text.push_str(&item(&exact_name(name), &docs, exact));
+        let exact_name = Name::word(format!("{}_exact", name.family));
+        let exact = named(&exact_name, &docs, exact);
+        program_text.push_str(&emit::bt::tree(program, &exact));
         program_text.push('\n');
         docs.push(simplified.doc(program, bench.learner.task));
         root = &simplified.root;
     }
-    let tree = item(name, &docs, root);
+    let learned = named(name, &docs, root);
+    let tree = emit::bt::tree(program, &learned);
     program_text.push_str(&tree);
     let curves: Vec<_> = results
         .runs
@@ -171,25 +177,22 @@ pub(super) fn write(
         .map(|run| (run.seed, run.points.clone()))
         .collect();
     let policy = &results.policy;
-    let named = Tree {
-        name: name.clone(),
-        docs,
-        task: Some(bench.learner.task),
-        root: root.clone(),
-    };
     let place = |_: &[usize]| target::end_of_file(loaded);
-    let exported = |runtime| export::tree(program, &named, runtime, place);
+    let exported = |runtime| export::tree(program, &learned, runtime, place);
     let files = vec![
         ("learned.bt", program_text),
-        ("learned.dot", emit::dot::tree(name, root, program)),
-        ("learned.svg", emit::svg::tree::tree(name, root, program)),
+        ("learned.dot", emit::dot::tree(program, &learned)),
+        ("learned.svg", emit::svg::tree::tree(program, &learned)),
         ("learned.xml", exported(Runtime::BtCpp)?),
         ("learned.py", exported(Runtime::PyTrees)?),
         ("policy.csv", decisions::write(policy, program)),
         ("transitions.csv", transitions::write(policy, program)),
         ("q.csv", evidence::write(policy, program)),
         ("curve.csv", curve::csv(&curves)),
-        ("curve.svg", drawn::learning_curve(name, &curves)),
+        (
+            "curve.svg",
+            drawn::learning_curve(&name.to_string(), &curves),
+        ),
         (
             "metrics.json",
             metrics::text(bench, loaded, options, &results),
@@ -199,17 +202,9 @@ pub(super) fn write(
         tree,
         files,
         report: report::lines(bench, &results),
-        root: named.root,
+        root: learned.root,
         learner,
         curves,
         policy: results.policy,
     })
-}
-
-/// What the exact tree is called beside a simplified one.
-fn exact_name(name: &str) -> String {
-    match name.strip_suffix('`') {
-        Some(quoted) => format!("{quoted}_exact`"),
-        None => format!("{name}_exact"),
-    }
 }

@@ -108,7 +108,11 @@ impl Simplified {
             let size = &figures.size;
             let ran = run::Ran {
                 summary: figures.summary.clone(),
-                events: program.events.values().map(|e| e.name.clone()).collect(),
+                events: program
+                    .events
+                    .values()
+                    .map(|e| e.name.to_string())
+                    .collect(),
                 ends: run::end_names(program, &program.tasks[task]),
             };
             json!({

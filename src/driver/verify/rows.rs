@@ -12,7 +12,6 @@ use crate::ir::Program;
 use crate::policy::table::Table;
 use crate::policy::{Minterm, Policy, decisions};
 use crate::source::Span;
-use crate::syntax::print;
 use crate::tree::atoms::atoms;
 use crate::tree::prove::{Refuted, prove};
 
@@ -37,7 +36,7 @@ pub fn table(
     let id = target::tree(loaded, name).map_err(of_program)?;
     let read = table::read(text)?;
     let mut program = loaded.program.clone();
-    let mut policy = decisions::joined(&read, &mut program, print::name);
+    let mut policy = decisions::joined(&read, &mut program);
     if let Some(task) = loaded.program.trees[id].task {
         // The longest memory that either side knows.
         let history = loaded.program.tasks[task].history;
@@ -101,14 +100,14 @@ impl Sides<'_> {
                     policy,
                     tree: selected,
                 } => {
-                    let does = |id| self.program.behaviors[id].name.as_str();
+                    let does = |id| self.program.behaviors[id].name.to_string();
                     otherwise.push(format!(
                         "  {}:{}: {}: the table says {}, `{tree}` selects {}",
                         table,
                         self.line(&minterm),
                         minterm_text(self.program, &self.policy, &minterm),
                         does(policy),
-                        selected.map_or("nothing", does),
+                        selected.map_or_else(|| "nothing".to_owned(), does),
                     ));
                     self.policy.rows.retain(|row| !row.speaks_of(&minterm));
                     if otherwise.len() >= LISTED {

@@ -1,23 +1,24 @@
 //! The shortest way to where two sides part, in words.
 
 use crate::driver::learn::minterm_text;
-use crate::ir::Id;
-use crate::ir::Program;
 use crate::ir::law::Behavior;
+use crate::ir::{Id, Program};
 use crate::policy::Policy;
 use crate::tree::equivalence::Trace;
+use std::fmt::Display;
 
 /// The ticks in which two sides agree, and the one in which they part.
 pub(super) fn text(
     program: &Program,
-    (left, right): (&str, &str),
+    (left, right): (impl Display, impl Display),
     along: &str,
     trace: &Trace,
 ) -> String {
     let name = |behavior: &Option<Id<Behavior>>| {
-        behavior
-            .map_or("nothing", |id| &program.behaviors[id].name)
-            .to_owned()
+        behavior.map_or_else(
+            || "nothing".to_owned(),
+            |id| program.behaviors[id].name.to_string(),
+        )
     };
     let policy = Policy {
         atoms: trace.atoms.clone(),

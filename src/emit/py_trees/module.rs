@@ -1,9 +1,8 @@
 //! What stands around the tree in its module: imports, the class to derive from, a way to draw it.
 
 use super::code::{Code, WIDTH, quoted, wrapped};
-use crate::emit::leaves::{Family, Leaves, Subject, unquoted};
+use crate::emit::leaves::{Family, Leaves, Subject};
 use crate::emit::notes;
-use crate::ir::Program;
 use crate::ir::task::History;
 use crate::ir::tree::{Atom, Decorator, Tree};
 use std::collections::{BTreeMap, BTreeSet};
@@ -47,7 +46,6 @@ const CONDITION: &str = r#"class Condition(Behaviour):
 
 /// What a module is made of.
 pub(super) struct Parts<'a> {
-    pub program: &'a Program,
     pub leaves: &'a Leaves,
     pub history: Option<History>,
     pub imports: Imports,
@@ -87,7 +85,7 @@ impl Parts<'_> {
         out.push_str("\n\nclass Sketch(Robot):\n");
         out.push_str("    \"\"\"A robot that does nothing, to draw the tree with.\"\"\"\n\n");
         for family in &self.leaves.families {
-            out.push_str(&sketched(family, self.program));
+            out.push_str(&sketched(family));
         }
         out.push_str("\nif __name__ == \"__main__\":\n");
         out.push_str("    print(unicode_tree(create_root(Sketch())))\n");
@@ -96,7 +94,7 @@ impl Parts<'_> {
 
     /// The abstract method of a family.
     fn method(&self, family: &Family) -> String {
-        let name = signature(family, self.program);
+        let name = signature(family);
         let holds = |outcome| notes::window(outcome, "`behavior`", self.history);
         let says = match family.subjects.first() {
             Some(Subject::Condition(Atom::Done(_))) => format!("Whether {}.", holds("success")),
@@ -137,35 +135,27 @@ fn head(family: &Family) -> String {
 }
 
 /// `goto(target)`, by its name in the language.
-fn signature(family: &Family, program: &Program) -> String {
-    let name = family_name(family, program);
+fn signature(family: &Family) -> String {
+    let name = &family.name;
     let parameters: Vec<&str> = family.parameters.iter().map(|p| p.id.as_str()).collect();
     match parameters.as_slice() {
-        [] => name,
+        [] => name.clone(),
         _ => format!("{name}({})", parameters.join(", ")),
     }
 }
 
-fn family_name(family: &Family, program: &Program) -> String {
-    match family.subjects.first() {
-        Some(first) if !family.same => unquoted(&first.family(program)).to_owned(),
-        _ => family.id.clone(),
-    }
-}
-
 /// The method of the robot that does nothing.
-fn sketched(family: &Family, program: &Program) -> String {
+fn sketched(family: &Family) -> String {
     let body = if is_action(family) {
-        let name = family_name(family, program);
         let parameters: Vec<String> = family
             .parameters
             .iter()
             .map(|parameter| format!("{{{}}}", parameter.id))
             .collect();
         if parameters.is_empty() {
-            format!("return Dummy({})", quoted(&name))
+            format!("return Dummy({})", quoted(&family.name))
         } else {
-            let name = name.replace('{', "{{").replace('}', "}}");
+            let name = family.name.replace('{', "{{").replace('}', "}}");
             let name = quoted(&format!("{name}({})", parameters.join(", ")));
             format!("return Dummy(f{name})")
         }
@@ -177,7 +167,7 @@ fn sketched(family: &Family, program: &Program) -> String {
 
 /// What a reader of the module has to know.
 fn docstring(tree: &Tree, tick: Option<f64>) -> String {
-    let name = unquoted(&tree.name);
+    let name = &tree.name.family;
     let mut paragraphs = vec![format!(
         "The behaviour tree `{name}` for py_trees 2, written by btc."
     )];

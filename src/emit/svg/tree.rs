@@ -8,7 +8,7 @@ use super::page::{self, Head, Page, number};
 use super::paint::{Rule, rule};
 use crate::emit::bt;
 use crate::ir::Program;
-use crate::ir::tree::{Composite, Decorator, Node};
+use crate::ir::tree::{Composite, Decorator, Tree};
 use crate::tree::drawing::{Drawing, Shape};
 
 /// Around the tree.
@@ -48,16 +48,17 @@ const RULES: &[Rule] = &[
     rule("sign", "font-size:17px;font-weight:600", ""),
 ];
 
-/// A tree of that name as a picture; its description is the tree in the language.
-pub fn tree(name: &str, root: &Node, program: &Program) -> String {
-    let drawing = Drawing::of(root);
+/// A tree as a picture; its description is the tree in the language.
+pub fn tree(program: &Program, tree: &Tree) -> String {
+    let drawing = Drawing::of(&tree.root);
+    let plain = Tree::plain(tree.name.clone(), tree.root.clone());
     let (placed, width, height) = layout::place(&block(&drawing, program));
     let mut page = Page::new(&Head {
         class: "btc-tree",
         width: (width + 2.0 * MARGIN).ceil(),
         height: (height + 2.0 * MARGIN).ceil(),
-        title: &format!("behaviour tree {name}"),
-        description: &bt::tree(program, name, &[], None, root),
+        title: &format!("behaviour tree {}", tree.name),
+        description: &bt::tree(program, &plain),
         rules: RULES,
     });
     // Strokes of one px are crisp when they run between the whole numbers.
@@ -122,8 +123,8 @@ fn label(shape: Shape, program: &Program) -> String {
             Decorator::Timeout(1) => "timeout 1 tick".to_owned(),
             Decorator::Timeout(ticks) => format!("timeout {ticks} ticks"),
         },
-        Shape::Behavior(id) => program.behaviors[id].name.clone(),
-        Shape::Literal(atom, true) => program.atom_name(atom),
+        Shape::Behavior(id) => program.behaviors[id].name.to_string(),
+        Shape::Literal(atom, true) => program.atom_name(atom).to_string(),
         Shape::Literal(atom, false) => format!("not {}", program.atom_name(atom)),
         Shape::Const(value) => value.to_string(),
     }

@@ -7,6 +7,7 @@ use super::scale;
 use super::track::{self, Stand, Track};
 use super::view::{self, View};
 use crate::ir::Program;
+use crate::ir::name;
 use crate::ir::world::{Place, Point, Robot, SensorKind, Shape, World};
 
 /// Around everything.
@@ -120,7 +121,7 @@ pub fn world(program: &Program, world: &World, caption: &str, track: Option<&Tra
         let thin = matches!(wall.shape, Shape::Polyline(_));
         titled(
             &mut page,
-            &wall.name,
+            &wall.name.to_string(),
             if thin { "wall" } else { "solid" },
             view.outline(&wall.shape),
         );
@@ -148,8 +149,8 @@ pub fn world(program: &Program, world: &World, caption: &str, track: Option<&Tra
 
 /// The picture in words.
 fn description(program: &Program, world: &World, caption: &str, track: Option<&Track>) -> String {
-    let places: Vec<&str> = world.places.values().map(|p| p.name.as_str()).collect();
-    let mut text = format!("{caption}. Places: {}.", places.join(", "));
+    let places = name::list(world.places.values().map(|place| &place.name));
+    let mut text = format!("{caption}. Places: {places}.");
     if let Some(track) = track {
         for (event, count) in track.events() {
             text.push_str(&format!(" {}: {count}.", program.events[event].name));
@@ -165,28 +166,21 @@ fn legend(program: &Program, world: &World, track: Option<&Track>) -> Legend {
     let entry = |sign: Sign, name: String| Entry { sign, name };
     let behaviors = track.behaviors().into_iter();
     let events = track.events().into_iter();
-    let sensors: Vec<&str> = world
-        .robot
-        .sensors
-        .values()
-        .map(|s| s.name.as_str())
-        .collect();
+    let sensors = name::list(world.robot.sensors.values().map(|sensor| &sensor.name));
     let mut robot = vec![
         entry(Sign::Robot("start"), "start".to_owned()),
         entry(Sign::Robot("last"), "end".to_owned()),
     ];
     if !sensors.is_empty() {
-        robot.push(entry(Sign::Sector, sensors.join(", ")));
+        robot.push(entry(Sign::Sector, sensors));
     }
     Legend(vec![
         (
             "behaviour",
             behaviors
                 .map(|(i, id)| {
-                    entry(
-                        Sign::Line(track::hue(i)),
-                        program.behaviors[id].name.clone(),
-                    )
+                    let name = program.behaviors[id].name.to_string();
+                    entry(Sign::Line(track::hue(i)), name)
                 })
                 .collect(),
         ),
@@ -215,7 +209,12 @@ fn titled(page: &mut Page, name: &str, class: &str, d: String) {
 fn draw_place(place: &Place, view: &View, page: &mut Page) {
     let thin = matches!(place.shape, Shape::Polyline(_));
     let class = if thin { "place thin" } else { "place" };
-    titled(page, &place.name, class, view.outline(&place.shape));
+    titled(
+        page,
+        &place.name.to_string(),
+        class,
+        view.outline(&place.shape),
+    );
     let Some(facing) = place.facing else {
         return;
     };
@@ -241,7 +240,8 @@ fn draw_place(place: &Place, view: &View, page: &mut Page) {
 
 /// The name of a place: in it where it is wide enough, else beside it, away from where a robot should look.
 fn name_place(place: &Place, view: &View, wide: f64, page: &mut Page) {
-    let text = page::width(&place.name);
+    let name = place.name.to_string();
+    let text = page::width(&name);
     let (low, high) = view::bounds(&place.shape);
     let [[left, foot], [right, top]] = [view.at(low), view.at(high)];
     let [x, y] = view.at(place.shape.center());
@@ -256,7 +256,7 @@ fn name_place(place: &Place, view: &View, wide: f64, page: &mut Page) {
         foot + 15.0
     };
     let x = x.min(wide - text / 2.0 - 4.0).max(text / 2.0 + 4.0);
-    page.text("name label middle", x, baseline, &place.name);
+    page.text("name label middle", x, baseline, &name);
 }
 
 /// What the sensors of a robot cover from where it stands, within the arena.
@@ -297,7 +297,7 @@ fn sensors(robot: &Robot, stand: &Stand, view: &View, page: &mut Page) {
                 view::sector(view.at(target), range * view.scale, from, to)
             }
         };
-        titled(page, &sensor.name, "sector", area);
+        titled(page, &sensor.name.to_string(), "sector", area);
     }
     page.close();
 }

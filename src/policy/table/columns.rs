@@ -89,7 +89,7 @@ impl Reading {
             "q_gap" => return Ok(Role::Ignored),
             _ => {}
         }
-        let atom = AtomName::of(name);
+        let atom = AtomName::read(name);
         atom.check()?;
         self.atoms.push((atom, place.clone()));
         Ok(Role::Atom(self.atoms.len() - 1))
@@ -121,6 +121,6 @@ impl Reading {
 fn bare(column: &str) -> String {
     match column.strip_prefix("q:") {
         Some(behavior) => format!("q:{}", names::plain(behavior)),
-        None => AtomName::of(column).to_string(),
+        None => AtomName::read(column).to_string(),
     }
 }

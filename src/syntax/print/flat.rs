@@ -1,10 +1,11 @@
 //! What is printed on one line.
 
+use crate::spelling::{quoted, spelled};
 use crate::syntax::ast::{
     Arg, ArgKind, AssignOp, BinaryOp, Binding, Choice, Expr, ExprKind, Ident, Link, Literal, Node,
     NodeKind, Otherwise, Outcome, Param, Params, Ref, TypeExpr, UnaryOp, Unit, Word, Yield,
 };
-use crate::syntax::words::{ASPECTS, UNITS, is_plain_name};
+use crate::syntax::words::{ASPECTS, UNITS};
 
 /// How tightly an expression binds, loosest first.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -20,23 +21,8 @@ pub(super) enum Level {
     Primary,
 }
 
-/// Words of other languages that would be taken for `true` and `false`.
-const TRUTHS: [&str; 4] = ["True", "TRUE", "False", "FALSE"];
-
-pub(super) fn name(name: &str) -> String {
-    if is_plain_name(name) && !TRUTHS.contains(&name) {
-        name.to_owned()
-    } else {
-        quoted(name)
-    }
-}
-
-fn quoted(name: &str) -> String {
-    format!("`{name}`")
-}
-
 pub(super) fn ident(ident: &Ident) -> String {
-    name(&ident.name)
+    spelled(&ident.name).into_owned()
 }
 
 pub(super) fn expr(expr: &Expr) -> String {

@@ -4,6 +4,7 @@ use super::file::{self, inside, only};
 use super::trees::{Grower, Kinds, atoms, subjects};
 use super::{names, written};
 use crate::examples;
+use crate::program::called;
 use crate::tree::build::selector;
 use crate::tree::random::Random;
 use btc::driver::compile::{self, Form};
@@ -117,7 +118,7 @@ fn of_examples() {
         let loaded = examples::example(&name);
         for tree in loaded.program.trees.values() {
             let form = Form::Robot(Runtime::BtCpp);
-            check(&compile::emit(&loaded, form, Some(&tree.name)).unwrap());
+            check(&compile::emit(&loaded, form, Some(&tree.name.to_string())).unwrap());
         }
     }
 }
@@ -177,7 +178,7 @@ fn of_names_from_anywhere() {
         "f({y})",
     ];
     for name in odd {
-        let name = name.to_owned();
+        let name = called(name);
         program.behaviors.push(Behavior {
             name: name.clone(),
             law: None,

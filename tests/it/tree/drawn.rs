@@ -5,7 +5,7 @@ use super::small_delivery::figure_8;
 use crate::snapshot::check;
 use btc::emit::{dot, json};
 use btc::ir::Id;
-use btc::ir::tree::{Atom, Composite, Decorator, Guard, Node};
+use btc::ir::tree::{Atom, Composite, Decorator, Guard, Node, Tree};
 
 /// Every node kind, guards of every shape.
 fn everything() -> Node {
@@ -48,7 +48,7 @@ fn trees_are_drawn() {
     let drawn = |name: &str, root: &Node| {
         check(
             &format!("tree.{name}.dot"),
-            &dot::tree(name, root, &program()),
+            &dot::tree(&program(), &Tree::plain(name.into(), root.clone())),
         )
     };
     drawn("figure_8", &figure_8());

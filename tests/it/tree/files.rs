@@ -2,6 +2,7 @@
 
 use super::random::policy;
 use super::small_delivery;
+use crate::program::called;
 use crate::snapshot::check;
 use btc::ir::law::Behavior;
 use btc::ir::program::{Predicate, Program};
@@ -13,9 +14,9 @@ pub(crate) fn program() -> Program {
     let mut program = Program::default();
     for i in 0..13 {
         let name = match i {
-            0 => "carrying_package".to_owned(),
-            1 => "battery_low".to_owned(),
-            _ => format!("near(oak, p{i})"),
+            0 => called("carrying_package"),
+            1 => called("battery_low"),
+            _ => called(&format!("near(oak, p{i})")),
         };
         program.predicates.push(Predicate { name, when: None });
     }
@@ -29,7 +30,7 @@ pub(crate) fn program() -> Program {
         "idle",
     ] {
         program.behaviors.push(Behavior {
-            name: name.to_owned(),
+            name: called(name),
             law: None,
         });
     }

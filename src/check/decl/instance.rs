@@ -1,0 +1,83 @@
+//! The names of instances: a family with the arguments that a reference gives it.
+
+use crate::check::Checker;
+use crate::check::context::Binding;
+use crate::check::types::Value;
+use crate::ir::name::{self, Argument, Name};
+use crate::syntax::ast::{self, ArgKind, ExprKind, Ref};
+use crate::syntax::print;
+
+impl Checker<'_> {
+    /// The name of what a reference makes of a family, its parameters bound in `scope`. An argument that says what the
+    /// default says is left out, so that one instance has one name.
+    pub fn instance_name(
+        &self,
+        params: Option<&ast::Params>,
+        reference: &Ref,
+        scope: &[Binding],
+    ) -> Name {
+        let params: &[ast::Param] = params.map_or(&[], |params| &params.params);
+        let args = reference.args.as_deref().unwrap_or_default();
+        let mut positional = args.iter().filter_map(|arg| match &arg.kind {
+            ArgKind::Positional(value) => Some(value),
+            _ => None,
+        });
+        let arguments = params.iter().zip(scope).map(|(param, binding)| {
+            let named = args.iter().find_map(|arg| match &arg.kind {
+                ArgKind::Named(name, value) if name.name == param.name.name => Some(value),
+                _ => None,
+            });
+            let given = positional.next().or(named);
+            let value = given.map(|given| self.argument(given, &binding.value));
+            let default = param.default.as_ref().map(print::expr);
+            Argument {
+                parameter: param.name.name.clone(),
+                value: value.filter(|value| default != Some(value.to_string())),
+            }
+        });
+        Name::instance(&reference.name.name, arguments.collect())
+    }
+
+    /// An argument in a name: a target by its own name, a literal in its own spelling.
+    fn argument(&self, given: &ast::Expr, value: &Value) -> name::Value {
+        let world = self.program.world.as_ref();
+        let named = match value {
+            Value::Place(id) => world.map(|world| &world.places[*id].name),
+            Value::Wall(id) => world.map(|world| &world.walls[*id].name),
+            Value::Sensor(id) => world.map(|world| &world.robot.sensors[*id].name),
+            Value::Behavior(id) => Some(&self.program.behaviors[*id].name),
+            _ => None,
+        };
+        if let Some(named) = named {
+            return name::Value::Name(named.clone());
+        }
+        match (value, &given.kind) {
+            // A parameter of a subtree or a shared expression stands for a number that has no spelling here.
+            (Value::Scalar(id), _)
+                if self.mentions_parameter(given)
+                    && let Some(number) = self.program.pool.constant(*id) =>
+            {
+                name::Value::Text(number.to_string())
+            }
+            (
+                _,
+                ExprKind::Ref(Ref {
+                    name, args: None, ..
+                }),
+            ) => name::Value::Name(Name::word(&name.name)),
+            _ => name::Value::Text(print::expr(given)),
+        }
+    }
+
+    fn mentions_parameter(&self, given: &ast::Expr) -> bool {
+        match &given.kind {
+            ExprKind::Ref(reference) => self.context.lookup(&reference.name.name).is_some(),
+            ExprKind::Paren(inner) => self.mentions_parameter(inner),
+            ExprKind::Unary { operand, .. } => self.mentions_parameter(operand),
+            ExprKind::Binary { left, right, .. } => {
+                self.mentions_parameter(left) || self.mentions_parameter(right)
+            }
+            _ => false,
+        }
+    }
+}
