@@ -2,7 +2,6 @@
 
 use super::compile::{self, Form};
 use super::load::{self, Loaded, Reader};
-use super::slack::{self, Slack};
 use super::table::{self, Refused, Text};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::emit;
@@ -11,7 +10,7 @@ use crate::ir::{Name, Program};
 use crate::policy::table::{AtomName, Table};
 use crate::policy::{Policy, decisions};
 use crate::source::{FileId, Span};
-use crate::tree::decanonicalise::{self, Care, Decanonicalised, Method, Order};
+use crate::tree::decanonicalise::{self, Care, Decanonicalised, Loosened, Method, Order};
 use crate::tree::prove::Refuted;
 
 mod report;
@@ -146,7 +145,7 @@ pub fn decanonicalize(asked: Asked, options: &Options) -> Result<Made, Refused> 
     let refused = |refuted: Refuted| internal(&source, &format!("{refuted:?}"));
     let exact = decanonicalise::decanonicalise(&policy, &wanted).map_err(refused)?;
     let slack = if options.slack > 0.0 {
-        slack::loosen(&policy, &exact, &wanted, options.slack)
+        decanonicalise::loosen(&policy, &exact, &wanted, options.slack)
     } else {
         None
     };
@@ -199,12 +198,12 @@ fn doc(
     source: &str,
     policy: &Policy,
     found: &Decanonicalised,
-    slack: Option<&Slack>,
+    slack: Option<&Loosened>,
     allowed: f64,
 ) -> String {
     let of = rows(policy);
     if let Some(slack) = slack {
-        let otherwise = slack.otherwise.len();
+        let otherwise = slack.deviations.len();
         return format!(
             "Made from {source} with a slack of {allowed}, and NOT equal to it: it decides {otherwise} of {of} otherwise."
         );

@@ -14,7 +14,6 @@ pub mod picture;
 pub mod run;
 pub mod simplify;
 pub mod size;
-mod slack;
 pub mod table;
 pub mod target;
 pub mod verify;

@@ -13,6 +13,7 @@ mod problem;
 mod rules;
 mod search;
 mod share;
+mod slack;
 mod subunit;
 
 use super::Size;
@@ -27,6 +28,7 @@ use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 pub use crate::logic::Order;
+pub use slack::{Deviation, Loosened, loosen};
 
 /// How the tree is found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

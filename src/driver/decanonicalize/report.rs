@@ -2,18 +2,17 @@
 
 use crate::driver::compile::counted;
 use crate::driver::learn::minterm_text;
-use crate::driver::slack::Slack;
 use crate::ir::Program;
 use crate::policy::Policy;
 use crate::tree::Size;
-use crate::tree::decanonicalise::Decanonicalised;
+use crate::tree::decanonicalise::{Decanonicalised, Loosened};
 
 /// What is reported.
 pub(super) struct Subject<'a> {
     pub(super) program: &'a Program,
     pub(super) policy: &'a Policy,
     pub(super) exact: &'a Decanonicalised,
-    pub(super) slack: Option<&'a Slack>,
+    pub(super) slack: Option<&'a Loosened>,
     /// The slack that was given; 0 for none.
     pub(super) allowed: f64,
 }
@@ -27,14 +26,14 @@ impl Subject<'_> {
         let name = |id| &self.program.behaviors[id].name;
         let mut lines = vec![format!(
             "warning: the tree is NOT equal to the table: it decides {} of {} otherwise",
-            slack.otherwise.len(),
+            slack.deviations.len(),
             rows(self.policy)
         )];
-        lines.extend(slack.otherwise.iter().filter_map(|change| {
+        lines.extend(slack.deviations.iter().filter_map(|change| {
             let row = self.policy.rows.get(change.row)?;
             Some(format!(
                 "  {} in the place of {}, worth {:.4} less, in {}",
-                name(change.tree),
+                name(change.behavior),
                 name(row.behavior),
                 change.loss,
                 minterm_text(self.program, self.policy, &row.minterm)
