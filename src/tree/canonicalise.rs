@@ -12,7 +12,7 @@ pub use table::Decided;
 
 use super::circuit::Signal;
 use super::circuit::guards::Guards;
-use super::formula::{guarded, selector};
+use super::unit::{guarded, selector};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::{Atom, Composite, Decorator, Guard, Node};
@@ -97,11 +97,7 @@ impl Canonical {
     /// The units as a tree.
     pub fn tree(&self) -> Node {
         let units = self.units.iter();
-        selector(
-            units
-                .map(|unit| guarded(unit.guard.clone(), Node::Behavior(unit.behavior)))
-                .collect(),
-        )
+        selector(units.map(|unit| guarded(unit.guard.clone(), Node::Behavior(unit.behavior))))
     }
 
     /// The behaviour that is selected where the atoms have these values.

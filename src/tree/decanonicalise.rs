@@ -2,7 +2,6 @@
 
 mod beam;
 mod covers;
-mod factor;
 mod list;
 mod memory;
 mod minterms;

@@ -3,6 +3,7 @@
 //! The literals of a guard stand as children under the sequence of `guard => node`; each `or` is a selector, each of
 //! its alternatives with several literals a sequence; a negated literal is one leaf.
 
+use super::guard::Form;
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::{Atom, Composite, Decorator, Guard, Node};
@@ -39,7 +40,7 @@ impl Drawing {
         let drawn = |children: &[Node]| children.iter().map(Self::of).collect();
         match node {
             Node::Behavior(behavior) => Self::leaf(Shape::Behavior(*behavior)),
-            Node::Condition(guard) => Self::one(Composite::Sequence, Self::guard(guard, true)),
+            Node::Condition(guard) => Self::one(Self::guard(guard, true)),
             Node::Composite {
                 kind,
                 memory,
@@ -78,52 +79,35 @@ impl Drawing {
         }
     }
 
-    /// A guard, negated unless `positive`: a way to join and what it joins; a leaf is a sequence of one.
+    /// A guard, negated unless `positive`: how it joins its parts, and these; a leaf is a sequence of one.
     fn guard(guard: &Guard, positive: bool) -> (Composite, Vec<Self>) {
-        let (joins, guards) = match (guard, positive) {
-            (Guard::Const(value), _) => {
-                let leaf = Self::leaf(Shape::Const(*value == positive));
-                return (Composite::Sequence, vec![leaf]);
+        let leaf = |shape| (Composite::Sequence, vec![Self::leaf(shape)]);
+        match Form::of(guard, positive) {
+            Form::Const(value) => leaf(Shape::Const(value)),
+            Form::Literal(atom, value) => leaf(Shape::Literal(atom, value)),
+            Form::Join(kind, parts, positive) => {
+                let parts = parts.iter().map(|part| Self::guard(part, positive));
+                let parts = parts.flat_map(|part| Self::under(kind, part));
+                (kind, parts.collect())
             }
-            (Guard::Atom(atom), _) => {
-                let leaf = Self::leaf(Shape::Literal(*atom, positive));
-                return (Composite::Sequence, vec![leaf]);
-            }
-            (Guard::Not(guard), _) => return Self::guard(guard, !positive),
-            (Guard::And(guards), true) | (Guard::Or(guards), false) => {
-                (Composite::Sequence, guards)
-            }
-            (Guard::And(guards), false) | (Guard::Or(guards), true) => {
-                (Composite::Selector, guards)
-            }
-        };
-        let parts = guards.iter().map(|guard| Self::guard(guard, positive));
-        (
-            joins,
-            parts.flat_map(|part| Self::under(joins, part)).collect(),
-        )
+        }
     }
 
-    /// A joined guard as children of a node that joins in the way `outer`.
-    fn under(outer: Composite, (joins, mut parts): (Composite, Vec<Self>)) -> Vec<Self> {
-        match parts.len() {
-            1 => vec![parts.swap_remove(0)],
-            _ if joins == outer => parts,
-            _ => vec![Self {
-                shape: Shape::Composite(joins, false),
-                children: parts,
-            }],
+    /// A joined guard as children of a composite: its parts alone if both join alike.
+    fn under(outer: Composite, (kind, parts): (Composite, Vec<Self>)) -> Vec<Self> {
+        match kind == outer {
+            true => parts,
+            false => vec![Self::one((kind, parts))],
         }
     }
 
     /// A joined guard as one node.
-    fn one(outer: Composite, (joins, parts): (Composite, Vec<Self>)) -> Self {
-        let mut children = Self::under(outer, (joins, parts));
-        match children.len() {
-            1 => children.swap_remove(0),
+    fn one((kind, mut parts): (Composite, Vec<Self>)) -> Self {
+        match parts.len() {
+            1 => parts.swap_remove(0),
             _ => Self {
-                shape: Shape::Composite(joins, false),
-                children,
+                shape: Shape::Composite(kind, false),
+                children: parts,
             },
         }
     }

@@ -7,13 +7,14 @@ pub mod decanonicalise;
 
 pub mod drawing;
 pub mod equivalence;
-pub mod formula;
+pub mod guard;
 pub mod permute;
 pub mod program;
 pub mod prove;
 pub mod prune;
 pub mod size;
 pub mod tick;
+pub mod unit;
 
 pub use decanonicalise::decanonicalise;
 pub use equivalence::compare;

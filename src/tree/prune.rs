@@ -123,7 +123,7 @@ fn everywhere(node: &Node, possible: &[Possible]) -> Vec<Move> {
 fn here(node: &Node, possible: &[Possible]) -> Vec<Move> {
     let mut found = Vec::new();
     if let Node::Condition(guard) = node {
-        let looser = guards::parts(guard).into_iter();
+        let looser = guards::looser(guard).into_iter();
         found.extend(looser.map(|guard| (Change::Loosened, Node::Condition(guard))));
         return found;
     }

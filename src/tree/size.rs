@@ -1,16 +1,19 @@
 //! The size of a tree, the figure in every report.
 
 use super::drawing::{Drawing, Shape};
-use crate::ir::tree::Node;
+use super::guard::Form;
+use crate::ir::tree::{Composite, Guard, Node};
+use std::iter::Sum;
+use std::ops::Add;
 
-/// The size of a tree as it would be drawn; smaller ones come first: by nodes, then literals, then depth.
+/// The size of a tree as it is drawn; smaller ones come first: by nodes, then literals, then depth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Size {
     /// Composites, decorators, behaviour leaves, literals in guards, and the composites that join literals.
     pub nodes: usize,
     /// Occurrences of literals in guards.
     pub literals: usize,
-    /// Nodes on the longest way from the root to a leaf.
+    /// Nodes on the longest path from the root to a leaf.
     pub depth: usize,
 }
 
@@ -35,14 +38,88 @@ impl Size {
             }
         })
     }
+
+    /// The nodes and literals.
+    pub fn price(&self) -> Price {
+        Price {
+            nodes: self.nodes,
+            literals: self.literals,
+        }
+    }
+}
+
+/// The part of a size that adds up: what a part of a tree adds to the whole. Compared by nodes, then literals.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Price {
+    /// Nodes.
+    pub nodes: usize,
+    /// Literals.
+    pub literals: usize,
+}
+
+impl Price {
+    /// A composite, without its children.
+    pub const COMPOSITE: Self = Self {
+        nodes: 1,
+        literals: 0,
+    };
+
+    /// Literals as children of a composite.
+    pub fn literals(literals: usize) -> Self {
+        Self {
+            nodes: literals,
+            literals,
+        }
+    }
+
+    /// A guard as it is drawn under a composite of this kind.
+    pub fn of_guard(guard: &Guard, under: Composite) -> Self {
+        Self::of_form(Form::of(guard, true), under)
+    }
+
+    fn of_form(form: Form, under: Composite) -> Self {
+        match form {
+            Form::Const(_) => Self {
+                nodes: 1,
+                literals: 0,
+            },
+            Form::Literal(..) => Self::literals(1),
+            Form::Join(kind, parts, positive) => {
+                let parts = parts.iter().map(|part| Form::of(part, positive));
+                let parts = parts.map(|part| Self::of_form(part, kind)).sum();
+                match kind == under {
+                    true => parts,
+                    false => Self::COMPOSITE + parts,
+                }
+            }
+        }
+    }
+}
+
+impl Add for Price {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            nodes: self.nodes + other.nodes,
+            literals: self.literals + other.literals,
+        }
+    }
+}
+
+impl Sum for Price {
+    fn sum<I: Iterator<Item = Self>>(prices: I) -> Self {
+        prices.fold(Self::default(), Self::add)
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Size;
+    use super::{Price, Size};
     use crate::ir::Id;
     use crate::ir::tree::{Atom, Composite, Guard, Node};
-    use crate::tree::formula::{and, guarded, not, selector};
+    use crate::tree::guard::{and, not};
+    use crate::tree::unit::{guarded, selector};
 
     fn atom(i: usize) -> Guard {
         Guard::Atom(Atom::Predicate(Id::new(i)))
@@ -71,7 +148,7 @@ mod tests {
     #[test]
     fn five_rules_of_two_literals_and_a_default_have_22_nodes() {
         let rules = (0..5).map(|i| guarded(and([atom(i), not(atom(i + 1))]), leaf(i)));
-        let root = selector(rules.chain([leaf(9)]).collect());
+        let root = selector(rules.chain([leaf(9)]));
         assert_eq!((Size::of(&root).nodes, Size::of(&root).literals), (22, 10));
     }
 
@@ -84,5 +161,17 @@ mod tests {
         // negated: a conjunction of an alternative and a literal, which the sequence joins
         let negated = Guard::Not(Box::new(either));
         assert_eq!(Size::of(&guarded(negated, leaf(0))).nodes, 6);
+    }
+
+    #[test]
+    fn the_price_of_a_guard_is_what_it_adds_to_a_tree() {
+        let either = Guard::Or(vec![and([atom(0), atom(1)]), not(atom(2))]);
+        let nested = Guard::And(vec![either.clone(), Guard::Not(Box::new(either.clone()))]);
+        for guard in [atom(0), Guard::Const(false), either, nested] {
+            let drawn = Size::of(&guarded(guard.clone(), leaf(0)));
+            let sequence_and_leaf = Price::COMPOSITE + Size::of(&leaf(0)).price();
+            let price = Price::of_guard(&guard, Composite::Sequence);
+            assert_eq!(drawn.price(), sequence_and_leaf + price, "{guard:?}");
+        }
     }
 }

@@ -4,7 +4,7 @@ use crate::ir::tree::{Atom, Guard};
 use crate::logic::{Bits, Columns, Cover, Cube, Literal, minimise};
 use crate::tree::circuit::guards::Guards;
 use crate::tree::circuit::{Signal, truth};
-use crate::tree::formula::{and, literal, not, or};
+use crate::tree::guard::{and, literal, not, or, with_part};
 
 /// Up to so many atoms a guard is minimised in two levels as well.
 const TWO_LEVELS: usize = 8;
@@ -70,22 +70,13 @@ fn without(guard: &Guard, at: &mut usize) -> Option<Guard> {
     let (Guard::And(parts) | Guard::Or(parts)) = guard else {
         return None;
     };
-    let join = |parts: Vec<Guard>| match guard {
-        Guard::And(_) => and(parts),
-        _ => or(parts),
-    };
     for (i, part) in parts.iter().enumerate() {
-        let others = || parts.iter().enumerate().filter(move |(j, _)| *j != i);
         if *at == 0 {
-            return Some(join(others().map(|(_, part)| part.clone()).collect()));
+            return Some(with_part(guard, i, None));
         }
         *at -= 1;
         if let Some(shorter) = without(part, at) {
-            let replaced = |(j, other): (usize, &Guard)| match j == i {
-                true => shorter.clone(),
-                false => other.clone(),
-            };
-            return Some(join(parts.iter().enumerate().map(replaced).collect()));
+            return Some(with_part(guard, i, Some(shorter)));
         }
     }
     None
@@ -146,7 +137,7 @@ fn factored(cubes: &[Cube], atoms: &[Atom]) -> Guard {
         .filter(|(count, _)| Some(*count) == most)
         .min()
     else {
-        return crate::tree::formula::cover(&Cover::new(cubes.iter().cloned()), atoms);
+        return crate::tree::guard::cover(&Cover::new(cubes.iter().cloned()), atoms);
     };
     let (with, others): (Vec<Cube>, Vec<Cube>) = cubes
         .iter()

@@ -4,7 +4,7 @@ use super::{Canonical, Unit};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::{Atom, Guard};
-use crate::tree::formula::{not, or};
+use crate::tree::guard::{not, or};
 
 /// A cube of a table, a value for each atom or nothing, and what is done in it.
 pub type Decided = (Vec<Option<bool>>, Id<Behavior>);

@@ -3,7 +3,7 @@
 use super::sat::Solver;
 use super::{Circuit, Gate, Signal, truth};
 use crate::ir::tree::{Atom, Guard};
-use crate::tree::formula::{and, not, or};
+use crate::tree::guard::{and, not, or};
 use std::collections::BTreeMap;
 
 /// Up to so many atoms a truth table is quicker than a solver that is asked little.

@@ -1,24 +1,63 @@
-//! The search for the smallest selector over the subunits of one configuration: a beam over what may stand next.
+//! The search for the smallest selector over the subunits of one configuration: a beam search over its children.
 //!
-//! A subunit may stand behind a smallest guard for all of its rows, behind a rule for some of them, or with others in a
-//! group behind a literal. What is not finished is judged by what comes of always taking the rule that decides most
-//! rows for its cost.
+//! # Glossary
+//!
+//! - A **row** is a minterm of the policy. A row is *left* while no child of the selector decides it.
+//! - A **subunit** is a behaviour or a memory node, with its own rows: those in which the policy takes it.
+//! - A **rule** is a cube. It *applies* among the rows left if all of them that it lets through belong to one subunit:
+//!   `rule => subunit` decides these rows rightly, whatever the rule does on rows that earlier children have decided.
+//! - A **child** ([`Child`]) is a subunit, bare or behind rules or a guard, or a *group*: a literal before a selector.
+//! - A **list** is the children of a selector from the left; its **price** is their nodes, then their literals.
+//! - The **rest** of some rows is the list that greedy choice makes for them: again and again the child that decides most
+//!   rows for its price. Until all rows are decided, a partial list is judged by its price and that of its rest.
+//!
+//! # One step
+//!
+//! A beam holds some partial lists. Each is extended by every child that may stand next. The extended lists are sorted
+//! by their estimates; the best of them, each completed by its rest, become candidates for the result, and those that
+//! still leave rows of several subunits are the next beam. The selector in a group is found in the same way, by a
+//! narrower beam over the rows that the literal lets through.
+//!
+//! # Example
+//!
+//! ```text
+//! low  carrying  near  behavior
+//!  0      0       -    fetch
+//!  0      1       -    deliver
+//!  1      -       0    go
+//!  1      -       1    dock
+//! ```
+//!
+//! A row with `-` stands for two minterms here, so there are eight rows, two for each behaviour. At first no literal
+//! alone applies: each lets rows of several behaviours through. So the rest of all rows begins with a cube of two
+//! literals and comes to 12 nodes and 4 literals:
+//!
+//! ```text
+//! selector { low and near => dock, low => go, carrying => deliver, fetch }
+//! ```
+//!
+//! Among the children that may stand first is the group behind `low`. Of the rows that it lets through, the rest is
+//! `near => dock, go`; of those that it leaves, `carrying => deliver, fetch`. The estimate is 12 nodes and 3 literals, the
+//! best of all, and so the tree is
+//!
+//! ```text
+//! selector { low => selector { near => dock, go }, carrying => deliver, fetch }
+//! ```
 
 use super::covers::Covers;
-use super::factor::{Cost, add};
 use super::list::{Child, List, Stock};
-use super::rules::{Rules, Standing, guarding};
+use super::rules::{Applied, Rules};
 use super::subunit::Subunit;
 use crate::ir::tree::Node;
-use crate::logic::{Bits, Cube, Literal};
+use crate::logic::{Bits, Literal};
+use crate::tree::size::Price;
 use rustc_hash::{FxHashMap, FxHashSet};
-use std::cmp::Reverse;
 use std::rc::Rc;
 
 /// How wide and how deep a beam is.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shape {
-    /// Unfinished selectors that are kept after each step at the root.
+    /// Partial lists that are kept after each step at the root.
     pub(super) width: usize,
     /// The same within groups.
     pub(super) inner: usize,
@@ -26,21 +65,20 @@ pub(super) struct Shape {
     pub(super) depth: usize,
 }
 
-/// Rules that are tried as the next child, groups that are, and groups that are searched from within.
+/// Rules that are tried as the next child, and groups that are.
 const NEXT_RULES: usize = 10;
 const NEXT_GROUPS: usize = 4;
-/// Finished selectors that are kept.
+/// Complete lists that are kept.
 const FINALISTS: usize = 24;
 
-/// A selector that is not finished, and the rows that its children leave.
-#[derive(Clone)]
+/// A partial list, and the rows that its children leave.
 struct Partial {
     list: List,
     left: Bits,
 }
 
 /// A child that may stand next, with the rows that it decides.
-struct Step {
+struct Next {
     child: Rc<Child>,
     rows: Bits,
 }
@@ -48,8 +86,10 @@ struct Step {
 pub(super) struct Beam<'a, 'p> {
     stock: Stock<'a, 'p>,
     shape: Shape,
-    greedy: FxHashMap<Bits, Option<Rc<List>>>,
-    best: FxHashMap<(Bits, usize), Option<Rc<List>>>,
+    /// The rest of each set of rows.
+    rests: FxHashMap<Bits, Option<Rc<List>>>,
+    /// The best selector in a group, by its rows and its depth.
+    groups: FxHashMap<(Bits, usize), Option<Rc<List>>>,
 }
 
 impl<'a, 'p> Beam<'a, 'p> {
@@ -62,242 +102,321 @@ impl<'a, 'p> Beam<'a, 'p> {
         Self {
             stock: Stock::new(covers, subunits, rules),
             shape,
-            greedy: FxHashMap::default(),
-            best: FxHashMap::default(),
+            rests: FxHashMap::default(),
+            groups: FxHashMap::default(),
         }
     }
 
-    /// The best trees for all rows, smallest first as far as costs tell.
+    /// The best trees for all rows, cheapest first.
     pub(super) fn trees(&mut self) -> Vec<Node> {
         let all = self.stock.covers.problem.all();
-        let lists = self.beam(&all, self.shape.width, self.shape.depth);
+        let lists = self.lists(&all, self.shape.width, self.shape.depth);
         lists.iter().map(|list| self.stock.node(list)).collect()
     }
 
-    /// The best finished selectors for these rows, cheapest first.
-    fn beam(&mut self, rows: &Bits, width: usize, depth: usize) -> Vec<List> {
-        let mut open = vec![Partial {
+    /// The best complete lists for these rows, cheapest first.
+    fn lists(&mut self, rows: &Bits, width: usize, depth: usize) -> Vec<List> {
+        let mut complete: Vec<List> = Vec::new();
+        complete.extend(self.rest(rows).map(|list| self.stock.merged(&list)));
+        let mut beam = vec![Partial {
             list: List::default(),
             left: rows.clone(),
         }];
-        let mut done: Vec<List> = Vec::new();
-        done.extend(self.rest(rows).map(|list| self.stock.merged(&list)));
-        while !open.is_empty() {
-            let mut next: Vec<(Cost, Partial, Rc<List>)> = Vec::new();
-            let mut seen: FxHashSet<(Bits, Cost)> = FxHashSet::default();
-            for partial in &open {
-                for step in self.steps(partial, depth) {
-                    let left = partial.left.minus(&step.rows);
-                    let cost = self.stock.cost(&step.child);
-                    if !seen.insert((left.clone(), add(partial.list.cost, cost))) {
+        while !beam.is_empty() {
+            let mut extended: Vec<(Price, Partial, Rc<List>)> = Vec::new();
+            let mut seen: FxHashSet<(Bits, Price)> = FxHashSet::default();
+            for partial in &beam {
+                for next in self.next(&partial.left, depth) {
+                    let left = partial.left.minus(&next.rows);
+                    let price = self.stock.price(&next.child);
+                    if !seen.insert((left.clone(), partial.list.price + price)) {
                         continue;
                     }
                     let Some(rest) = self.rest(&left) else {
                         continue;
                     };
-                    let list = partial.list.with(step.child, cost);
-                    let estimate = add(list.cost, rest.cost);
-                    next.push((estimate, Partial { list, left }, rest));
+                    let list = partial.list.with(next.child, price);
+                    let estimate = list.price + rest.price;
+                    extended.push((estimate, Partial { list, left }, rest));
                 }
             }
-            next.sort_by_key(|(estimate, ..)| *estimate);
-            let finished = next.iter().take(width);
-            done.extend(
-                finished.map(|(_, partial, rest)| self.stock.merged(&partial.list.then(rest))),
-            );
-            next.retain(|(_, partial, _)| self.sole(&partial.left).is_none());
-            next.truncate(width);
-            open = next.into_iter().map(|(_, partial, _)| partial).collect();
+            extended.sort_by_key(|(estimate, ..)| *estimate);
+            let best = extended.iter().take(width);
+            complete
+                .extend(best.map(|(_, partial, rest)| self.stock.merged(&partial.list.then(rest))));
+            extended.retain(|(_, partial, _)| self.sole(&partial.left).is_none());
+            extended.truncate(width);
+            beam = extended
+                .into_iter()
+                .map(|(_, partial, _)| partial)
+                .collect();
         }
-        done.sort_by_key(List::whole);
-        done.dedup();
-        done.truncate(FINALISTS);
-        done
+        complete.sort_by_key(List::whole);
+        complete.dedup();
+        complete.truncate(FINALISTS);
+        complete
     }
 
-    /// Every child that may stand next.
-    fn steps(&mut self, partial: &Partial, depth: usize) -> Vec<Step> {
+    /// Every child that may stand next: subunits with all of their rows left, rules, and groups.
+    fn next(&mut self, left: &Bits, depth: usize) -> Vec<Next> {
         let covers = self.stock.covers;
-        let left = &partial.left;
-        let mut steps = Vec::new();
         if self.sole(left).is_some() || !covers.affords(0) {
-            return steps;
+            return Vec::new();
         }
         let subunits = self.stock.subunits;
-        let mut standing = self.stock.rules.standing(covers, subunits, left);
-        for (number, subunit) in subunits.iter().enumerate() {
-            let own = subunit.rows.and(left);
-            if own.is_empty() {
-                continue;
-            }
-            if subunit.guards_itself {
-                if own == subunit.rows {
-                    let child = Rc::new(Child::Bare(number));
-                    steps.push(Step { child, rows: own });
-                }
-                continue;
-            }
-            let of_this: Vec<&Standing> = standing.iter().filter(|s| s.subunit == number).collect();
-            if let Some(rules) = self.stock.rules.covering(&of_this, &own)
-                && rules.len() > 1
-            {
-                let child = Rc::new(Child::Ruled(number, rules));
-                let rows = own.clone();
-                steps.push(Step { child, rows });
-            }
-            let off = left.minus(&own);
-            if depth == self.shape.depth && covers.may_minimise(&own, &off) {
-                let child = Rc::new(Child::Guarded(number, covers.guard(&own, &off)));
-                self.stock.rules.learn(covers, &covers.cover(&own, &off));
-                steps.push(Step { child, rows: own });
-            }
+        let mut applied = self.stock.rules.applied(covers, subunits, left);
+        let mut found = Vec::new();
+        for number in 0..subunits.len() {
+            self.whole_subunits(number, left, &applied, depth, &mut found);
         }
-        standing.sort_by_cached_key(|s| self.worth(s.rule, &s.rows));
-        standing.truncate(NEXT_RULES);
-        steps.extend(standing.into_iter().map(|s| Step {
-            child: Rc::new(Child::Ruled(s.subunit, vec![s.rule])),
-            rows: s.rows,
+        applied.sort_by_cached_key(|applied| self.order(applied));
+        applied.truncate(NEXT_RULES);
+        found.extend(applied.into_iter().map(|applied| Next {
+            child: Rc::new(Child::Ruled(applied.subunit, vec![applied.rule])),
+            rows: applied.rows,
         }));
         if depth > 1 {
-            steps.extend(self.groups(left, depth));
+            found.extend(self.next_groups(left, depth));
         }
-        steps
+        found
     }
 
-    /// Rules that decide many rows for their cost first.
-    fn worth(&self, rule: usize, rows: &Bits) -> (Reverse<usize>, usize) {
-        let literals = self.stock.rules.get(rule).map_or(0, |rule| rule.literals);
-        // Rows by nodes, in 2520ths, so that small costs divide it.
-        (Reverse(rows.count() * 2520 / (2 + literals)), rule)
+    /// A subunit as a child that decides all of its rows left: bare if it guards itself, else behind several rules, and
+    /// at the root behind a guard of its own.
+    fn whole_subunits(
+        &mut self,
+        number: usize,
+        left: &Bits,
+        applied: &[Applied],
+        depth: usize,
+        found: &mut Vec<Next>,
+    ) {
+        let covers = self.stock.covers;
+        let Some(subunit) = self.stock.subunits.get(number) else {
+            return;
+        };
+        let own = subunit.rows.and(left);
+        let mut push = |child| {
+            found.push(Next {
+                child: Rc::new(child),
+                rows: own.clone(),
+            });
+        };
+        if own.is_empty() {
+            return;
+        }
+        if subunit.guards_itself {
+            if own == subunit.rows {
+                push(Child::Bare(number));
+            }
+            return;
+        }
+        let of_this: Vec<&Applied> = applied.iter().filter(|a| a.subunit == number).collect();
+        if let Some(rules) = self.stock.rules.covering(&of_this, &own)
+            && rules.len() > 1
+        {
+            push(Child::Ruled(number, rules));
+        }
+        let off = left.minus(&own);
+        if depth == self.shape.depth && covers.may_minimise(&own, &off) {
+            push(Child::Guarded(number, covers.guard(&own, &off)));
+            self.stock.rules.learn(covers, &covers.cover(&own, &off));
+        }
     }
 
-    /// Literals that let some, but not all of the rows through, and rows of several subunits, with the best selectors
-    /// behind them.
-    fn groups(&mut self, left: &Bits, depth: usize) -> Vec<Step> {
-        let mut promising: Vec<(Cost, Cube, Bits)> = Vec::new();
-        for cube in self.literals() {
+    /// The best groups: behind a literal that lets some, but not all rows through, and rows of several subunits.
+    fn next_groups(&mut self, left: &Bits, depth: usize) -> Vec<Next> {
+        let mut promising: Vec<(Price, Literal, Bits)> = Vec::new();
+        for literal in self.stock.rules.literals_asked() {
             let covers = self.stock.covers;
             covers.spend(covers.words() * 4);
-            let through = covers.problem.columns().cube_rows(&cube, left);
-            if through.is_empty() || through == *left || self.sole(&through).is_some() {
-                continue;
-            }
-            if self.cuts(&through, left) {
+            let mut through = left.clone();
+            covers.problem.columns().restrict(&mut through, literal);
+            if through.is_empty()
+                || through == *left
+                || self.sole(&through).is_some()
+                || self.divides_memory(&through, left)
+            {
                 continue;
             }
             let after = left.minus(&through);
             let (Some(inner), Some(rest)) = (self.rest(&through), self.rest(&after)) else {
                 continue;
             };
-            let cost = add(add(guarding(1), inner.whole()), rest.cost);
-            promising.push((cost, cube, through));
+            let estimate = self.stock.price(&Child::Group(literal, inner)) + rest.price;
+            promising.push((estimate, literal, through));
         }
-        promising.sort_by_key(|(cost, ..)| *cost);
+        promising.sort_by_key(|(estimate, ..)| *estimate);
         promising.truncate(NEXT_GROUPS);
-        let groups = promising.into_iter().filter_map(|(_, cube, rows)| {
-            let inner = self.inner(&rows, depth - 1)?;
-            let child = Rc::new(Child::Group(cube, inner));
-            Some(Step { child, rows })
+        let groups = promising.into_iter().filter_map(|(_, literal, rows)| {
+            let inner = self.group(&rows, depth - 1)?;
+            let child = Rc::new(Child::Group(literal, inner));
+            Some(Next { child, rows })
         });
         groups.collect()
     }
 
-    /// The literals that groups may stand behind: of all atoms while they are few, else those that rules ask.
-    fn literals(&self) -> Vec<Cube> {
-        let asked = self.stock.rules.asked();
-        let both = asked.iter().flat_map(|atom| {
-            [true, false].map(|positive| {
-                Cube::new([Literal {
-                    atom: *atom,
-                    positive,
-                }])
-            })
-        });
-        both.collect()
-    }
-
-    /// Whether these rows are some, but not all of those that a memory node has left: it stands in one place only.
-    fn cuts(&self, through: &Bits, left: &Bits) -> bool {
+    /// Whether these are some, but not all of the rows that a memory node has left. A memory node stands in one place.
+    fn divides_memory(&self, through: &Bits, left: &Bits) -> bool {
         self.stock.subunits.iter().any(|subunit| {
             let own = subunit.rows.and(left);
             !subunit.is_behavior() && !own.is_disjoint(through) && !own.is_subset(through)
         })
     }
 
-    /// The best selector for rows below the root.
-    fn inner(&mut self, rows: &Bits, depth: usize) -> Option<Rc<List>> {
+    /// The best list in a group of these rows.
+    fn group(&mut self, rows: &Bits, depth: usize) -> Option<Rc<List>> {
         let key = (rows.clone(), depth);
-        if let Some(known) = self.best.get(&key) {
+        if let Some(known) = self.groups.get(&key) {
             return known.clone();
         }
-        let found = self.beam(rows, self.shape.inner, depth);
+        let found = self.lists(rows, self.shape.inner, depth);
         let best = found.into_iter().next().map(Rc::new);
-        self.best.insert(key, best.clone());
+        self.groups.insert(key, best.clone());
         best
     }
 
-    /// What comes of always taking the rule that decides most rows for its cost; `None` where the rules do not suffice
-    /// and the work is spent.
+    /// The rest of these rows; `None` where the rules do not suffice and the effort is spent.
     fn rest(&mut self, rows: &Bits) -> Option<Rc<List>> {
-        if let Some(known) = self.greedy.get(rows) {
+        if let Some(known) = self.rests.get(rows) {
             return known.clone();
         }
-        let found = self.greedily(rows).map(Rc::new);
-        self.greedy.insert(rows.clone(), found.clone());
+        let found = self.greedy(rows).map(Rc::new);
+        self.rests.insert(rows.clone(), found.clone());
         found
     }
 
-    fn greedily(&self, rows: &Bits) -> Option<List> {
+    fn greedy(&self, rows: &Bits) -> Option<List> {
         let (stock, covers) = (&self.stock, self.stock.covers);
         let mut list = List::default();
         let mut left = rows.clone();
         while !left.is_empty() {
-            if let Some(sole) = self.sole(&left) {
-                let child = Child::Bare(sole);
-                let cost = stock.cost(&child);
-                return Some(list.with(Rc::new(child), cost));
-            }
-            let standing = stock.rules.standing(covers, stock.subunits, &left);
-            let best = standing
-                .into_iter()
-                .min_by_key(|standing| self.worth(standing.rule, &standing.rows));
-            let (child, rows) = match best {
-                Some(best) => (Child::Ruled(best.subunit, vec![best.rule]), best.rows),
-                None => self.whole(&left)?,
+            let applied = || stock.rules.applied(covers, stock.subunits, &left);
+            let (child, rows) = match self.sole(&left) {
+                Some(sole) => (Child::Bare(sole), left.clone()),
+                None => match applied().into_iter().min_by_key(|a| self.order(a)) {
+                    Some(best) => (Child::Ruled(best.subunit, vec![best.rule]), best.rows),
+                    None => self.first_whole(&left)?,
+                },
             };
-            let cost = stock.cost(&child);
-            list = list.with(Rc::new(child), cost);
+            let price = stock.price(&child);
+            list = list.with(Rc::new(child), price);
             left.subtract(&rows);
         }
         Some(list)
     }
 
-    /// The first subunit that may stand whole, where no rule stands.
-    fn whole(&self, left: &Bits) -> Option<(Child, Bits)> {
+    /// The first subunit that may decide all of its rows left at once, for rows to which no rule applies.
+    fn first_whole(&self, left: &Bits) -> Option<(Child, Bits)> {
         let covers = self.stock.covers;
         let mut subunits = self.stock.subunits.iter().enumerate();
         subunits.find_map(|(number, subunit)| {
             let own = subunit.rows.and(left);
-            if own.is_empty() || subunit.guards_itself && own != subunit.rows {
-                return None;
-            }
             let off = left.minus(&own);
             let child = match subunit.guards_itself {
+                _ if own.is_empty() => return None,
+                true if own != subunit.rows => return None,
                 true => Child::Bare(number),
-                false if covers.may_minimise(&own, &off) => {
-                    Child::Guarded(number, covers.guard(&own, &off))
-                }
-                false => return None,
+                false if !covers.may_minimise(&own, &off) => return None,
+                false => Child::Guarded(number, covers.guard(&own, &off)),
             };
             Some((child, own))
         })
     }
 
-    /// The subunit that holds all of the rows.
+    /// Where an applied rule stands among others: first those that decide most rows for their nodes.
+    fn order(&self, applied: &Applied) -> (std::cmp::Reverse<usize>, usize) {
+        // A sequence and a leaf, and the literals.
+        let nodes = 2 + self.stock.rules.literals(applied.rule);
+        let worth = Rules::per_node(applied.rows.count(), nodes);
+        (std::cmp::Reverse(worth), applied.rule)
+    }
+
+    /// The subunit to which all of the rows belong.
     fn sole(&self, rows: &Bits) -> Option<usize> {
-        let subunits = &self.stock.subunits;
-        subunits
-            .iter()
-            .position(|subunit| rows.is_subset(&subunit.rows))
+        let mut subunits = self.stock.subunits.iter();
+        subunits.position(|subunit| rows.is_subset(&subunit.rows))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Beam, Shape};
+    use crate::ir::Id;
+    use crate::ir::tree::{Atom, Guard, Node};
+    use crate::policy::{Minterm, Policy, Row};
+    use crate::tree::decanonicalise::covers::Covers;
+    use crate::tree::decanonicalise::problem::Problem;
+    use crate::tree::decanonicalise::rules::Rules;
+    use crate::tree::decanonicalise::subunit::behaviors;
+    use crate::tree::guard::and;
+    use crate::tree::unit::{guarded, selector};
+
+    const FETCH: usize = 0;
+    const DELIVER: usize = 1;
+    const GO: usize = 2;
+    const DOCK: usize = 3;
+
+    fn example() -> Policy {
+        let decides = |[low, carrying, near]: [bool; 3]| match (low, carrying, near) {
+            (false, false, _) => FETCH,
+            (false, true, _) => DELIVER,
+            (true, _, false) => GO,
+            (true, _, true) => DOCK,
+        };
+        let rows = (0..8).map(|number| {
+            let values = [4, 2, 1].map(|bit| number & bit != 0);
+            Row {
+                minterm: Minterm::new(values),
+                free: None,
+                behavior: Id::new(decides(values)),
+                visits: 0,
+                values: Vec::new(),
+            }
+        });
+        Policy {
+            atoms: (0..3).map(|i| Atom::Predicate(Id::new(i))).collect(),
+            behaviors: (0..4).map(Id::new).collect(),
+            rows: rows.collect(),
+            ..Policy::default()
+        }
+    }
+
+    /// What the page above says of the example.
+    #[test]
+    fn the_group_of_the_example_saves_a_literal() {
+        let policy = example();
+        let problem = Problem::new(&policy);
+        let covers = Covers::new(&problem, u64::MAX);
+        let subunits = behaviors(&problem);
+        let rules = Rules::new(&covers, std::iter::empty());
+        let shape = Shape {
+            width: 8,
+            inner: 2,
+            depth: 2,
+        };
+        let mut beam = Beam::new(&covers, &subunits, rules, shape);
+        let [low, carrying, near] = [0, 1, 2].map(|i| Guard::Atom(policy.atoms[i]));
+        let leaf = |behavior| Node::Behavior(Id::new(behavior));
+
+        let rest = beam.rest(&problem.all()).unwrap();
+        assert_eq!((rest.whole().nodes, rest.whole().literals), (12, 4));
+        let greedy = [
+            guarded(and([low.clone(), near.clone()]), leaf(DOCK)),
+            guarded(low.clone(), leaf(GO)),
+            guarded(carrying.clone(), leaf(DELIVER)),
+            leaf(FETCH),
+        ];
+        assert_eq!(beam.stock.node(&rest), selector(greedy));
+
+        let best = beam.lists(&problem.all(), 8, 2).remove(0);
+        assert_eq!((best.whole().nodes, best.whole().literals), (12, 3));
+        let group = selector([guarded(near, leaf(DOCK)), leaf(GO)]);
+        let expected = [
+            guarded(low, group),
+            guarded(carrying, leaf(DELIVER)),
+            leaf(FETCH),
+        ];
+        assert_eq!(beam.trees()[0], selector(expected));
     }
 }

@@ -1,10 +1,10 @@
 //! Guards for sets of rows, each minimised once, the work counted.
 
-use super::factor::{Cost, factored, nodes};
 use super::problem::Problem;
 use crate::ir::tree::{Composite, Guard};
 use crate::logic::{Bits, Cover, Effort, minimise_with};
-use crate::tree::formula::not;
+use crate::tree::guard::{factored, not};
+use crate::tree::size::Price;
 use rustc_hash::FxHashMap;
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
@@ -16,17 +16,17 @@ const ROW: u64 = 256;
 /// makes do with the rules of the list that it starts from, and Algorithm 1 is not run beside it.
 pub(super) const LARGE: usize = 4096;
 
-/// A guard with what it costs under a sequence.
+/// A guard with its price under a sequence.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Priced {
     pub(super) guard: Guard,
-    pub(super) cost: Cost,
+    pub(super) price: Price,
 }
 
 impl Priced {
     pub(super) fn new(guard: Guard) -> Self {
         Self {
-            cost: nodes(&guard, true, Composite::Sequence),
+            price: Price::of_guard(&guard, Composite::Sequence),
             guard,
         }
     }
@@ -112,7 +112,7 @@ impl<'a> Covers<'a> {
         let mut best = Priced::new(factored(&cover, atoms));
         if cover.cubes().len() > 1 && self.may_minimise(off, on) {
             let other = Priced::new(not(factored(&self.cover(off, on), atoms)));
-            if other.cost < best.cost {
+            if other.price < best.price {
                 best = other;
             }
         }

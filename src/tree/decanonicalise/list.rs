@@ -1,13 +1,14 @@
 //! Selectors as they are searched: lists of children.
 
 use super::covers::{Covers, Priced};
-use super::factor::{Cost, add};
-use super::rules::{Rules, guarding};
+use super::rules::Rules;
 use super::subunit::Subunit;
 use crate::ir::tree::Node;
-use crate::logic::{Cover, Cube};
+use crate::logic::Literal;
 use crate::tree::Size;
-use crate::tree::formula::{cover, guarded, selector};
+use crate::tree::guard;
+use crate::tree::size::Price;
+use crate::tree::unit::{guarded, selector};
 use std::rc::Rc;
 
 /// A child of a selector.
@@ -19,24 +20,24 @@ pub(super) enum Child {
     Ruled(usize, Vec<usize>),
     /// A subunit behind a guard.
     Guarded(usize, Rc<Priced>),
-    /// A cube before a selector that decides all of its rows that are left.
-    Group(Cube, Rc<List>),
+    /// A selector behind a literal that decides all rows left that the literal lets through.
+    Group(Literal, Rc<List>),
 }
 
 /// Children from the left that decide all rows that come to them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct List {
     pub(super) children: Vec<Rc<Child>>,
-    /// What the children cost, without the selector over them.
-    pub(super) cost: Cost,
+    /// The price of the children, without the selector over them.
+    pub(super) price: Price,
 }
 
 impl List {
-    /// The cost as one node.
-    pub(super) fn whole(&self) -> Cost {
+    /// The price as one node.
+    pub(super) fn whole(&self) -> Price {
         match self.children.len() {
-            1 => self.cost,
-            _ => add(self.cost, (1, 0)),
+            1 => self.price,
+            _ => Price::COMPOSITE + self.price,
         }
     }
 
@@ -45,17 +46,17 @@ impl List {
         let children = self.children.iter().chain(&rest.children);
         Self {
             children: children.cloned().collect(),
-            cost: add(self.cost, rest.cost),
+            price: self.price + rest.price,
         }
     }
 
     /// With one more child.
-    pub(super) fn with(&self, child: Rc<Child>, cost: Cost) -> Self {
+    pub(super) fn with(&self, child: Rc<Child>, price: Price) -> Self {
         let mut children = self.children.clone();
         children.push(child);
         Self {
             children,
-            cost: add(self.cost, cost),
+            price: self.price + price,
         }
     }
 }
@@ -65,15 +66,12 @@ pub(super) struct Stock<'a, 'p> {
     pub(super) covers: &'a Covers<'p>,
     pub(super) subunits: &'a [Subunit],
     pub(super) rules: Rules,
-    bodies: Vec<Cost>,
+    bodies: Vec<Price>,
 }
 
 impl<'a, 'p> Stock<'a, 'p> {
     pub(super) fn new(covers: &'a Covers<'p>, subunits: &'a [Subunit], rules: Rules) -> Self {
-        let body = |subunit: &Subunit| {
-            let size = Size::of(&subunit.body);
-            (size.nodes, size.literals)
-        };
+        let body = |subunit: &Subunit| Size::of(&subunit.body).price();
         Self {
             covers,
             subunits,
@@ -82,20 +80,20 @@ impl<'a, 'p> Stock<'a, 'p> {
         }
     }
 
-    /// Nodes and literals of a child.
-    pub(super) fn cost(&self, child: &Child) -> Cost {
+    /// The price of a child.
+    pub(super) fn price(&self, child: &Child) -> Price {
         let body = |subunit: &usize| self.bodies.get(*subunit).copied().unwrap_or_default();
         match child {
             Child::Bare(subunit) => body(subunit),
             Child::Ruled(subunit, rules) => {
                 let guard = match rules.as_slice() {
-                    [rule] => guarding(self.rules.get(*rule).map_or(0, |rule| rule.literals)),
-                    rules => add((1, 0), self.rules.guard(self.covers, rules).cost),
+                    [rule] => Price::literals(self.rules.literals(*rule)),
+                    rules => self.rules.guard(self.covers, rules).price,
                 };
-                add(guard, body(subunit))
+                Price::COMPOSITE + guard + body(subunit)
             }
-            Child::Guarded(subunit, guard) => add(add((1, 0), guard.cost), body(subunit)),
-            Child::Group(cube, list) => add(guarding(cube.literals().len()), list.whole()),
+            Child::Guarded(subunit, guard) => Price::COMPOSITE + guard.price + body(subunit),
+            Child::Group(_, list) => Price::COMPOSITE + Price::literals(1) + list.whole(),
         }
     }
 
@@ -104,9 +102,9 @@ impl<'a, 'p> Stock<'a, 'p> {
         let mut merged = List::default();
         let mut at = 0;
         while let Some(child) = list.children.get(at) {
-            let mut best = (child.clone(), self.cost(child));
+            let mut best = (child.clone(), self.price(child));
             let mut next = at + 1;
-            let (mut joined, mut apart) = ((**child).clone(), best.1);
+            let (mut joined, mut single) = ((**child).clone(), best.1);
             for (j, child) in list.children.iter().enumerate().skip(at + 1) {
                 let (Child::Ruled(a, rules), Child::Ruled(b, more)) = (&mut joined, &**child)
                 else {
@@ -116,12 +114,12 @@ impl<'a, 'p> Stock<'a, 'p> {
                     break;
                 }
                 rules.extend(more);
-                apart = add(apart, self.cost(child));
-                let cost = self.cost(&joined);
-                // Of equal cost, fewer units.
-                if (cost.0, cost.1) <= (apart.0, apart.1) {
-                    best = (Rc::new(joined.clone()), cost);
-                    apart = cost;
+                single = single + self.price(child);
+                let price = self.price(&joined);
+                // At the same price, fewer units.
+                if price <= single {
+                    best = (Rc::new(joined.clone()), price);
+                    single = price;
                     next = j + 1;
                 }
             }
@@ -133,12 +131,7 @@ impl<'a, 'p> Stock<'a, 'p> {
 
     /// The node of a list.
     pub(super) fn node(&self, list: &List) -> Node {
-        selector(
-            list.children
-                .iter()
-                .map(|child| self.child(child))
-                .collect(),
-        )
+        selector(list.children.iter().map(|child| self.child(child)))
     }
 
     fn child(&self, child: &Child) -> Node {
@@ -153,8 +146,8 @@ impl<'a, 'p> Stock<'a, 'p> {
                 guarded(self.rules.guard(self.covers, rules).guard, body(subunit))
             }
             Child::Guarded(subunit, priced) => guarded(priced.guard.clone(), body(subunit)),
-            Child::Group(cube, list) => {
-                guarded(cover(&Cover::new([cube.clone()]), atoms), self.node(list))
+            Child::Group(literal, list) => {
+                guarded(guard::literal(*literal, atoms), self.node(list))
             }
         }
     }

@@ -1,11 +1,11 @@
 //! Lists of whole subunits in the order that is asked for.
 
 use super::covers::{Covers, Priced};
-use super::factor::factored;
 use super::subunit::Subunit;
 use crate::ir::tree::Node;
 use crate::logic::{Bits, Cover, Effort, Order, list};
-use crate::tree::formula::{guarded, selector};
+use crate::tree::guard::factored;
+use crate::tree::unit::{guarded, selector};
 
 /// Every subunit in one place: its number and its cover among those that stand behind it.
 pub(super) fn in_order(covers: &Covers, subunits: &[Subunit], order: Order) -> Vec<(usize, Cover)> {
@@ -34,11 +34,11 @@ pub(super) fn tree(covers: &Covers, subunits: &[Subunit], list: &[(usize, Cover)
         let mut guard = Priced::new(factored(cover, &covers.problem.policy.atoms));
         if cover.cubes().len() > 1 && covers.may_minimise(&subunit.rows, &left) {
             let other = covers.guard(&subunit.rows, &left);
-            if other.cost < guard.cost {
+            if other.price < guard.price {
                 guard = (*other).clone();
             }
         }
         Some(guarded(guard.guard, subunit.body.clone()))
     });
-    selector(units.collect())
+    selector(units)
 }

@@ -6,7 +6,8 @@ use super::subunit::Subunit;
 use crate::ir::tree::{Atom, Composite, Node, Status};
 use crate::logic::{Bits, Cover};
 use crate::policy::Minterm;
-use crate::tree::formula::{cover, guarded};
+use crate::tree::guard::cover;
+use crate::tree::unit::{guarded, memory};
 
 /// Two subunits that a history literal tells apart, with the way in which a memory node joins them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -159,24 +160,8 @@ impl Pair {
             Status::Failure => Composite::Selector,
             _ => Composite::Sequence,
         };
-        let mut children = Vec::new();
-        for node in bodies {
-            match node {
-                // Chains are one memory node.
-                Node::Composite {
-                    kind: inner,
-                    memory: true,
-                    children: links,
-                } if inner == kind => children.extend(links),
-                node => children.push(node),
-            }
-        }
         Subunit {
-            body: Node::Composite {
-                kind,
-                memory: true,
-                children,
-            },
+            body: memory(kind, bodies),
             rows: first.rows.or(&second.rows),
             last: second.last,
             guards_itself,

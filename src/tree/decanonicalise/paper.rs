@@ -6,7 +6,8 @@ use super::subunit::{Subunit, behaviors, canonical, replace};
 use crate::ir::tree::Node;
 use crate::logic::{Bits, Cover, Cube, Literal};
 use crate::tree::Size;
-use crate::tree::formula::{guarded, literal, selector};
+use crate::tree::guard::literal;
+use crate::tree::unit::{guarded, selector};
 use std::rc::Rc;
 
 /// Rounds of ordering and minimising after which the last is taken.
@@ -136,10 +137,6 @@ fn place(covers: &Covers, subunits: &[Subunit]) -> Node {
             break;
         }
     }
-    selector(
-        units
-            .iter()
-            .map(|(guard, subunit)| subunit.under(covers.problem, guard))
-            .collect(),
-    )
+    let units = units.iter();
+    selector(units.map(|(guard, subunit)| subunit.under(covers.problem, guard)))
 }

@@ -1,9 +1,9 @@
 //! Rules: cubes that may let a subunit through.
 
 use super::covers::{Covers, Priced};
-use super::factor::{Cost, factored};
 use super::subunit::Subunit;
 use crate::logic::{Bits, Cover, Cube, Literal};
+use crate::tree::guard::factored;
 use std::collections::BTreeSet;
 
 /// Literals of the cubes that are all tried while there is work left.
@@ -12,20 +12,19 @@ const SHORT: usize = 3;
 const MOST: usize = 600;
 const SHARE: u64 = 1024;
 
-/// A cube with its rows and what it costs as a guard.
+/// A cube with its rows.
 #[derive(Clone, Debug)]
 pub(super) struct Rule {
     pub(super) cube: Cube,
     pub(super) rows: Bits,
-    pub(super) literals: usize,
 }
 
-/// A rule as it stands among rows that are left.
+/// A rule that applies among the rows left: all of them that it lets through belong to one subunit.
 #[derive(Clone, Debug)]
-pub(super) struct Standing {
+pub(super) struct Applied {
     pub(super) rule: usize,
     pub(super) subunit: usize,
-    /// The rows that are left and that it decides.
+    /// The rows left that it decides.
     pub(super) rows: Bits,
 }
 
@@ -82,7 +81,6 @@ impl Rules {
         self.asked.extend(atoms);
         if !rows.is_empty() {
             self.rules.push(Rule {
-                literals: cube.literals().len(),
                 cube: cube.clone(),
                 rows,
             });
@@ -112,75 +110,81 @@ impl Rules {
         }
     }
 
-    /// A rule.
-    pub(super) fn get(&self, rule: usize) -> Option<&Rule> {
+    fn get(&self, rule: usize) -> Option<&Rule> {
         self.rules.get(rule)
     }
 
-    /// The atoms that rules ask.
-    pub(super) fn asked(&self) -> &BTreeSet<usize> {
-        &self.asked
+    /// The number of literals of a rule.
+    pub(super) fn literals(&self, rule: usize) -> usize {
+        self.get(rule).map_or(0, |rule| rule.cube.literals().len())
     }
 
-    /// All rules.
-    pub(super) fn iter(&self) -> impl Iterator<Item = (usize, &Rule)> {
-        self.rules.iter().enumerate()
+    /// Both literals of each atom that rules ask.
+    pub(super) fn literals_asked(&self) -> Vec<Literal> {
+        let atoms = self.asked.iter();
+        atoms
+            .flat_map(|&atom| [true, false].map(|positive| Literal { atom, positive }))
+            .collect()
     }
 
-    /// The rules that decide some of the rows that are left, all in favour of one subunit.
-    pub(super) fn standing(
+    /// The rules that apply among the rows left.
+    pub(super) fn applied(
         &self,
         covers: &Covers,
         subunits: &[Subunit],
         left: &Bits,
-    ) -> Vec<Standing> {
+    ) -> Vec<Applied> {
         covers.spend(self.rules.len() as u64 * 2 * covers.words());
-        let standing = self.iter().filter_map(|(at, rule)| {
+        let applied = self.rules.iter().enumerate().filter_map(|(at, rule)| {
             let first = rule.rows.first_of_both(left)?;
             let own = |(_, subunit): &(usize, &Subunit)| subunit.rows.contains(first);
             let (number, subunit) = subunits.iter().enumerate().find(own)?;
             if subunit.guards_itself || !rule.rows.both_within(left, &subunit.rows) {
                 return None;
             }
-            // A memory node stands in one place only.
+            // A memory node stands in one place.
             let whole = subunit.is_behavior() || subunit.rows.both_within(left, &rule.rows);
-            whole.then(|| Standing {
+            whole.then(|| Applied {
                 rule: at,
                 subunit: number,
                 rows: rule.rows.and(left),
             })
         });
-        standing.collect()
+        applied.collect()
     }
 
-    /// Rules among those that stand that together decide all of these rows, the one that decides most for its literals
-    /// first, none superfluous; `None` where they do not suffice.
-    pub(super) fn covering(&self, standing: &[&Standing], rows: &Bits) -> Option<Vec<usize>> {
-        let worth = |s: &Standing, left: &Bits| {
-            let literals = self.get(s.rule).map_or(1, |rule| rule.literals);
-            s.rows.count_both(left) * 2520 / (1 + literals)
+    /// Rules among these that together decide all of these rows, chosen greedily by the rows that they decide for their
+    /// literals, none superfluous; `None` where they do not suffice.
+    pub(super) fn covering(&self, applied: &[&Applied], rows: &Bits) -> Option<Vec<usize>> {
+        let worth = |a: &Applied, left: &Bits| {
+            Self::per_node(a.rows.count_both(left), 1 + self.literals(a.rule))
         };
-        let mut chosen: Vec<&Standing> = Vec::new();
+        let mut chosen: Vec<&Applied> = Vec::new();
         let mut left = rows.clone();
         while !left.is_empty() {
-            let best = standing
+            let best = applied
                 .iter()
-                .map(|s| (worth(s, &left), *s))
-                .max_by_key(|(worth, s)| (*worth, std::cmp::Reverse(s.rule)));
+                .map(|a| (worth(a, &left), *a))
+                .max_by_key(|(worth, a)| (*worth, std::cmp::Reverse(a.rule)));
             let (_, best) = best.filter(|(worth, _)| *worth > 0)?;
             left.subtract(&best.rows);
             chosen.push(best);
         }
         let mut at = 0;
         while let Some(one) = chosen.get(at) {
-            let others = chosen.iter().filter(|s| s.rule != one.rule);
-            let covered = others.fold(Bits::empty(rows.bound()), |all, s| all.or(&s.rows));
+            let others = chosen.iter().filter(|a| a.rule != one.rule);
+            let covered = others.fold(Bits::empty(rows.bound()), |all, a| all.or(&a.rows));
             match rows.is_subset(&covered) {
                 true => drop(chosen.remove(at)),
                 false => at += 1,
             }
         }
-        Some(chosen.into_iter().map(|s| s.rule).collect())
+        Some(chosen.into_iter().map(|a| a.rule).collect())
+    }
+
+    /// Rows by nodes, in 2520ths: small numbers of nodes divide 2520.
+    pub(super) fn per_node(rows: usize, nodes: usize) -> usize {
+        rows * 2520 / nodes
     }
 
     /// These rules as one guard.
@@ -200,9 +204,4 @@ fn short(atoms: usize, length: usize) -> usize {
         all = all.saturating_add(of_length);
     }
     all
-}
-
-/// The cost of a cube before a body: the sequence and the literals.
-pub(super) fn guarding(literals: usize) -> Cost {
-    (1 + literals, literals)
 }

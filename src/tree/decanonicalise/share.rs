@@ -2,7 +2,8 @@
 
 use crate::ir::tree::{Composite, Guard, Node};
 use crate::tree::Size;
-use crate::tree::formula::{and, guarded, selector};
+use crate::tree::guard::{and, atom, conjuncts};
+use crate::tree::unit::{self, Unit, guarded, selector};
 
 /// The tree with shared literals taken out of the guards of neighbours wherever that makes it smaller: a unit whose
 /// guard fails lets the next one try, and so does a group of units none of whose guards hold.
@@ -66,47 +67,17 @@ fn group(children: &[Node], start: usize, end: usize, literal: &Guard) -> Vec<No
         .collect()
 }
 
-/// The literals that have to hold for a unit to be let through.
+/// The literals without which a unit lets nothing through.
 fn literals(node: &Node) -> Vec<Guard> {
-    let is_literal = |guard: &&Guard| match guard {
-        Guard::Atom(_) => true,
-        Guard::Not(inner) => matches!(**inner, Guard::Atom(_)),
-        _ => false,
-    };
-    match guard(node) {
-        Some((Guard::And(parts), _)) => parts.iter().filter(is_literal).cloned().collect(),
-        Some((guard, _)) => Some(guard)
-            .filter(is_literal)
-            .cloned()
-            .into_iter()
-            .collect(),
-        None => Vec::new(),
-    }
-}
-
-/// The guard and the body of a unit.
-fn guard(node: &Node) -> Option<(&Guard, &Node)> {
-    match node {
-        Node::Composite {
-            kind: Composite::Sequence,
-            memory: false,
-            children,
-        } => match children.as_slice() {
-            [Node::Condition(guard), body] => Some((guard, body)),
-            _ => None,
-        },
-        _ => None,
-    }
+    let parts = unit::parts(node).map_or(&[][..], |(guard, _)| conjuncts(guard));
+    let literals = parts.iter().filter(|part| atom(part).is_some());
+    literals.cloned().collect()
 }
 
 /// The unit without one of its literals.
 fn without(node: &Node, literal: &Guard) -> Node {
-    match guard(node) {
-        Some((Guard::And(parts), body)) => {
-            let rest = parts.iter().filter(|part| *part != literal).cloned();
-            guarded(and(rest), body.clone())
-        }
-        Some((guard, body)) if guard == literal => body.clone(),
-        _ => node.clone(),
-    }
+    let unit = Unit::of(node);
+    let rest = conjuncts(&unit.guard).iter();
+    let rest = and(rest.filter(|part| *part != literal).cloned());
+    guarded(rest, unit.body)
 }

@@ -6,7 +6,8 @@ use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::Node;
 use crate::logic::{Bits, Cover};
-use crate::tree::formula::{cover, guarded, selector};
+use crate::tree::guard::cover;
+use crate::tree::unit::{guarded, selector};
 
 /// A part of the tree with the minterms that are its own.
 #[derive(Clone, Debug)]
@@ -38,7 +39,7 @@ pub(super) fn canonical(covers: &Covers, subunits: &[Subunit]) -> Node {
         let off = covers.problem.all().minus(&subunit.rows);
         subunit.under(covers.problem, &covers.cover(&subunit.rows, &off))
     });
-    selector(units.collect())
+    selector(units)
 }
 
 impl Subunit {

@@ -2,13 +2,14 @@
 
 use super::memory::{chain, done};
 use super::plain::unasked;
-use super::units::{Unit, needs, select};
+use super::units::{needs, select};
 use super::{Candidate, Change, Possible, tidy};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::{Atom, Guard, Node};
 use crate::tree::atoms::{atoms as atoms_of, behaviors, children};
-use crate::tree::formula::{and, not};
+use crate::tree::guard::{and, not};
+use crate::tree::unit::Unit;
 use std::collections::BTreeSet;
 
 /// A behaviour, the values of the atoms in which it drove, and for how many ticks.

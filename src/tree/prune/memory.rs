@@ -1,10 +1,10 @@
 //! Sequences with memory in the place of guards over the history.
 
-use super::guards::{common, cubes, either, literals};
-use super::units::{Unit, join, units};
+use super::units::join;
 use super::{Change, Move};
 use crate::ir::tree::{Atom, Composite, Guard, Node};
-use crate::tree::formula::{and, or};
+use crate::tree::guard::{self, alternatives, and, common, conjuncts, either, literals, or};
+use crate::tree::unit::{Unit, memory, units};
 
 /// Two units `… done(a) … => b` and `… => a` as `guard => memory sequence { a, b }`, in the place of either.
 ///
@@ -61,29 +61,15 @@ pub(super) fn done(body: &Node) -> Option<Atom> {
 
 /// The memory sequence of two bodies, as one where they are such themselves.
 pub(super) fn chain(first: &Node, second: &Node) -> Node {
-    let parts = |body: &Node| match body {
-        Node::Composite {
-            kind: Composite::Sequence,
-            memory: true,
-            children,
-        } => children.clone(),
-        body => vec![body.clone()],
-    };
-    Node::Composite {
-        kind: Composite::Sequence,
-        memory: true,
-        children: [parts(first), parts(second)].concat(),
-    }
+    memory(Composite::Sequence, [first.clone(), second.clone()])
 }
 
 /// The guard without its literals over an atom.
 fn without(guard: &Guard, atom: Atom) -> Guard {
-    let says = |literal: &Guard| match literal {
-        Guard::Not(inner) => **inner == Guard::Atom(atom),
-        literal => *literal == Guard::Atom(atom),
-    };
-    or(cubes(guard).iter().map(|cube| {
-        let parts = super::tidy::parts(cube).iter();
-        and(parts.filter(|part| !says(part)).cloned())
+    or(alternatives(guard).iter().map(|cube| {
+        let parts = conjuncts(cube).iter();
+        and(parts
+            .filter(|part| guard::atom(part) != Some(atom))
+            .cloned())
     }))
 }

@@ -1,12 +1,12 @@
 //! Which trees read more plainly, and moves to them that change no size.
 
-use super::guards::{common, negations};
-use super::units::{Unit, needs, select, units};
+use super::units::{needs, select};
 use super::{Candidate, Change, Move, Possible, tidy, with_child};
 use crate::ir::tree::{Guard, Node};
 use crate::tree::Size;
 use crate::tree::atoms::children;
-use crate::tree::formula::not;
+use crate::tree::guard::{common, negations, not};
+use crate::tree::unit::{Unit, units};
 
 /// What it takes to read a tree; less is better, by the fields in their order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -1,70 +1,15 @@
 //! Moves over the units of a selector.
 
-use super::guards::{common, either, literals, parts};
+use super::guards::looser;
 use super::plain::unasked;
 use super::{Change, Move, Possible};
 use crate::ir::tree::{Composite, Guard, Node};
-use crate::tree::formula::{and, guarded};
-
-/// `guard => body`.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Unit {
-    pub(super) guard: Guard,
-    pub(super) body: Node,
-}
-
-impl Unit {
-    fn of(node: &Node) -> Self {
-        if let Node::Composite {
-            kind: Composite::Sequence,
-            memory: false,
-            children,
-        } = node
-            && let [Node::Condition(guard), body] = children.as_slice()
-        {
-            return Self {
-                guard: guard.clone(),
-                body: body.clone(),
-            };
-        }
-        Self {
-            guard: Guard::Const(true),
-            body: node.clone(),
-        }
-    }
-
-    fn node(self) -> Node {
-        guarded(self.guard, self.body)
-    }
-
-    /// The same under another guard.
-    pub(super) fn under(&self, guard: Guard) -> Self {
-        Self {
-            guard,
-            body: self.body.clone(),
-        }
-    }
-}
-
-/// The units of a selector; `None` for any other node.
-pub(super) fn units(node: &Node) -> Option<Vec<Unit>> {
-    match node {
-        Node::Composite {
-            kind: Composite::Selector,
-            memory: false,
-            children,
-        } => Some(children.iter().map(Unit::of).collect()),
-        _ => None,
-    }
-}
+use crate::tree::guard::{and, common, conjuncts, either, literals};
+use crate::tree::unit::{Unit, selector, units};
 
 /// The selector of these units.
 pub(super) fn select(units: Vec<Unit>) -> Node {
-    Node::Composite {
-        kind: Composite::Selector,
-        memory: false,
-        children: units.into_iter().map(Unit::node).collect(),
-    }
+    selector(units.into_iter().map(Unit::node))
 }
 
 /// The units with the one at `at` replaced.
@@ -150,7 +95,7 @@ fn where_possible(units: &[Unit], possible: &[Possible], found: &mut Vec<Move>) 
         };
         let mut guards = vec![needs.clone()];
         if unasked(unit, possible).is_some() {
-            let parts = super::tidy::parts(&unit.guard);
+            let parts = conjuncts(&unit.guard);
             guards.push(and(parts.iter().cloned().chain([needs.clone()])));
             for at in 0..parts.len() {
                 let kept = parts.iter().enumerate().filter(|(j, _)| *j != at);
@@ -194,14 +139,14 @@ fn reordered(units: &[Unit], found: &mut Vec<Move>) {
         exchanged.swap(i - 1, i);
         for at in [i - 1, i] {
             if let Some(moved) = exchanged.get(at) {
-                for guard in parts(&moved.guard) {
+                for guard in looser(&moved.guard) {
                     let units = put(&exchanged, at, moved.under(guard));
                     found.push((Change::Reordered, select(units)));
                 }
             }
         }
         if i > 1 {
-            for guard in parts(&unit.guard) {
+            for guard in looser(&unit.guard) {
                 let mut units = units.to_vec();
                 units.remove(i);
                 units.insert(0, unit.under(guard));

@@ -38,7 +38,7 @@ fn a_row_is_decided_alike_in_all_of_its_minterms() {
     // Wrong in one minterm of the second row alone.
     let wrong = selector(vec![
         when(p(0), leaf(0)),
-        when(btc::tree::formula::and([p(1), not(p(2))]), leaf(1)),
+        when(btc::tree::guard::and([p(1), not(p(2))]), leaf(1)),
         leaf(2),
     ]);
     let Err(Refuted::Decides {

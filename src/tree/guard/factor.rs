@@ -1,41 +1,18 @@
-//! Covers as guards: what alternatives have in common is taken out of them.
+//! Covers as guards in which alternatives share what they have in common.
+//!
+//! Algebraic division (Brayton 1987): F = Q·D + R, where Q is what remains of the alternatives that have some literal
+//! once it is taken out, D is F divided by Q, and R is the rest.
 
+use super::{and, cube, or};
 use crate::ir::tree::{Atom, Composite, Guard};
 use crate::logic::{Cover, Literal};
-use crate::tree::formula::{and, literal, or};
-
-/// Nodes and literals: the part of a size that adds up.
-pub(super) type Cost = (usize, usize);
-
-pub(super) fn add(a: Cost, b: Cost) -> Cost {
-    (a.0 + b.0, a.1 + b.1)
-}
+use crate::tree::size::Price;
 
 /// Alternatives up to which every literal that several have in common is tried as the one to take out.
 const THOROUGH: usize = 6;
 
-/// The nodes that a guard, or its negation, is drawn with under a node that joins in the way `outer`.
-pub(super) fn nodes(guard: &Guard, positive: bool, outer: Composite) -> Cost {
-    let (joins, parts) = match (guard, positive) {
-        (Guard::Const(_), _) => return (1, 0),
-        (Guard::Atom(_), _) => return (1, 1),
-        (Guard::Not(guard), _) => return nodes(guard, !positive, outer),
-        (Guard::And(parts), true) | (Guard::Or(parts), false) => (Composite::Sequence, parts),
-        (Guard::And(parts), false) | (Guard::Or(parts), true) => (Composite::Selector, parts),
-    };
-    let own = match joins == outer {
-        true => (0, 0),
-        false => (1, 0),
-    };
-    let parts = parts.iter().map(|part| nodes(part, positive, joins));
-    parts.fold(own, add)
-}
-
-/// A guard that holds where the cover does, with as few nodes as dividing it comes to.
-///
-/// Algebraic division (Brayton 1987): F = Q·D + R, where Q is what is left of the alternatives with some literal, and D
-/// is what F divided by Q leaves.
-pub(super) fn factored(cover: &Cover, atoms: &[Atom]) -> Guard {
+/// A guard that holds where the cover does, with as few nodes as division finds.
+pub fn factored(cover: &Cover, atoms: &[Atom]) -> Guard {
     let cubes = cover.cubes().iter().map(|cube| cube.literals().to_vec());
     divided(&cubes.collect::<Vec<_>>(), atoms)
 }
@@ -43,46 +20,45 @@ pub(super) fn factored(cover: &Cover, atoms: &[Atom]) -> Guard {
 type Cubes = [Vec<Literal>];
 
 fn divided(cubes: &Cubes, atoms: &[Atom]) -> Guard {
-    let joined = |cube: &Vec<Literal>| and(cube.iter().map(|l| literal(*l, atoms)));
     match cubes {
         [] => return Guard::Const(false),
-        [cube] => return joined(cube),
+        [only] => return cube(only, atoms),
         [first, ..] => {
-            let common = |l: &&Literal| cubes.iter().all(|cube| cube.contains(l));
-            let common: Vec<Literal> = first.iter().filter(common).copied().collect();
+            let in_all = |l: &&Literal| cubes.iter().all(|cube| cube.contains(l));
+            let common: Vec<Literal> = first.iter().filter(in_all).copied().collect();
             if !common.is_empty() {
                 let rest = without(cubes, &common);
-                return and([joined(&common), divided(&rest, atoms)]);
+                return and([cube(&common, atoms), divided(&rest, atoms)]);
             }
         }
     }
-    let flat = or(cubes.iter().map(joined));
-    let mut best = (nodes(&flat, true, Composite::Sequence), flat);
+    let flat = or(cubes.iter().map(|c| cube(c, atoms)));
+    let mut best = (Price::of_guard(&flat, Composite::Sequence), flat);
     for taken in shared(cubes) {
         let with = cubes.iter().filter(|cube| cube.contains(&taken));
         let quotient = without(&with.cloned().collect::<Vec<_>>(), &[taken]);
         let divisor = quotients(cubes, &quotient);
-        let product = |cube: &Vec<Literal>| {
+        let is_product = |cube: &Vec<Literal>| {
             divisor.iter().any(|d| {
                 let left = remove(cube, d);
                 left.len() + d.len() == cube.len() && quotient.contains(&left)
             })
         };
-        let rest: Vec<Vec<Literal>> = cubes.iter().filter(|c| !product(c)).cloned().collect();
+        let rest: Vec<Vec<Literal>> = cubes.iter().filter(|c| !is_product(c)).cloned().collect();
         let factor = and([divided(&divisor, atoms), divided(&quotient, atoms)]);
         let whole = match rest.is_empty() {
             true => factor,
             false => or([factor, divided(&rest, atoms)]),
         };
-        let cost = nodes(&whole, true, Composite::Sequence);
-        if cost < best.0 {
-            best = (cost, whole);
+        let price = Price::of_guard(&whole, Composite::Sequence);
+        if price < best.0 {
+            best = (price, whole);
         }
     }
     best.1
 }
 
-/// The literals that several alternatives have, the most frequent first; of many alternatives only the most frequent.
+/// The literals that several alternatives have, the most frequent first; where there are many alternatives, only that one.
 fn shared(cubes: &Cubes) -> Vec<Literal> {
     let mut all: Vec<Literal> = cubes.iter().flatten().copied().collect();
     all.sort_unstable();
@@ -98,7 +74,7 @@ fn shared(cubes: &Cubes) -> Vec<Literal> {
     counted.into_iter().map(|(_, literal)| literal).collect()
 }
 
-/// What is left of a cube without these literals.
+/// A cube without these literals.
 fn remove(cube: &[Literal], literals: &[Literal]) -> Vec<Literal> {
     let left = cube.iter().filter(|l| !literals.contains(l));
     left.copied().collect()
@@ -108,7 +84,7 @@ fn without(cubes: &Cubes, literals: &[Literal]) -> Vec<Vec<Literal>> {
     cubes.iter().map(|cube| remove(cube, literals)).collect()
 }
 
-/// F divided by Q: the cubes that with every cube of Q make a cube of F.
+/// F divided by Q: the cubes whose conjunction with every cube of Q is a cube of F.
 fn quotients(cubes: &Cubes, by: &Cubes) -> Vec<Vec<Literal>> {
     let divided = |q: &Vec<Literal>| -> Vec<Vec<Literal>> {
         let holding = cubes.iter().filter(|c| q.iter().all(|l| c.contains(l)));
@@ -123,10 +99,11 @@ fn quotients(cubes: &Cubes, by: &Cubes) -> Vec<Vec<Literal>> {
 
 #[cfg(test)]
 mod tests {
-    use super::{factored, nodes};
+    use super::factored;
     use crate::ir::Id;
     use crate::ir::tree::{Atom, Composite, Guard};
     use crate::logic::{Cover, Cube, Literal};
+    use crate::tree::size::Price;
 
     fn guard(cubes: &[&str]) -> (Guard, Cover, Vec<Atom>) {
         let atoms: Vec<Atom> = (0..8).map(|i| Atom::Predicate(Id::new(i))).collect();
@@ -155,7 +132,7 @@ mod tests {
         ] {
             let (guard, cover, atoms) = guard(cubes);
             assert_eq!(
-                nodes(&guard, true, Composite::Sequence).0,
+                Price::of_guard(&guard, Composite::Sequence).nodes,
                 expected,
                 "{cubes:?}: {guard:?}"
             );
