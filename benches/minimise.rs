@@ -34,7 +34,6 @@ const LISTS: [(usize, usize); 6] = [
 fn sweep() -> Effort {
     Effort {
         exact_rows: 0,
-        sweeps: 1,
         rounds: 0,
         ..Effort::default()
     }

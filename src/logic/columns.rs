@@ -103,11 +103,6 @@ impl Columns {
         })
     }
 
-    /// The row as a cube.
-    pub fn cube_of(&self, row: usize) -> Cube {
-        Cube::new(self.literals_of(row))
-    }
-
     /// The column, with the bit that it has where the literal holds on all of the row.
     pub(super) fn inside(&self, literal: Literal) -> (Option<&Bits>, bool) {
         match &self.zeros {

@@ -77,9 +77,4 @@ impl Cover {
     pub fn holds(&self, mut value: impl FnMut(usize) -> bool) -> bool {
         self.cubes.iter().any(|cube| cube.holds(&mut value))
     }
-
-    /// Whether it is one cube without literals.
-    pub fn is_true(&self) -> bool {
-        self.cubes.iter().any(|cube| cube.literals().is_empty())
-    }
 }

@@ -5,8 +5,8 @@ mod learned;
 
 use super::bits::Bits;
 use super::columns::Columns;
-use super::core::Core;
 use super::cube::Cover;
+use super::minimise::core::Core;
 use super::minimise::{Effort, minimise_with};
 use rayon::prelude::*;
 
@@ -46,8 +46,8 @@ pub fn list(
             fixed(columns, &classes, effort)
         }
     };
-    let unit = |unit: Unit| (unit.class.number, unit.cover);
-    list.into_iter().map(unit).collect()
+    let entry = |entry: Entry| (entry.class.number, entry.cover);
+    list.into_iter().map(entry).collect()
 }
 
 /// A class by its number.
@@ -59,12 +59,12 @@ struct Class<'a> {
 
 /// A class with its cover.
 #[derive(Clone, Debug)]
-struct Unit<'a> {
+struct Entry<'a> {
     class: Class<'a>,
     cover: Cover,
 }
 
-impl Unit<'_> {
+impl Entry<'_> {
     fn cost(&self) -> Cost {
         cost(&self.cover)
     }
@@ -78,16 +78,16 @@ fn cost(cover: &Cover) -> Cost {
 }
 
 /// The list in this order.
-fn fixed<'a>(columns: &Columns, classes: &[Class<'a>], effort: &Effort) -> Vec<Unit<'a>> {
-    let unit = |(i, class): (usize, &Class<'a>)| {
+fn fixed<'a>(columns: &Columns, classes: &[Class<'a>], effort: &Effort) -> Vec<Entry<'a>> {
+    let entry = |(i, class): (usize, &Class<'a>)| {
         let after = classes.iter().skip(i + 1);
         let off = union(columns, after.map(|class| class.rows));
-        Unit {
+        Entry {
             class: *class,
             cover: minimise_with(columns, class.rows, &off, effort).cover,
         }
     };
-    classes.par_iter().enumerate().map(unit).collect()
+    classes.par_iter().enumerate().map(entry).collect()
 }
 
 fn union<'a>(columns: &Columns, sets: impl Iterator<Item = &'a Bits>) -> Bits {

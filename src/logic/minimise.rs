@@ -1,29 +1,43 @@
 //! Two-level minimisation from an ON set and an OFF set.
+//!
+//! A problem takes this way:
+//!
+//! 1. [`split`]: ON cubes become their minterms where these are few, since several primes may cover one cube together.
+//! 2. [`core`]: a large table is minimised by a sample of its rows, which grows by the rows that the cover gets wrong.
+//! 3. [`problem`]: the rows of the sample, ON and OFF apart, and the pool of the primes that are found for them.
+//! 4. [`exact`], for small problems: all primes, and the cheapest choice among them.
+//! 5. [`expand`] and [`improve`], for all others: a cover of some primes, parts of which are found anew.
+
+pub(super) mod core;
+mod exact;
+mod expand;
+mod improve;
+mod problem;
+mod random;
+mod split;
 
 use super::bits::Bits;
 use super::columns::Columns;
-use super::core::Core;
-use super::cube::Cover;
-use super::split::split;
+use super::cube::{Cover, Cube};
+use core::Core;
+use problem::Problem;
 
-/// How much work a minimisation may take. It is counted, never timed, so that every machine finds the same cover.
+/// The work that a minimisation may take. It is counted, never timed, so that every machine finds the same cover.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Effort {
-    /// Rows up to which all primes are sought, and steps of that search.
+    /// Rows of the largest problem for which all primes are sought.
     pub exact_rows: usize,
     /// Steps of the search for all primes.
     pub prime_steps: usize,
-    /// Steps of the search for the cheapest cover, and rows times primes that they may go through.
+    /// Steps of the search for the cheapest choice among them.
     pub cover_steps: usize,
-    /// Rows times primes that the search for the cheapest cover may go through.
+    /// The product of rows and primes that this search may read.
     pub cover_work: usize,
-    /// Covers that are built from the left, and seeds of EXPAND at a time.
-    pub sweeps: usize,
     /// Seeds of EXPAND that are tried at a time.
     pub seeds: usize,
-    /// Changes that are tried on a cover, for each of its cubes, before it is left as it is.
+    /// Changes to a cover, for each of its cubes, that are tried without success before it is taken.
     pub rounds: usize,
-    /// Words of rows that these changes may go through.
+    /// Words of rows that these changes may read.
     pub work: usize,
 }
 
@@ -34,7 +48,6 @@ impl Default for Effort {
             prime_steps: 8_000,
             cover_steps: 4_000,
             cover_work: 2_000_000,
-            sweeps: 1,
             seeds: 4,
             rounds: 8,
             work: 1 << 28,
@@ -43,23 +56,19 @@ impl Default for Effort {
 }
 
 impl Effort {
-    /// Just enough to tell cheap from dear.
+    /// Just enough to compare costs.
     #[must_use]
     pub(super) fn quick(&self) -> Self {
-        Self {
-            sweeps: 1,
-            rounds: 0,
-            ..*self
-        }
+        Self { rounds: 0, ..*self }
     }
 }
 
-/// A cover with what is known of it.
+/// A cover.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Solution {
     /// The cover.
     pub cover: Cover,
-    /// Whether no other cover has fewer cubes, nor as many with fewer literals.
+    /// Whether it is proved that no other cover has fewer cubes, or as many and fewer literals.
     pub proved: bool,
 }
 
@@ -72,7 +81,7 @@ pub fn minimise(columns: &Columns, on: &Bits, off: &Bits) -> Cover {
 
 /// As [`minimise`], with an effort, and whether the cover is proved to be smallest.
 pub fn minimise_with(columns: &Columns, on: &Bits, off: &Bits, effort: &Effort) -> Solution {
-    match split(columns, on, off) {
+    match split::split(columns, on, off) {
         Some((columns, on, off)) => by_core(&columns, &on, &off, effort),
         None => by_core(columns, on, off, effort),
     }
@@ -83,4 +92,27 @@ fn by_core(columns: &Columns, on: &Bits, off: &Bits, effort: &Effort) -> Solutio
     let mut core = Core::new(columns, on, off, &quick);
     while !core.refine() {}
     core.finish(effort)
+}
+
+/// A cover of a problem as a whole.
+fn solve(problem: &Problem, effort: &Effort) -> Solution {
+    let trivial = |cover| Solution {
+        cover,
+        proved: true,
+    };
+    if problem.on.rows() == 0 {
+        return trivial(Cover::default());
+    }
+    if problem.off.rows() == 0 {
+        return trivial(Cover::new([Cube::default()]));
+    }
+    let (pool, chosen, proved) = exact::exact(problem, effort).unwrap_or_else(|| {
+        let (pool, chosen) = improve::heuristic(problem, effort);
+        (pool, chosen, false)
+    });
+    let primes = pool.among(&chosen);
+    Solution {
+        cover: Cover::new(primes.map(|prime| prime.cube.clone())),
+        proved,
+    }
 }

@@ -1,6 +1,6 @@
 //! Neighbours in a list that change places.
 
-use super::{Cost, Unit, union, within};
+use super::{Cost, Entry, union, within};
 use crate::logic::bits::Bits;
 use crate::logic::columns::Columns;
 use crate::logic::cube::{Cover, Cube};
@@ -10,7 +10,7 @@ use crate::logic::minimise::Effort;
 ///
 /// Taking the cheapest first may take a class whose cover would be cheaper still after a neighbour that costs the same
 /// before and after.
-pub(super) fn exchange(columns: &Columns, list: &mut [Unit], effort: &Effort) {
+pub(super) fn exchange(columns: &Columns, list: &mut [Entry], effort: &Effort) {
     let mut changed = true;
     while changed {
         changed = false;
@@ -31,15 +31,15 @@ pub(super) fn exchange(columns: &Columns, list: &mut [Unit], effort: &Effort) {
 /// The two in the other order, if that is cheaper; `after` are the rows of all that follow.
 fn exchanged<'a>(
     columns: &Columns,
-    first: &Unit<'a>,
-    second: &Unit<'a>,
+    first: &Entry<'a>,
+    second: &Entry<'a>,
     after: &Bits,
     effort: &Effort,
-) -> Option<(Unit<'a>, Unit<'a>)> {
+) -> Option<(Entry<'a>, Entry<'a>)> {
     let limit = add(first.cost(), second.cost());
     let off = union(columns, [after, first.class.rows].into_iter());
     let cover = within(columns, second.class, &off, limit, effort)?;
-    let earlier = Unit {
+    let earlier = Entry {
         cover,
         ..second.clone()
     };
@@ -48,7 +48,7 @@ fn exchanged<'a>(
         true => Cover::new([Cube::default()]),
         false => within(columns, first.class, after, rest, effort)?,
     };
-    let later = Unit {
+    let later = Entry {
         cover,
         ..first.clone()
     };

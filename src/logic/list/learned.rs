@@ -1,12 +1,12 @@
 //! The order that is learned: the cheapest first.
 
 use super::exchange::exchange;
-use super::{Class, Unit, cost, union};
+use super::{Class, Entry, cost, union};
 use crate::logic::bits::Bits;
 use crate::logic::columns::Columns;
-use crate::logic::core::Core;
 use crate::logic::cube::{Cover, Cube};
 use crate::logic::minimise::Effort;
+use crate::logic::minimise::core::Core;
 use rayon::prelude::*;
 
 /// The list that takes the class with the cheapest cover each time, with neighbours exchanged where that is cheaper.
@@ -14,16 +14,16 @@ pub(super) fn list<'a>(
     columns: &Columns,
     mut classes: Vec<Class<'a>>,
     effort: &Effort,
-) -> Vec<Unit<'a>> {
+) -> Vec<Entry<'a>> {
     let mut list = Vec::new();
     let mut left = union(columns, classes.iter().map(|class| class.rows));
     while classes.len() > 1 {
         let (at, cover) = cheapest(columns, &classes, &left, effort);
         let class = classes.remove(at);
         left.subtract(class.rows);
-        list.push(Unit { class, cover });
+        list.push(Entry { class, cover });
     }
-    let last = classes.into_iter().map(|class| Unit {
+    let last = classes.into_iter().map(|class| Entry {
         class,
         cover: Cover::new([Cube::default()]),
     });

@@ -1,15 +1,14 @@
 //! The rows that decide a problem.
 //!
-//! Most rows of a large table say what others have said. A core is a few of them: what covers it is a guess at a cover
-//! of all, and the rows for which the guess is wrong join the core. A cover of the core that is proved smallest and
-//! holds on all rows is proved smallest for all rows.
+//! Most rows of a large table repeat what others say. A core is a sample of them. A cover of the core is a guess at a cover
+//! of all rows, and the rows for which the guess is wrong join the core. A cover of the core that is proved smallest and
+//! is right on all rows is proved smallest for all rows.
 
-use super::bits::Bits;
-use super::columns::Columns;
-use super::instance::Instance;
-use super::minimise::{Effort, Solution};
+use super::problem::Problem;
 use super::random::{self, Random};
-use super::whole;
+use super::{Effort, Solution, solve};
+use crate::logic::bits::Bits;
+use crate::logic::columns::Columns;
 
 /// Rows up to which a problem is its own core, and rows of ON and of OFF in the first core of a larger one.
 const WHOLE: usize = 512;
@@ -19,7 +18,7 @@ const ROUNDS: usize = 24;
 
 /// A problem with its core.
 #[derive(Clone, Debug)]
-pub(super) struct Core<'a> {
+pub(in crate::logic) struct Core<'a> {
     columns: &'a Columns,
     effort: &'a Effort,
     on: &'a Bits,
@@ -32,7 +31,7 @@ pub(super) struct Core<'a> {
 
 impl<'a> Core<'a> {
     /// A problem with its first core, not yet solved.
-    pub(super) fn new(
+    pub(in crate::logic) fn new(
         columns: &'a Columns,
         on: &'a Bits,
         off: &'a Bits,
@@ -56,12 +55,12 @@ impl<'a> Core<'a> {
     }
 
     /// The cover of the core.
-    pub(super) fn solution(&self) -> &Solution {
+    pub(in crate::logic) fn solution(&self) -> &Solution {
         &self.solution
     }
 
     /// A solution for all rows under a greater effort, on the core that this one came to.
-    pub(super) fn finish(&self, effort: &'a Effort) -> Solution {
+    pub(in crate::logic) fn finish(&self, effort: &'a Effort) -> Solution {
         let mut core = Self {
             effort,
             rounds: 0,
@@ -72,10 +71,10 @@ impl<'a> Core<'a> {
     }
 
     /// Solves the core, and has the rows for which the cover is wrong join it. Whether there are none.
-    pub(super) fn refine(&mut self) -> bool {
+    pub(in crate::logic) fn refine(&mut self) -> bool {
         let rows = |bits: &Bits| bits.iter().collect::<Vec<usize>>();
-        let instance = Instance::new(self.columns, &rows(&self.core_on), &rows(&self.core_off));
-        self.solution = whole::solve(&instance, self.effort);
+        let problem = Problem::new(self.columns, &rows(&self.core_on), &rows(&self.core_off));
+        self.solution = solve(&problem, self.effort);
         self.rounds += 1;
         let cover = &self.solution.cover;
         let missed = self.on.minus(&self.columns.cover_rows(cover, self.on));
@@ -83,7 +82,7 @@ impl<'a> Core<'a> {
         if missed.is_empty() && met.is_empty() {
             return true;
         }
-        let size = instance.rows();
+        let size = problem.rows();
         self.core_on.unite(&sample(&missed, size / 2));
         self.core_off.unite(&sample(&met, size / 2));
         let all = self.on.count() + self.off.count();

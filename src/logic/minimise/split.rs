@@ -3,9 +3,9 @@
 //! A cube that lies in no prime, or only in costly ones, may be covered by several together. Where there are few minterms
 //! in all, they take the places of the cubes; where there are many, each ON cube is covered by one prime.
 
-use super::bits::Bits;
-use super::columns::Columns;
-use super::packed::Packed;
+use crate::logic::bits::Bits;
+use crate::logic::columns::Columns;
+use crate::logic::packed::Packed;
 use std::collections::BTreeSet;
 
 /// The most minterms that take the place of cubes.

@@ -1,0 +1,186 @@
+//! EXPAND: from an ON row to a prime that holds on it; and covers built of such primes, the widest first.
+
+use super::problem::{Pool, Problem};
+use super::random::{Random, sample};
+use crate::logic::alive::Alive;
+use crate::logic::bits::Bits;
+use crate::logic::cube::{Cube, Literal};
+use rayon::prelude::*;
+
+/// Rows that are enough to weigh literals by.
+const ENOUGH: usize = 512;
+
+/// Expansions that each read this many words of rows are spread over several threads.
+const PARALLEL: usize = 20_000;
+
+/// How literals are compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Scoring {
+    /// OFF rows excluded per ON row lost.
+    Ratio,
+    /// Fewest ON rows lost, then most OFF rows excluded.
+    KeepOn,
+    /// Most OFF rows excluded, then fewest ON rows lost.
+    DropOff,
+}
+
+impl Scoring {
+    /// All scorings.
+    pub(super) const ALL: [Self; 3] = [Self::Ratio, Self::KeepOn, Self::DropOff];
+
+    /// Greater is better.
+    fn score(self, lost: usize, gone: usize) -> (u64, u64) {
+        let (lost, gone) = (lost as u64, gone as u64);
+        match self {
+            Self::Ratio => (gone * (1 << 20) / (lost + 1), gone),
+            Self::KeepOn => (u64::MAX - lost, gone),
+            Self::DropOff => (gone, u64::MAX - lost),
+        }
+    }
+}
+
+/// A prime of these literals, all of which hold on some rows of `on`. To the cube without literals the one that scores
+/// best is added until no OFF row is met; then literals are dropped as long as none is met again.
+fn expand(problem: &Problem, mut open: Vec<Literal>, on: &Bits, scoring: Scoring) -> Cube {
+    let (mut kept, mut left) = (Alive::new(on), Alive::new(&problem.all_off()));
+    let mut chosen = Vec::new();
+    let mut enough = ENOUGH;
+    while !left.is_empty() {
+        let stride = |rows: &Alive| (rows.count() / enough).max(1);
+        let (on_stride, off_stride) = (stride(&kept), stride(&left));
+        let mut best: Option<((u64, u64), Literal)> = None;
+        open.retain(|literal| {
+            let (Some(inside), Some(meeting)) = tests(problem, *literal) else {
+                return false;
+            };
+            let gone = left.count_out(meeting, off_stride);
+            if gone > 0 {
+                let score = scoring.score(kept.count_out(inside, on_stride), gone);
+                if best.is_none_or(|(top, _)| score > top) {
+                    best = Some((score, *literal));
+                }
+            }
+            // A literal that excludes nothing now never will.
+            gone > 0 || off_stride > 1
+        });
+        // The words that were read may show nothing where others would. If all were read, a row is both ON and OFF; the
+        // caller's sets are disjoint.
+        let Some((_, literal)) = best else {
+            if off_stride == 1 {
+                break;
+            }
+            enough = usize::MAX;
+            continue;
+        };
+        if let (Some(inside), Some(meeting)) = tests(problem, literal) {
+            kept.keep(inside);
+            left.keep(meeting);
+        }
+        open.retain(|l| *l != literal);
+        chosen.push(literal);
+    }
+    prune(problem, Cube::new(chosen), on)
+}
+
+/// A column with the bit that it has where a literal holds.
+type Test<'a> = (&'a Bits, bool);
+
+fn tests(problem: &Problem, literal: Literal) -> (Option<Test<'_>>, Option<Test<'_>>) {
+    let (inside, holds) = problem.on.inside(literal);
+    let (meeting, meets) = problem.off.meeting(literal);
+    (
+        inside.map(|column| (column, holds)),
+        meeting.map(|column| (column, meets)),
+    )
+}
+
+/// The cube without superfluous literals; those that cost most rows of `on` go first.
+fn prune(problem: &Problem, mut cube: Cube, on: &Bits) -> Cube {
+    loop {
+        let idle = idle(problem, &cube);
+        let shorter = idle.into_iter().map(|literal| {
+            let shorter = cube.without(literal);
+            (problem.on.cube_rows(&shorter, on).count(), shorter)
+        });
+        // Of equal counts the first.
+        let best = shorter.reduce(|best, next| if next.0 > best.0 { next } else { best });
+        match best {
+            Some((_, shorter)) => cube = shorter,
+            None => return cube,
+        }
+    }
+}
+
+/// The literals that exclude no OFF row alone.
+fn idle(problem: &Problem, cube: &Cube) -> Vec<Literal> {
+    let mut once = Bits::empty(problem.off.rows());
+    let mut twice = once.clone();
+    for literal in cube.literals() {
+        let rows = problem.excluded(*literal);
+        twice.unite(&once.and(&rows));
+        once.unite(&rows);
+    }
+    once.subtract(&twice);
+    let literals = cube.literals().iter();
+    literals
+        .filter(|literal| problem.excluded(**literal).is_disjoint(&once))
+        .copied()
+        .collect()
+}
+
+/// Primes of the pool that cover `rows` together.
+///
+/// Literals are weighed on the rows that are still open, so that what few rows share is not drowned by the others. In each
+/// round some open rows are seeds of EXPAND. Of the primes found the widest is taken, then those that cover more than
+/// half as many of the rows left.
+pub(super) fn sweep(
+    problem: &Problem,
+    pool: &mut Pool,
+    rows: &Bits,
+    seeds: usize,
+    scorings: &[Scoring],
+    random: &mut Random,
+) -> Vec<usize> {
+    let mut open = rows.clone();
+    let mut cover = Vec::new();
+    while !open.is_empty() {
+        let seeds = sample(open.iter(), open.count(), seeds, random);
+        let mut found: Vec<usize> = expansions(problem, &seeds, &open, scorings)
+            .into_iter()
+            .map(|cube| pool.add(problem, cube))
+            .collect();
+        found.sort_unstable();
+        found.dedup();
+        let mut widest = 0;
+        while let Some((at, gain)) = pool.widest(found.iter().copied(), &open) {
+            if 2 * gain <= widest {
+                break;
+            }
+            widest = widest.max(gain);
+            if let Some(prime) = pool.get(at) {
+                open.subtract(&prime.covers);
+            }
+            cover.push(at);
+        }
+        // Without a gain the rows left are OFF rows as well; the caller's sets are disjoint.
+        if widest == 0 {
+            break;
+        }
+    }
+    cover
+}
+
+/// A prime for each seed and scoring, in this order on any number of threads.
+fn expansions(problem: &Problem, seeds: &[usize], open: &Bits, scorings: &[Scoring]) -> Vec<Cube> {
+    let one = |(seed, scoring): (usize, Scoring)| {
+        let literals: Vec<Literal> = problem.on.literals_of(seed).collect();
+        expand(problem, literals, open, scoring)
+    };
+    let pairs = seeds
+        .iter()
+        .flat_map(|seed| scorings.iter().map(|s| (*seed, *s)));
+    if problem.words() < PARALLEL {
+        return pairs.map(one).collect();
+    }
+    pairs.collect::<Vec<_>>().into_par_iter().map(one).collect()
+}

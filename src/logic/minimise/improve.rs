@@ -1,0 +1,240 @@
+//! Large problems: a cover of expanded primes, and what ruin and recreate makes of it.
+//!
+//! Some cubes are taken out of a cover, and the rows that only they covered are covered anew. These rows are few, so
+//! EXPAND finds for them what it could not see among all. This does the work of REDUCE, EXPAND and LASTGASP in Espresso
+//! at once. The pool of all primes that were ever found is that of BOOM (Hlavička and Fišer 2001).
+
+use super::Effort;
+use super::expand::{Scoring, sweep};
+use super::problem::{Pool, Prime, Problem};
+use super::random::Random;
+use crate::logic::bits::Bits;
+use crate::logic::cube::{Cube, Literal};
+use std::cmp::Reverse;
+
+/// The search for one short cube may read the whole problem this many times.
+const SHORTEST: usize = 32;
+
+/// A cover, and the pool of its primes.
+pub(super) fn heuristic(problem: &Problem, effort: &Effort) -> (Pool, Vec<usize>) {
+    let mut pool = Pool::default();
+    let mut random = Random::new(0);
+    let on = problem.all_on();
+    let all = &Scoring::ALL;
+    let cover = sweep(problem, &mut pool, &on, effort.seeds, all, &mut random);
+    let cover = improve(problem, &mut pool, cover, effort, &mut random);
+    (pool, cover)
+}
+
+/// The number of primes that cover each row.
+fn multiplicity(pool: &Pool, cover: &[usize], rows: usize) -> Vec<u32> {
+    let mut times = vec![0; rows];
+    for prime in pool.among(cover) {
+        for row in prime.covers.iter() {
+            if let Some(times) = times.get_mut(row) {
+                *times += 1;
+            }
+        }
+    }
+    times
+}
+
+/// Drops primes that the others make superfluous: long ones first, then those that cover fewest rows.
+fn irredundant(pool: &Pool, cover: &mut Vec<usize>, rows: usize) {
+    let mut times = multiplicity(pool, cover, rows);
+    let mut order = cover.clone();
+    order.sort_by_cached_key(|at| {
+        let prime = pool.get(*at);
+        let literals = prime.map_or(0, Prime::literals);
+        let covers = prime.map_or(0, |prime| prime.covers.count());
+        (Reverse(literals), covers, *at)
+    });
+    for at in order {
+        let Some(prime) = pool.get(at) else { continue };
+        let twice = |row| times.get(row).is_some_and(|times| *times > 1);
+        if prime.covers.iter().all(twice) {
+            for row in prime.covers.iter() {
+                if let Some(times) = times.get_mut(row) {
+                    *times -= 1;
+                }
+            }
+            cover.retain(|other| *other != at);
+        }
+    }
+}
+
+/// Tries some changes, and as many again after each that makes the cover cheaper, within the work that is allowed.
+fn improve(
+    problem: &Problem,
+    pool: &mut Pool,
+    mut cover: Vec<usize>,
+    effort: &Effort,
+    random: &mut Random,
+) -> Vec<usize> {
+    let rows = problem.on.rows();
+    let words = rows.div_ceil(64);
+    irredundant(pool, &mut cover, rows);
+    let mut best = pool.cost(&cover);
+    let mut work = effort.work;
+    let rounds = effort.rounds * (cover.len() + 24);
+    let mut left = rounds;
+    while left > 0 && cover.len() > 1 {
+        left -= 1;
+        match work.checked_sub((pool.len() + cover.len()) * words + 2 * problem.words()) {
+            Some(less) => work = less,
+            None => break,
+        }
+        let mut next = cover.clone();
+        let removed = ruin(&mut next, random);
+        let mut open = problem.all_on();
+        pool.among(&next).for_each(|p| open.subtract(&p.covers));
+        next.extend(recreate(problem, pool, &open, &removed, random, &mut work));
+        irredundant(pool, &mut next, rows);
+        next.sort_unstable();
+        let reached = pool.cost(&next);
+        if reached < best {
+            left = rounds;
+        }
+        if reached <= best {
+            best = reached;
+            cover = next;
+        }
+    }
+    cover
+}
+
+/// Takes one to three primes out of a cover.
+fn ruin(cover: &mut Vec<usize>, random: &mut Random) -> Vec<usize> {
+    let count = 1 + random.below(3.min(cover.len()));
+    let mut removed = Vec::new();
+    while removed.len() < count {
+        removed.push(cover.swap_remove(random.below(cover.len())));
+    }
+    removed
+}
+
+/// The literals that hold on all of the rows.
+fn shared(problem: &Problem, rows: &Bits) -> Option<Vec<Literal>> {
+    let first = rows.first()?;
+    let holds = |literal: &Literal| match problem.on.inside(*literal) {
+        (Some(column), true) => rows.is_subset(column),
+        (Some(column), false) => rows.is_disjoint(column),
+        (None, _) => false,
+    };
+    Some(problem.on.literals_of(first).filter(holds).collect())
+}
+
+/// Primes for the open rows: one for all if there is one shorter than the one removed; else new ones or, if they are
+/// cheaper, those of the pool.
+fn recreate(
+    problem: &Problem,
+    pool: &mut Pool,
+    open: &Bits,
+    removed: &[usize],
+    random: &mut Random,
+    work: &mut usize,
+) -> Vec<usize> {
+    let Some(shared) = shared(problem, open) else {
+        return Vec::new();
+    };
+    let (_, literals) = pool.cost(removed);
+    let limit = match removed {
+        [_] => literals,
+        _ => usize::MAX,
+    };
+    let granted = (SHORTEST * problem.words()).min(*work);
+    let mut left = granted;
+    let short = shortest(problem, &shared, limit, &mut left);
+    *work -= granted - left;
+    if let Some(cube) = short {
+        return vec![pool.add(problem, cube)];
+    }
+    let all = Scoring::ALL;
+    let scoring = random.below(all.len());
+    let scoring = all.get(scoring).copied().unwrap_or(Scoring::Ratio);
+    let fresh = sweep(problem, pool, open, 2, &[scoring], random);
+    let chosen = pool.greedy(open);
+    match pool.cost(&chosen) < pool.cost(&fresh) {
+        true => chosen,
+        false => fresh,
+    }
+}
+
+/// A shortest cube of these literals, with fewer than `limit`, that meets no OFF row, as far as a search finds it that
+/// reads no more words of rows than the budget.
+///
+/// It is a smallest set of literals that contains, for every OFF row, one that excludes it.
+fn shortest(
+    problem: &Problem,
+    literals: &[Literal],
+    limit: usize,
+    budget: &mut usize,
+) -> Option<Cube> {
+    let all = Cube::new(literals.iter().copied());
+    let met = problem.off.cube_meets(&all, &problem.all_off());
+    if !met.is_empty() {
+        return None;
+    }
+    let excludes = literals.iter().map(|literal| problem.excluded(*literal));
+    let mut search = Shortest {
+        excludes: excludes.collect(),
+        chosen: Vec::new(),
+        best: None,
+        limit,
+        budget,
+    };
+    search.extend(&problem.all_off(), &Bits::full(literals.len()));
+    let best = search.best?;
+    let chosen = best.into_iter().filter_map(|i| literals.get(i).copied());
+    Some(Cube::new(chosen))
+}
+
+struct Shortest<'a> {
+    /// The OFF rows that each literal excludes.
+    excludes: Vec<Bits>,
+    chosen: Vec<usize>,
+    best: Option<Vec<usize>>,
+    /// Cubes with as many literals are too long.
+    limit: usize,
+    budget: &'a mut usize,
+}
+
+impl Shortest<'_> {
+    /// Adds literals out of `open` until none of the rows in `left` is left.
+    fn extend(&mut self, left: &Bits, open: &Bits) {
+        let rows = left.count();
+        if rows == 0 {
+            self.limit = self.chosen.len();
+            self.best = Some(self.chosen.clone());
+            return;
+        }
+        if *self.budget == 0 || self.chosen.len() + 1 >= self.limit {
+            return;
+        }
+        *self.budget = self
+            .budget
+            .saturating_sub(open.count() * left.words().len());
+        let counts = open
+            .iter()
+            .filter_map(|i| Some((self.excludes.get(i)?.count_both(left), i)));
+        let mut counts: Vec<(usize, usize)> = counts.filter(|(count, _)| *count > 0).collect();
+        counts.sort_unstable_by(|a, b| b.0.cmp(&a.0).then(a.1.cmp(&b.1)));
+        let most: Vec<usize> = counts.iter().map(|(count, _)| *count).collect();
+        let mut open = open.clone();
+        // The literal that excludes most is tried first, and none before it in the list is tried with it again.
+        for (at, (_, literal)) in counts.into_iter().enumerate() {
+            let may = self.limit.saturating_sub(1 + self.chosen.len());
+            if most.iter().skip(at).take(may).sum::<usize>() < rows {
+                return;
+            }
+            open.remove(literal);
+            let Some(excludes) = self.excludes.get(literal) else {
+                continue;
+            };
+            let after = left.minus(excludes);
+            self.chosen.push(literal);
+            self.extend(&after, &open);
+            self.chosen.pop();
+        }
+    }
+}
