@@ -12,91 +12,14 @@ mod sheet;
 pub mod table;
 pub mod transitions;
 
+pub use crate::logic::Minterm;
+
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::task::History;
 use crate::ir::tree::{Atom, Status};
-
-/// A value for every atom of a policy: bit i is the value of its i-th atom.
-///
-/// Ordered as the string of its values, first atom first, 0 before 1.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct Minterm {
-    words: Box<[u64]>,
-    len: usize,
-}
-
-impl Minterm {
-    /// The minterm of these values.
-    pub fn new(values: impl IntoIterator<Item = bool>) -> Self {
-        let mut words = Vec::new();
-        let mut len = 0;
-        for value in values {
-            if len % 64 == 0 {
-                words.push(0);
-            }
-            if let (true, Some(word)) = (value, words.last_mut()) {
-                *word |= 1 << (len % 64);
-            }
-            len += 1;
-        }
-        Self {
-            words: words.into(),
-            len,
-        }
-    }
-
-    /// The minterm of `len` atoms in these words, atom 0 in the lowest bit of the first.
-    fn from_words(words: impl Iterator<Item = u64>, len: usize) -> Self {
-        Self {
-            words: words.collect(),
-            len,
-        }
-    }
-
-    /// The number of atoms.
-    pub fn len(&self) -> usize {
-        self.len
-    }
-
-    /// Whether there are no atoms.
-    pub fn is_empty(&self) -> bool {
-        self.len == 0
-    }
-
-    /// The value of the i-th atom; false past the end.
-    pub fn get(&self, i: usize) -> bool {
-        self.words
-            .get(i / 64)
-            .is_some_and(|word| word >> (i % 64) & 1 == 1)
-    }
-
-    /// The values, first atom first.
-    pub fn values(&self) -> impl Iterator<Item = bool> {
-        (0..self.len).map(|i| self.get(i))
-    }
-
-    /// The values in machine words, atom 0 in the lowest bit of the first.
-    pub fn words(&self) -> &[u64] {
-        &self.words
-    }
-}
-
-impl Ord for Minterm {
-    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        let mirrored = |word: &u64| word.reverse_bits();
-        let words = self.words.iter().map(mirrored);
-        words
-            .cmp(other.words.iter().map(mirrored))
-            .then(self.len.cmp(&other.len))
-    }
-}
-
-impl PartialOrd for Minterm {
-    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
-        Some(self.cmp(other))
-    }
-}
+use crate::logic::packed::Packed;
+use std::collections::BTreeMap;
 
 /// A policy with what is known of the process under it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -165,9 +88,38 @@ impl Policy {
             .and_then(|i| self.rows.get(i))
             .map(|row| row.behavior)
     }
+
+    /// The rows with each minterm that they stand for in a row of its own, sorted. Where rows overlap the first decides.
+    pub fn minterm_rows(&self) -> Vec<Row> {
+        let mut rows: BTreeMap<Minterm, Row> = BTreeMap::new();
+        for row in &self.rows {
+            for minterm in row.minterms() {
+                rows.entry(minterm).or_insert_with_key(|minterm| Row {
+                    minterm: minterm.clone(),
+                    free: None,
+                    ..row.clone()
+                });
+            }
+        }
+        rows.into_values().collect()
+    }
 }
 
 impl Row {
+    /// The number of atoms that it leaves free.
+    pub fn free_atoms(&self) -> usize {
+        let free = self.free.iter().flat_map(Minterm::values);
+        free.filter(|free| *free).count()
+    }
+
+    /// The minterms that it stands for: two to the power of its free atoms.
+    pub fn minterms(&self) -> impl Iterator<Item = Minterm> {
+        let atoms = self.minterm.len();
+        let free = self.free.as_ref().map_or(&[][..], Minterm::words);
+        let minterms = Packed::new(atoms, self.minterm.words(), free).minterms(atoms);
+        minterms.map(move |cube| Minterm::from_words(cube.values().iter().copied(), atoms))
+    }
+
     /// Whether it stands for this minterm.
     pub fn speaks_of(&self, minterm: &Minterm) -> bool {
         let free = self.free.iter().flat_map(|free| free.words());

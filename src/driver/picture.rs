@@ -40,8 +40,8 @@ pub fn draw(
             simulation.start(begin(task));
             let recorded = record(&mut simulation, ticks, |simulation| {
                 let (mut driver, mut drives) = (None, false);
-                let words = run::words(simulation);
-                runner.tick(&words, |behavior| {
+                let atoms = simulation.atoms();
+                runner.tick_key(atoms, |behavior| {
                     let status = simulation.act(behavior);
                     if !drives {
                         driver = Some(behavior);

@@ -9,7 +9,6 @@ use crate::ir::tree::{Atom, Node, Tree};
 use crate::ir::{Id, Program};
 use crate::learn::binomial::upper95;
 use crate::learn::episode::{Controller, Episode, Greedy, play_all};
-use crate::learn::extract;
 use crate::learn::process::Key;
 use crate::learn::simulated::Purpose;
 use crate::learn::statistics::Summary;
@@ -124,15 +123,9 @@ impl Controller for Ticked {
     }
 
     fn tick(&mut self, simulation: &mut Simulation) {
-        let words = words(simulation);
-        self.0.tick(&words, |behavior| simulation.act(behavior));
+        let atoms = simulation.atoms();
+        self.0.tick_key(atoms, |behavior| simulation.act(behavior));
     }
-}
-
-/// The atoms as a tree reads them.
-pub(super) fn words(simulation: &Simulation) -> [u64; 2] {
-    let atoms = simulation.atoms();
-    [atoms as u64, (atoms >> 64) as u64]
 }
 
 /// The world of a task, from the task's own starts.
@@ -197,7 +190,7 @@ pub(super) fn choices(policy: &Policy) -> FxHashMap<Key, Id<Behavior>> {
     policy
         .rows
         .iter()
-        .map(|row| (extract::key(&row.minterm), row.behavior))
+        .map(|row| (row.minterm.key(), row.behavior))
         .collect()
 }
 

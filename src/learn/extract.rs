@@ -40,19 +40,6 @@ pub fn thin(table: &Table, evidence: u64) -> Vec<(Key, u64)> {
         .collect()
 }
 
-/// The minterm whose bits a key holds.
-pub fn minterm(key: Key, atoms: usize) -> Minterm {
-    Minterm::new((0..atoms).map(|i| key >> i & 1 == 1))
-}
-
-/// The key that holds the bits of a minterm.
-pub fn key(minterm: &Minterm) -> Key {
-    minterm
-        .values()
-        .enumerate()
-        .fold(0, |key, (i, value)| key | Key::from(value) << i)
-}
-
 /// A policy with the evidence of its table, and with what was met under it.
 pub fn policy(
     decisions: &Decisions,
@@ -75,7 +62,7 @@ pub fn policy(
                 })
             });
             Some(Row {
-                minterm: minterm(key, n),
+                minterm: Minterm::of_key(key, n),
                 free: None,
                 behavior,
                 visits: table.visits(row),
@@ -87,7 +74,7 @@ pub fn policy(
     let mut starts: Vec<(Minterm, u64)> = met
         .starts
         .iter()
-        .map(|(key, count)| (minterm(*key, n), *count))
+        .map(|(key, count)| (Minterm::of_key(*key, n), *count))
         .collect();
     starts.sort();
     let mut transitions: Vec<Transition> = met
@@ -95,10 +82,10 @@ pub fn policy(
         .iter()
         .filter_map(|(&(from, choice, status, to), &count)| {
             Some(Transition {
-                from: minterm(from, n),
+                from: Minterm::of_key(from, n),
                 behavior: *task.choose.get(choice)?,
                 status,
-                to: to.map(|to| minterm(to, n)),
+                to: to.map(|to| Minterm::of_key(to, n)),
                 count,
             })
         })

@@ -1,5 +1,7 @@
 //! Cubes in machine words, for operations on lists of them.
 
+use super::minterm::bit;
+
 /// A cube: for each atom whether it is fixed to 1, and whether it is fixed to 0.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Packed {
@@ -54,12 +56,7 @@ impl Packed {
 
     /// The value to which an atom is fixed.
     pub fn get(&self, atom: usize) -> Option<bool> {
-        let bit = |words: &[u64]| {
-            words
-                .get(atom / 64)
-                .is_some_and(|word| word >> (atom % 64) & 1 == 1)
-        };
-        match (bit(&self.ones), bit(&self.zeros)) {
+        match (bit(&self.ones, atom), bit(&self.zeros, atom)) {
             (true, _) => Some(true),
             (_, true) => Some(false),
             _ => None,
@@ -90,6 +87,18 @@ impl Packed {
                     (i * 64 + bit, ones >> bit & 1 == 1)
                 })
             })
+        })
+    }
+
+    /// The cubes of its minterms over `atoms` atoms: 2^n for n free ones.
+    pub fn minterms(self, atoms: usize) -> impl Iterator<Item = Self> {
+        let free: Vec<usize> = (0..atoms).filter(|a| self.get(*a).is_none()).collect();
+        (0..1_u64 << free.len()).map(move |bits| {
+            let mut minterm = self.clone();
+            for (i, atom) in free.iter().enumerate() {
+                minterm.set(*atom, Some(bits >> i & 1 == 1));
+            }
+            minterm
         })
     }
 

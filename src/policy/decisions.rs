@@ -6,7 +6,7 @@
 use super::error::{TableError, TableErrorKind};
 use super::sheet;
 use super::table::{Format, Table};
-use super::{Minterm, Policy, Row};
+use super::{Policy, Row};
 use crate::ir::law::Behavior;
 use crate::ir::program::Predicate;
 use crate::ir::task::Task;
@@ -171,37 +171,17 @@ fn chosen(table: &Table, ids: &[Id<Behavior>]) -> Vec<Id<Behavior>> {
     ids.iter().take(table.chosen).copied().collect()
 }
 
-/// Puts the minterms that a policy's rows stand for in their place, sorted, each once.
+/// Replaces the rows of a policy by one for each minterm.
 ///
 /// # Errors
 /// The number of a row that stands for too many.
 fn expand(policy: &mut Policy) -> Result<(), usize> {
-    if policy.rows.iter().all(|row| row.free.is_none()) {
-        return Ok(());
+    let widths = || policy.rows.iter().map(Row::free_atoms);
+    if let Some(at) = widths().position(|free| free > WIDEST) {
+        return Err(at);
     }
-    let mut all = Vec::new();
-    for (at, row) in policy.rows.iter().enumerate() {
-        let free: Vec<usize> = match &row.free {
-            Some(free) => (0..free.len()).filter(|i| free.get(*i)).collect(),
-            None => Vec::new(),
-        };
-        if free.len() > WIDEST {
-            return Err(at);
-        }
-        for bits in 0..1_u32 << free.len() {
-            let values = row.minterm.values().enumerate().map(|(atom, value)| {
-                let at = free.iter().position(|i| *i == atom);
-                at.map_or(value, |at| bits >> at & 1 == 1)
-            });
-            all.push(Row {
-                minterm: Minterm::new(values),
-                free: None,
-                ..row.clone()
-            });
-        }
+    if widths().any(|free| free > 0) {
+        policy.rows = policy.minterm_rows();
     }
-    all.sort_by(|a, b| a.minterm.cmp(&b.minterm));
-    all.dedup_by(|a, b| a.minterm == b.minterm);
-    policy.rows = all;
     Ok(())
 }

@@ -138,7 +138,7 @@ pub(super) fn minterm(cells: &[&Cell]) -> Result<Minterm, TableError> {
             expected: "`0` or `1`",
         })),
     });
-    Ok(Minterm::new(values.collect::<Result<Vec<bool>, _>>()?))
+    values.collect()
 }
 
 /// The text that a row stands in.

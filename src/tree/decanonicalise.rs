@@ -4,7 +4,6 @@ mod beam;
 mod covers;
 mod list;
 mod memory;
-mod minterms;
 mod orders;
 mod pairs;
 mod paper;
@@ -20,7 +19,7 @@ use super::prove::{Proof, Prover, Refuted};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::{Node, Status};
-use crate::policy::{Minterm, Policy};
+use crate::policy::{Minterm, Policy, Row};
 use covers::{Covers, LARGE};
 use problem::Problem;
 use std::borrow::Cow;
@@ -110,11 +109,11 @@ pub struct Failing {
 /// The policy has no rows, or the tree that was found is refuted: with the counterexample.
 pub fn decanonicalise(policy: &Policy, options: &Options) -> Result<Decanonicalised, Refuted> {
     let policy = &*cared(policy, options.care);
-    let apart = minterms::apart(policy);
-    let problem = Problem::new(apart.as_ref().unwrap_or(policy));
+    let split = by_minterms(policy);
+    let problem = Problem::new(split.as_ref().unwrap_or(policy));
     let paper = || paper::tree(&Covers::new(&problem, u64::MAX));
-    let beside = options.method == Method::Paper || problem.policy.rows.len() <= LARGE;
-    let first = beside.then(paper);
+    let runs_paper = options.method == Method::Paper || problem.policy.rows.len() <= LARGE;
+    let first = runs_paper.then(paper);
     let found = match options.method {
         Method::Paper => None,
         Method::Search => {
@@ -124,7 +123,7 @@ pub fn decanonicalise(policy: &Policy, options: &Options) -> Result<Decanonicali
     };
     let paper_size = first.as_ref().map(Size::of);
     let root = found.or(first).unwrap_or_else(paper);
-    let proof = match &apart {
+    let proof = match &split {
         // What was found on minterms is proved on the cubes.
         Some(_) => Prover::new(policy).prove(&root)?,
         None => problem.prover().prove(&root)?,
@@ -135,6 +134,21 @@ pub fn decanonicalise(policy: &Policy, options: &Options) -> Result<Decanonicali
         failing: failing(policy, &proof),
         root,
         proof,
+    })
+}
+
+/// The policy with a row for each minterm of its cubes; `None` if it has no cubes, or they hold more minterms than a
+/// small table has rows. Only the row of a minterm is on one side of every literal.
+fn by_minterms(policy: &Policy) -> Option<Policy> {
+    let widths = || policy.rows.iter().map(Row::free_atoms);
+    if widths().all(|free| free == 0) {
+        return None;
+    }
+    let minterms = |free: usize| 1_usize.checked_shl(free as u32).unwrap_or(usize::MAX);
+    let all = widths().map(minterms).fold(0, usize::saturating_add);
+    (all <= LARGE).then(|| Policy {
+        rows: policy.minterm_rows(),
+        ..policy.clone()
     })
 }
 

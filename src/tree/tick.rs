@@ -56,6 +56,11 @@ impl Runner {
         self.tick_in(&mut Known(valuation, leaf))
     }
 
+    /// One tick in a valuation as the simulator keeps it: a key of at most 128 atoms.
+    pub fn tick_key(&mut self, key: u128, leaf: impl FnMut(Id<Behavior>) -> Status) -> Status {
+        self.tick(&[key as u64, (key >> 64) as u64], leaf)
+    }
+
     /// One tick.
     pub fn tick_in(&mut self, surroundings: &mut impl Surroundings) -> Status {
         self.next.fill(0);

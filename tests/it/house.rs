@@ -17,7 +17,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("check", &["source", "diagnostic", "syntax", "ir", "math"]),
     ("eval", &["ir", "math", "random"]),
     ("world", &["ir", "eval", "math", "random"]),
-    ("policy", &["ir"]),
+    ("policy", &["ir", "logic"]),
     ("learn", &["ir", "world", "policy", "math", "random"]),
     ("tree", &["ir", "policy", "logic"]),
     ("emit", &["ir", "tree", "source", "syntax", "math"]),

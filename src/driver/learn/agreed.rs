@@ -3,7 +3,6 @@
 use super::bench::Bench;
 use super::results::Results;
 use crate::learn::agreement::Votes;
-use crate::learn::extract;
 use crate::policy::Minterm;
 
 /// The agreement of several runs with the one that was taken, on the minterms that its greedy policy reached.
@@ -64,7 +63,7 @@ impl Agreement {
                 .collect();
             named.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
             agreement.disputed.push(Disputed {
-                minterm: extract::minterm(key, results.policy.atoms.len()),
+                minterm: Minterm::of_key(key, results.policy.atoms.len()),
                 votes: named,
                 count,
             });

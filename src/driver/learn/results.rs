@@ -126,7 +126,7 @@ pub(super) fn care_set(care: Care, met: &RollOut, run: &Run) -> FxHashSet<Key> {
 pub(super) fn thin(run: &Run, evidence: u64, atoms: usize) -> Vec<(Minterm, u64)> {
     let found = extract::thin(&run.table, evidence).into_iter();
     let mut thin: Vec<(Minterm, u64)> = found
-        .map(|(key, visits)| (extract::minterm(key, atoms), visits))
+        .map(|(key, visits)| (Minterm::of_key(key, atoms), visits))
         .collect();
     thin.sort();
     thin

@@ -62,7 +62,7 @@ impl Controller for Recorded {
         let atoms = simulation.atoms();
         self.now.clear();
         let now = &mut self.now;
-        self.runner.0.tick(&words(atoms), |behavior| {
+        self.runner.0.tick_key(atoms, |behavior| {
             let status = simulation.act(behavior);
             now.push((behavior, status));
             status
@@ -77,16 +77,11 @@ impl Controller for Recorded {
     }
 }
 
-/// A valuation as the tree reads it.
-fn words(atoms: u128) -> [u64; 2] {
-    [atoms as u64, (atoms >> 64) as u64]
-}
-
 /// Whether the tree ticks these behaviours in this tick.
 fn agrees(runner: &mut Runner, met: &Met) -> bool {
     let mut calls = met.calls.iter();
     let mut same = true;
-    runner.tick(&words(met.atoms), |behavior| match calls.next() {
+    runner.tick_key(met.atoms, |behavior| match calls.next() {
         Some((expected, status)) if *expected == behavior => *status,
         _ => {
             same = false;

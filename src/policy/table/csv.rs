@@ -66,7 +66,7 @@ fn packed(text: &[u8], start: usize, count: usize, reading: &mut Reading) -> Opt
         let mut other = 0;
         for cell in cells.chunks_exact(2) {
             if let [digit, comma] = cell {
-                word = word << 1 | u64::from(digit & 1);
+                word = word >> 1 | u64::from(digit & 1) << 63;
                 other |= (digit ^ b'0') & !1 | (comma ^ b',');
             }
         }
@@ -75,7 +75,7 @@ fn packed(text: &[u8], start: usize, count: usize, reading: &mut Reading) -> Opt
         }
         reading
             .draft
-            .say_word(number, word << (64 - cells.len() / 2));
+            .say_word(number, word >> (64 - cells.len() / 2));
     }
     Some(end)
 }

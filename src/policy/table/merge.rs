@@ -44,8 +44,12 @@ pub(super) fn merge(rows: &mut Rows, most: usize) -> Merged {
 /// The numbers of the rows in the order of a policy.
 fn sorted(rows: &Rows) -> Vec<u32> {
     let count = u32::try_from(rows.len()).unwrap_or(u32::MAX);
-    // The first word tells most rows apart, and stands beside its row.
-    let first = |row: u32| rows.words(row as usize).first().copied().unwrap_or(0);
+    // The first word decides the order of most rows, and stands beside its row; its lowest bit decides first.
+    let first = |row: u32| {
+        rows.words(row as usize)
+            .first()
+            .map_or(0, |word| word.reverse_bits())
+    };
     let mut keyed: Vec<(u64, u32)> = (0..count).map(|row| (first(row), row)).collect();
     keyed.sort_unstable_by(|(word, a), (other, b)| {
         let rest = || rows.compare(*a as usize, *b as usize).then(a.cmp(b));

@@ -2,6 +2,7 @@
 
 use super::super::{Minterm, Row, Value};
 use crate::ir::Id;
+use crate::logic::minterm::{bit, order};
 use std::cmp::Ordering;
 
 /// What a cell says of an atom.
@@ -13,8 +14,7 @@ pub(super) enum Truth {
     Either,
 }
 
-/// The rows of a table, some words each. The first atom is the highest bit of the first word, so that rows stand in
-/// order as their minterms do.
+/// The rows of a table, some words each as in a minterm: the first atom is the lowest bit of the first word.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Rows {
     atoms: usize,
@@ -59,7 +59,7 @@ impl Draft {
         self.values.resize(rows.columns, f64::NAN);
     }
 
-    /// Says 64 atoms at once, the first of them in the highest bit.
+    /// Says 64 atoms at once, the first of them in the lowest bit.
     pub(super) fn say_word(&mut self, number: usize, word: u64) {
         if let Some(slot) = self.words.get_mut(number) {
             *slot = word;
@@ -89,7 +89,7 @@ impl Draft {
             }
         };
         if let Some(word) = words.get_mut(atom / 64) {
-            *word |= 1 << (63 - atom % 64);
+            *word |= 1 << (atom % 64);
         }
     }
 }
@@ -162,16 +162,13 @@ impl Rows {
 
     /// The order in which the rows stand in a policy; of equal ones the first in the text comes first.
     pub(super) fn compare(&self, a: usize, b: usize) -> Ordering {
-        let words = self.words(a).cmp(self.words(b));
-        words.then_with(|| self.free(a).cmp(self.free(b)))
+        let words = order(self.words(a), self.words(b));
+        words.then_with(|| order(self.free(a), self.free(b)))
     }
 
     /// A row of a policy; `order` gives for each behaviour of the policy the column of its value.
     pub(super) fn row(&self, row: usize, behavior: usize, order: &[Option<usize>]) -> Row {
-        let minterm = |words: &[u64]| {
-            let words = words.iter().map(|word| word.reverse_bits());
-            Minterm::from_words(words, self.atoms)
-        };
+        let minterm = |words: &[u64]| Minterm::from_words(words.iter().copied(), self.atoms);
         let free = self.free(row);
         let known = slice(&self.values, self.columns, row);
         let value = |column: &Option<usize>| {
@@ -196,12 +193,7 @@ impl Rows {
 
     /// What a cell of the row says of an atom.
     pub(super) fn truth(&self, row: usize, atom: usize) -> Truth {
-        let bit = |words: &[u64]| {
-            words
-                .get(atom / 64)
-                .is_some_and(|word| word >> (63 - atom % 64) & 1 == 1)
-        };
-        match (bit(self.free(row)), bit(self.words(row))) {
+        match (bit(self.free(row), atom), bit(self.words(row), atom)) {
             (true, _) => Truth::Either,
             (false, true) => Truth::Yes,
             (false, false) => Truth::No,

@@ -1,7 +1,7 @@
 //! Guards that people read: as short as they are found to be.
 
 use crate::ir::tree::{Atom, Guard};
-use crate::logic::{Bits, Columns, Cover, Cube, Literal, minimise};
+use crate::logic::{Bits, Columns, Cover, Cube, Literal, Minterm, minimise};
 use crate::tree::circuit::guards::Guards;
 use crate::tree::circuit::{Signal, truth};
 use crate::tree::guard::{and, literal, not, or, with_part};
@@ -107,14 +107,9 @@ fn two_levels(
         Bits::full(rows).minus(&holds).minus(&free),
     );
     // The first input is the highest digit of a row's number.
-    let words: Vec<[u64; 1]> = (0..rows)
-        .map(|row| {
-            [(row as u64)
-                .reverse_bits()
-                .unbounded_shr(64 - inputs.len() as u32)]
-        })
-        .collect();
-    let columns = Columns::new(inputs.len(), words.iter().map(|word| &word[..]));
+    let minterm = |row| Minterm::new((0..inputs.len()).rev().map(|digit| row >> digit & 1 == 1));
+    let minterms: Vec<Minterm> = (0..rows).map(minterm).collect();
+    let columns = Columns::new(inputs.len(), minterms.iter().map(Minterm::words));
     [
         factored(minimise(&columns, &on, &off).cubes(), &atoms),
         not(factored(minimise(&columns, &off, &on).cubes(), &atoms)),
