@@ -1,10 +1,10 @@
 //! Guards that people read: as short as they are found to be.
 
 use crate::ir::tree::{Atom, Guard};
-use crate::logic::{Bits, Columns, Cover, Cube, Literal, Minterm, minimise};
+use crate::logic::{Bits, Columns, Minterm, minimise};
 use crate::tree::circuit::guards::Guards;
 use crate::tree::circuit::{Signal, truth};
-use crate::tree::guard::{and, literal, not, or, with_part};
+use crate::tree::guard::{factored, not, with_part};
 
 /// Up to so many atoms a guard is minimised in two levels as well.
 const TWO_LEVELS: usize = 8;
@@ -111,37 +111,7 @@ fn two_levels(
     let minterms: Vec<Minterm> = (0..rows).map(minterm).collect();
     let columns = Columns::new(inputs.len(), minterms.iter().map(Minterm::words));
     [
-        factored(minimise(&columns, &on, &off).cubes(), &atoms),
-        not(factored(minimise(&columns, &off, &on).cubes(), &atoms)),
+        factored(&minimise(&columns, &on, &off), &atoms),
+        not(factored(&minimise(&columns, &off, &on), &atoms)),
     ]
-}
-
-/// A disjunction of cubes with the literal that most of them share taken out, and so on in what is left.
-fn factored(cubes: &[Cube], atoms: &[Atom]) -> Guard {
-    let mut counts: Vec<(usize, Literal)> = Vec::new();
-    for shared in cubes.iter().flat_map(|cube| cube.literals()) {
-        match counts.iter_mut().find(|(_, literal)| literal == shared) {
-            Some((count, _)) => *count += 1,
-            None => counts.push((1, *shared)),
-        }
-    }
-    counts.retain(|(count, _)| *count > 1);
-    let most = counts.iter().map(|(count, _)| *count).max();
-    let Some((_, shared)) = counts
-        .iter()
-        .filter(|(count, _)| Some(*count) == most)
-        .min()
-    else {
-        return crate::tree::guard::cover(&Cover::new(cubes.iter().cloned()), atoms);
-    };
-    let (with, others): (Vec<Cube>, Vec<Cube>) = cubes
-        .iter()
-        .cloned()
-        .partition(|cube| cube.literals().contains(shared));
-    let rests: Vec<Cube> = with.iter().map(|cube| cube.without(*shared)).collect();
-    let taken = and([literal(*shared, atoms), factored(&rests, atoms)]);
-    match others.is_empty() {
-        true => taken,
-        false => or([taken, factored(&others, atoms)]),
-    }
 }
