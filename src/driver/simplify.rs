@@ -17,7 +17,7 @@ use crate::ir::tree::{Atom, Node};
 use crate::ir::{Id, Program};
 use crate::learn::statistics::{Mean, Summary};
 use crate::tree::Size;
-use crate::tree::prune::{Change, Possible};
+use crate::tree::prune::{Change, Requirement};
 use crate::world::Start;
 use bench::{Bench, Player, within};
 use search::{Held, Search};
@@ -138,7 +138,7 @@ pub fn simplify(
 }
 
 /// The predicate that each behaviour of the task requires, where it requires just that.
-fn possible(program: &Program, task: Id<Task>) -> Vec<Possible> {
+fn possible(program: &Program, task: Id<Task>) -> Vec<Requirement> {
     let task = &program.tasks[task];
     let required = task.choose.iter().filter_map(|&behavior| {
         let requires = program.behaviors[behavior].law.as_ref()?.requires;

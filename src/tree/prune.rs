@@ -1,7 +1,7 @@
 //! Smaller trees that decide almost as a given one: the moves of a search that simulation judges.
 //!
-//! Nothing here knows what a tree is worth. Each move rewrites one place of the tree, and what comes of it is tidied;
-//! a candidate is well formed, drives something, and costs strictly less to read.
+//! Nothing here knows what a tree is worth. Each move rewrites one place of the tree and tidies the result. A candidate is
+//! well formed, ticks some behaviour, and costs strictly less to read.
 
 mod flat;
 mod guards;
@@ -11,7 +11,6 @@ mod tidy;
 mod units;
 
 use super::Size;
-use super::atoms::children;
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::{Atom, Node};
@@ -19,31 +18,31 @@ use std::collections::BTreeSet;
 use std::fmt;
 
 pub use flat::{Decided, flat};
-pub use plain::{Cost, oddities, plainer};
+pub use plain::{Cost, negated_literals, plainer};
 pub use tidy::tidy;
 
-/// A predicate outside of which a behaviour fails outright, such as `vis(A)` for `goto(A)`.
-pub type Possible = (Id<Behavior>, Atom);
+/// The predicate that a behaviour requires: where it does not hold, the behaviour fails outright. `vis(A)` for `goto(A)`.
+pub type Requirement = (Id<Behavior>, Atom);
 
 /// A tree that a move makes of another.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Candidate {
-    /// What was done.
+    /// The move.
     pub change: Change,
     /// The tree.
     pub root: Node,
     /// Its size.
     pub size: Size,
-    /// What it takes to read it.
+    /// How hard it is to read.
     pub cost: Cost,
 }
 
 impl Candidate {
-    fn new(change: Change, root: Node, possible: &[Possible]) -> Self {
+    fn new(change: Change, root: Node, requirements: &[Requirement]) -> Self {
         Self {
             change,
             size: Size::of(&root),
-            cost: Cost::of(&root, possible),
+            cost: Cost::of(&root, requirements),
             root,
         }
     }
@@ -62,15 +61,15 @@ pub enum Change {
     Merged,
     /// Two units became a sequence with memory.
     Joined,
-    /// A guard asks for the predicate outside of which its behaviour fails.
-    Possible,
+    /// A guard asks for the predicate that its behaviour requires.
+    Required,
     /// Units changed places and a guard was loosened.
     Reordered,
     /// A unit and those after it changed places, and a guard lost its negation.
     Turned,
-    /// What units of a selector had in common was put before them.
+    /// What the guards of neighbouring units share was put before a selector of them.
     Factored,
-    /// One unit for each behaviour, with what was seen to hold where the tree chose it.
+    /// The tree became a list of one unit a behaviour, guarded by what was seen to hold where the tree chose it.
     Flattened,
 }
 
@@ -82,7 +81,7 @@ impl fmt::Display for Change {
             Change::Reduced => "reduced",
             Change::Merged => "merged",
             Change::Joined => "joined",
-            Change::Possible => "only where possible",
+            Change::Required => "only where possible",
             Change::Reordered => "reordered",
             Change::Turned => "turned",
             Change::Factored => "factored",
@@ -91,16 +90,16 @@ impl fmt::Display for Change {
     }
 }
 
-/// A rewriting of one node.
+/// What was done, and the node that it makes.
 type Move = (Change, Node);
 
-/// Every tree that one move makes of this one and that costs strictly less to read ([`Cost`]), without repetitions, in
-/// an order that depends on the tree alone.
-pub fn candidates(root: &Node, possible: &[Possible]) -> Vec<Candidate> {
-    let cost = Cost::of(root, possible);
+/// The trees that one move makes of this one and that cost strictly less to read ([`Cost`]), each once, in an order that
+/// depends on the tree alone.
+pub fn candidates(root: &Node, requirements: &[Requirement]) -> Vec<Candidate> {
+    let cost = Cost::of(root, requirements);
     let mut found: Vec<Candidate> = Vec::new();
-    for (change, moved) in everywhere(root, possible) {
-        let candidate = Candidate::new(change, tidy(moved), possible);
+    for (change, moved) in everywhere(root, requirements) {
+        let candidate = Candidate::new(change, tidy(moved), requirements);
         let known = |c: &Candidate| c.cost == candidate.cost && c.root == candidate.root;
         if candidate.cost < cost && drives(&candidate.root) && !found.iter().any(known) {
             found.push(candidate);
@@ -109,38 +108,38 @@ pub fn candidates(root: &Node, possible: &[Possible]) -> Vec<Candidate> {
     found
 }
 
-/// The moves at a node and at all that is below it.
-fn everywhere(node: &Node, possible: &[Possible]) -> Vec<Move> {
-    let mut found = here(node, possible);
-    for (i, child) in children(node).iter().enumerate() {
-        for (change, moved) in everywhere(child, possible) {
+/// The moves at a node and below it.
+fn everywhere(node: &Node, requirements: &[Requirement]) -> Vec<Move> {
+    let mut found = here(node, requirements);
+    for (i, child) in node.children().iter().enumerate() {
+        for (change, moved) in everywhere(child, requirements) {
             found.push((change, with_child(node, i, moved)));
         }
     }
     found
 }
 
-fn here(node: &Node, possible: &[Possible]) -> Vec<Move> {
+fn here(node: &Node, requirements: &[Requirement]) -> Vec<Move> {
     let mut found = Vec::new();
     if let Node::Condition(guard) = node {
         let looser = guards::looser(guard).into_iter();
         found.extend(looser.map(|guard| (Change::Loosened, Node::Condition(guard))));
         return found;
     }
-    for i in 0..children(node).len() {
-        // A guard alone would have the robot stand still.
+    for i in 0..node.children().len() {
+        // Under a guard alone the robot would stand still.
         let less = without(node, i).filter(drives);
         found.extend(less.map(|node| (Change::Dropped, node)));
     }
     found.extend(reduced(node).into_iter().map(|n| (Change::Reduced, n)));
-    found.extend(units::moves(node, possible));
+    found.extend(units::moves(node, requirements));
     found.extend(memory::moves(node));
     found
 }
 
-/// The children of a node, and the behaviours below them, each in the node's place.
+/// The children of a node and the behaviours below them: each may replace the node.
 fn reduced(node: &Node) -> Vec<Node> {
-    let parts = children(node).iter();
+    let parts = node.children().iter();
     let mut found: Vec<Node> = parts
         .filter(|child| !matches!(child, Node::Condition(_) | Node::Behavior(_)))
         .cloned()
@@ -149,13 +148,13 @@ fn reduced(node: &Node) -> Vec<Node> {
     node.visit_behaviors(&mut |behavior| {
         behaviors.insert(behavior);
     });
-    if !children(node).is_empty() {
+    if !node.children().is_empty() {
         found.extend(behaviors.into_iter().map(Node::Behavior));
     }
     found
 }
 
-/// The node with another child in the place of the `at`-th.
+/// The node with its `at`-th child replaced.
 fn with_child(node: &Node, at: usize, new: Node) -> Node {
     let mut node = node.clone();
     match &mut node {
@@ -182,7 +181,7 @@ fn without(node: &Node, at: usize) -> Option<Node> {
     }
 }
 
-/// Whether any behaviour stands in the tree.
+/// Whether the tree has a behaviour.
 fn drives(node: &Node) -> bool {
     let mut any = false;
     node.visit_behaviors(&mut |_| any = true);

@@ -8,7 +8,7 @@ use btc::ir::Id;
 use btc::ir::task::Task;
 use btc::ir::tree::{Atom, Guard, Node, Tree};
 use btc::tree::Size;
-use btc::tree::prune::{Change, Cost, Decided, candidates, flat, oddities, plainer, tidy};
+use btc::tree::prune::{Change, Cost, Decided, candidates, flat, negated_literals, plainer, tidy};
 
 struct Nothing;
 
@@ -108,8 +108,8 @@ fn plainer_trees_are_no_larger() {
     let (.., wanted) = small("selector { carrying_package => goto(B), goto(A) }");
     assert_eq!(found.len(), 1);
     assert_eq!(found[0].root, wanted);
-    assert_eq!(oddities(&root), 1);
-    assert_eq!(oddities(&wanted), 0);
+    assert_eq!(negated_literals(&root), 1);
+    assert_eq!(negated_literals(&wanted), 0);
 }
 
 /// What the clumsy tree was seen to do: `(behaviour, carrying, low, done(goto(C)), ticks)`.
@@ -158,7 +158,7 @@ fn a_unit_that_does_not_ask_for_what_it_needs_costs_a_node() {
     assert_eq!((cost.nodes, cost.unasked), (size.nodes + 1, 1));
     // To ask costs no more than not to ask, and is preferred.
     let asked = candidates(&root, &possible);
-    let asked = asked.iter().filter(|c| c.change == Change::Possible);
+    let asked = asked.iter().filter(|c| c.change == Change::Required);
     assert!(
         asked
             .clone()

@@ -9,7 +9,7 @@ use super::trace::Paths;
 use super::{Progress, Step};
 use crate::ir::tree::Node;
 use crate::tree::Size;
-use crate::tree::prune::{self, Candidate, Cost, Possible};
+use crate::tree::prune::{self, Candidate, Cost, Requirement};
 
 /// Episodes to which the candidates of a round play, and how many of them stay in the race then.
 const STAGES: [(usize, usize); 4] = [(1, 32), (4, 12), (16, 5), (64, 3)];
@@ -49,7 +49,7 @@ struct Runner {
 pub(super) struct Search<'a> {
     pub(super) ticks: u64,
     bench: Bench,
-    possible: &'a [Possible],
+    possible: &'a [Requirement],
     loss: f64,
     progress: &'a (dyn Fn(Progress) + Sync),
 }
@@ -70,7 +70,7 @@ struct Measure<'a> {
 impl<'a> Search<'a> {
     pub(super) fn new(
         bench: Bench,
-        possible: &'a [Possible],
+        possible: &'a [Requirement],
         loss: f64,
         progress: &'a (dyn Fn(Progress) + Sync),
     ) -> Self {
@@ -109,7 +109,7 @@ impl<'a> Search<'a> {
             let key = |held: &Held| {
                 let cost = Cost::of(&held.root, self.possible);
                 let cost = (cost.nodes, cost.unasked, cost.literals);
-                (cost, prune::oddities(&held.root))
+                (cost, prune::negated_literals(&held.root))
             };
             let returns = |held: &Held| held.player.returns().mean;
             let better = returns(b).total_cmp(&returns(a));

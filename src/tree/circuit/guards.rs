@@ -6,10 +6,10 @@ use crate::ir::tree::{Atom, Guard};
 use crate::tree::guard::{and, not, or};
 use std::collections::BTreeMap;
 
-/// Up to so many atoms a truth table is quicker than a solver that is asked little.
+/// With at most this many atoms a truth table is quicker than the solver.
 const TABLE: usize = 12;
 
-/// Decisions that the solver may take over a circuit's life.
+/// The decisions that the solver may take for one circuit.
 const DECISIONS: u64 = 2_000_000;
 
 /// A circuit whose inputs are atoms.
@@ -81,7 +81,7 @@ impl Guards {
         self.solver.can_hold(&self.circuit, &[signal]) == Ok(false)
     }
 
-    /// The signal as a guard of at most so many literals.
+    /// The signal as a guard of at most `most` literals.
     pub(in crate::tree) fn guard(&self, signal: Signal, most: usize) -> Option<Guard> {
         let names: BTreeMap<usize, Atom> = self
             .inputs

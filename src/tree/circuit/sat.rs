@@ -21,12 +21,12 @@ pub(in crate::tree) struct Solver {
 }
 
 impl Solver {
-    /// A solver that may take so many decisions, in all questions together.
+    /// A solver that may take `budget` decisions, in all questions together.
     pub(in crate::tree) fn new(budget: u64) -> Self {
         let left = Rc::new(Cell::new(budget));
         let spent = Rc::clone(&left);
         let mut solver = BasicSolver::default();
-        // It is asked at every decision: a measure of effort that no clock is part of.
+        // Called at every decision: effort is counted, not timed.
         solver.batsat_mut().cb_mut().set_stop(move || {
             spent.set(spent.get().saturating_sub(1));
             spent.get() == 0

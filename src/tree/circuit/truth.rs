@@ -30,9 +30,9 @@ pub(in crate::tree) fn least(
     let reads = circuit.reads(&cone, inputs);
     let read = inputs.iter().zip(&reads).filter(|(_, reads)| **reads);
     let read: Vec<Signal> = read.map(|(input, _)| *input).collect();
-    let mut table = Table::new(circuit, &cone, goal, &read);
-    let at = (0..table.blocks()).find_map(|number| {
-        let block = table.block(number);
+    let mut compiled = Compiled::new(circuit, &cone, goal, &read);
+    let at = (0..compiled.blocks()).find_map(|number| {
+        let block = compiled.block(number);
         let lane = block.iter().position(|word| *word != 0)?;
         let bit = block.get(lane)?.trailing_zeros();
         Some(number * 64 * LANES as u64 + 64 * lane as u64 + u64::from(bit))
@@ -47,28 +47,28 @@ pub(in crate::tree) fn least(
 
 /// Whether the signal holds in each of the valuations of `inputs`, a bit each; bits past the last repeat the first.
 pub(in crate::tree) fn column(circuit: &Circuit, signal: Signal, inputs: &[Signal]) -> Vec<u64> {
-    let mut table = Table::new(circuit, &circuit.cone(&[signal]), signal, inputs);
-    let blocks = 0..table.blocks();
-    blocks.flat_map(|number| table.block(number)).collect()
+    let mut compiled = Compiled::new(circuit, &circuit.cone(&[signal]), signal, inputs);
+    let blocks = 0..compiled.blocks();
+    blocks.flat_map(|number| compiled.block(number)).collect()
 }
 
 /// A conjunction of two earlier values, each flipped by a mask.
-struct Step {
+struct Conjunction {
     left: (usize, u64),
     right: (usize, u64),
 }
 
 /// The cone of a signal, ready to be evaluated.
-struct Table {
+struct Compiled {
     /// Where the value of each input stands, from the first, if it is read.
     inputs: Vec<Option<usize>>,
-    /// What is computed behind the inputs.
-    steps: Vec<Step>,
+    /// The gates, each behind those that it reads.
+    steps: Vec<Conjunction>,
     goal: (usize, u64),
     values: Vec<Block>,
 }
 
-impl Table {
+impl Compiled {
     fn new(circuit: &Circuit, cone: &[usize], goal: Signal, inputs: &[Signal]) -> Self {
         let is_gate = |gate: &usize| matches!(circuit.gates.get(*gate), Some(Gate::And(..)));
         let (steps, given): (Vec<usize>, Vec<usize>) =
@@ -93,7 +93,7 @@ impl Table {
             steps: steps
                 .iter()
                 .filter_map(|gate| match circuit.gates.get(*gate)? {
-                    Gate::And(a, b) => Some(Step {
+                    Gate::And(a, b) => Some(Conjunction {
                         left: operand(*a),
                         right: operand(*b),
                     }),

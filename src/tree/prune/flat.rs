@@ -1,48 +1,48 @@
-//! A start from the other side: one short rule for each behaviour, by what tells its ticks from those of the others.
+//! A start from the other side: one short unit for each behaviour, guarded by what holds more often where it drives.
 
 use super::memory::{chain, done};
 use super::plain::unasked;
 use super::units::{needs, select};
-use super::{Candidate, Change, Possible, tidy};
+use super::{Candidate, Change, Requirement, tidy};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::{Atom, Guard, Node};
-use crate::tree::atoms::{atoms as atoms_of, behaviors, children};
+use crate::tree::atoms::{atoms as atoms_of, behaviors};
 use crate::tree::guard::{and, not};
 use crate::tree::unit::Unit;
 use std::collections::BTreeSet;
 
-/// A behaviour, the values of the atoms in which it drove, and for how many ticks.
+/// A behaviour, the key of the atoms under which it drove, and for how many ticks.
 pub type Decided = (Id<Behavior>, u128, u64);
 
-/// The part of its ticks in which another has to have succeeded last, for the two to be one memory sequence.
+/// Two behaviours become one memory sequence if the first has succeeded in at least this part of the second's ticks.
 const FOLLOWS: f64 = 0.95;
-/// Guards that are tried for a behaviour, the one that says only what it needs among them.
+/// Guards that are tried for a behaviour, among them the one that asks only for what it requires.
 const GUARDS: usize = 5;
-/// Units up to which every order of them is made.
+/// The most units of which every order is tried.
 const PERMUTED: usize = 4;
-/// Trees that are made at most.
+/// The most trees that are made.
 const TREES: usize = 1_000;
 
-/// Trees of one unit for each behaviour and each memory node of `root`: it asks for what its behaviour needs and for at
-/// most one more literal that holds more often where it drives than elsewhere; the last resort needs and asks nothing.
+/// Trees of one unit for each behaviour and each memory node of `root`. A unit asks for what its behaviour requires and for
+/// at most one more literal, which holds more often where it drives than elsewhere. The last unit has no guard.
 ///
-/// Whether any of them decides well is for the simulation to say. `atoms` are those of the valuations, at most 128.
+/// Simulation tells whether any of them decides well. `atoms` are those of the keys, at most 128.
 pub fn flat(
     root: &Node,
     atoms: &[Atom],
     decided: &[Decided],
-    possible: &[Possible],
+    requirements: &[Requirement],
 ) -> Vec<Candidate> {
     let seen = Seen { atoms, decided };
     let bodies = seen.joined(bodies(root), &atoms_of(root));
     let (bound, free): (Vec<&Node>, Vec<&Node>) = bodies
         .iter()
-        .partition(|body| needs(body, possible).is_some());
+        .partition(|body| needs(body, requirements).is_some());
     let resorts = if free.is_empty() { &bound } else { &free };
     let mut found = Vec::new();
     for resort in resorts {
-        // What could be the last resort, too, may be left out.
+        // What might stand last as well may be left out.
         let every = bodies.iter().filter(|body| body != resort).collect();
         let mut sets: Vec<Vec<&Node>> = vec![every];
         let few: Vec<&Node> = bound.iter().copied().filter(|b| b != resort).collect();
@@ -52,7 +52,7 @@ pub fn flat(
         let share = TREES / (resorts.len() * sets.len());
         for others in sets {
             let orders = orders(others.len());
-            for units in seen.units(&others, share / orders.len().max(1), possible) {
+            for units in seen.units(&others, share / orders.len().max(1), requirements) {
                 for order in &orders {
                     let ordered = order.iter().filter_map(|i| units.get(*i).cloned());
                     let last = Unit {
@@ -60,7 +60,7 @@ pub fn flat(
                         body: (*resort).clone(),
                     };
                     let root = tidy(select(ordered.chain([last]).collect()));
-                    found.push(Candidate::new(Change::Flattened, root, possible));
+                    found.push(Candidate::new(Change::Flattened, root, requirements));
                 }
             }
         }
@@ -79,9 +79,8 @@ fn collect(node: &Node, found: &mut Vec<Node>) {
     match node {
         Node::Condition(_) => {}
         Node::Composite { memory: false, .. } => {
-            children(node)
-                .iter()
-                .for_each(|child| collect(child, found));
+            let children = node.children().iter();
+            children.for_each(|child| collect(child, found));
         }
         body => {
             if !found.contains(body) {
@@ -91,14 +90,14 @@ fn collect(node: &Node, found: &mut Vec<Node>) {
     }
 }
 
-/// What was seen to happen under a tree.
+/// What was seen under a tree.
 struct Seen<'a> {
     atoms: &'a [Atom],
     decided: &'a [Decided],
 }
 
 impl Seen<'_> {
-    /// Bodies of which one nearly always follows the success of another that the tree asks for, as memory sequences.
+    /// The bodies, joined to memory sequences where one nearly always follows a success of another that the tree asks for.
     fn joined(&self, mut bodies: Vec<Node>, asked: &BTreeSet<Atom>) -> Vec<Node> {
         let follows = |first: &Node, second: &Node| {
             let done = done(first).filter(|atom| first != second && asked.contains(atom));
@@ -118,20 +117,27 @@ impl Seen<'_> {
         }
     }
 
-    /// Bodies each under one of its guards, in at most `limit` ways where that can be.
-    fn units(&self, bodies: &[&Node], limit: usize, possible: &[Possible]) -> Vec<Vec<Unit>> {
+    /// The bodies, each under one of its guards, in at most `limit` ways if possible.
+    fn units(
+        &self,
+        bodies: &[&Node],
+        limit: usize,
+        requirements: &[Requirement],
+    ) -> Vec<Vec<Unit>> {
         let ways = |guards: usize| {
             let count = u32::try_from(bodies.len()).ok()?;
             guards.checked_pow(count)
         };
         let within = |guards: &usize| ways(*guards).is_some_and(|ways| ways <= limit);
         let most = (1..=GUARDS).rev().find(within).unwrap_or(1);
-        let rules = bodies.iter().map(|body| self.rules(body, most, possible));
+        let rules = bodies
+            .iter()
+            .map(|body| self.rules(body, most, requirements));
         choices(rules.collect())
     }
 
     /// A body under at most `most` guards, the likeliest first.
-    fn rules(&self, body: &Node, most: usize, possible: &[Possible]) -> Vec<Unit> {
+    fn rules(&self, body: &Node, most: usize, requirements: &[Requirement]) -> Vec<Unit> {
         let predicates = self.atoms.iter().filter_map(|atom| match atom {
             Atom::Predicate(_) => Some(*atom),
             _ => None,
@@ -153,7 +159,7 @@ impl Seen<'_> {
                 guard,
                 body: body.clone(),
             };
-            if let Some(needs) = unasked(&unit, possible) {
+            if let Some(needs) = unasked(&unit, requirements) {
                 unit = unit.under(and([unit.guard.clone(), needs]));
             }
             if unit.guard != Guard::Const(true) && !rules.contains(&unit) {
@@ -170,7 +176,7 @@ impl Seen<'_> {
         self.part(|behavior| own.contains(&behavior), atom, value)
     }
 
-    /// How much more often an atom has this value where the body drives than where another does.
+    /// The part of the body's ticks in which an atom has this value, less that of the others' ticks.
     fn gain(&self, body: &Node, atom: Atom, value: bool) -> f64 {
         let own = behaviors(body);
         self.share(body, atom, value) - self.part(|b| !own.contains(&b), atom, value)
@@ -195,7 +201,7 @@ impl Seen<'_> {
     }
 }
 
-/// Every way to take one of each.
+/// Every way to choose one of each.
 fn choices(rules: Vec<Vec<Unit>>) -> Vec<Vec<Unit>> {
     rules.into_iter().fold(vec![Vec::new()], |chosen, rules| {
         let longer = chosen.iter().flat_map(|units: &Vec<Unit>| {
@@ -207,7 +213,7 @@ fn choices(rules: Vec<Vec<Unit>>) -> Vec<Vec<Unit>> {
     })
 }
 
-/// Orders of so many units: all of them, or the rotations where that would be too many.
+/// The orders of `count` units: all, or only the rotations where there are too many.
 fn orders(count: usize) -> Vec<Vec<usize>> {
     if count > PERMUTED {
         return (0..count)

@@ -1,4 +1,4 @@
-//! Sequences with memory in the place of guards over the history.
+//! Sequences with memory instead of guards over the history.
 
 use super::units::join;
 use super::{Change, Move};
@@ -6,10 +6,10 @@ use crate::ir::tree::{Atom, Composite, Guard, Node};
 use crate::tree::guard::{self, alternatives, and, common, conjuncts, either, literals, or};
 use crate::tree::unit::{Unit, memory, units};
 
-/// Two units `… done(a) … => b` and `… => a` as `guard => memory sequence { a, b }`, in the place of either.
+/// Two units `… done(a) … => b` and `… => a` as `guard => memory sequence { a, b }`, where either of them stood.
 ///
-/// The guard is that of the one or the other or both without what they say of a, or one of its literals alone: whether
-/// that is right is for the simulation to say.
+/// The guard is that of one or the other or both without the literals over a, or one literal of it. Simulation tells
+/// whether that is right.
 pub(super) fn moves(node: &Node) -> Vec<Move> {
     let Some(units) = units(node) else {
         return Vec::new();
@@ -46,7 +46,7 @@ pub(super) fn moves(node: &Node) -> Vec<Move> {
     found
 }
 
-/// What the history says once the body has succeeded.
+/// What the history shows once the body has succeeded.
 pub(super) fn done(body: &Node) -> Option<Atom> {
     match body {
         Node::Behavior(behavior) => Some(Atom::Done(*behavior)),
@@ -59,7 +59,7 @@ pub(super) fn done(body: &Node) -> Option<Atom> {
     }
 }
 
-/// The memory sequence of two bodies, as one where they are such themselves.
+/// The memory sequence of two bodies; those that are memory sequences themselves become part of it.
 pub(super) fn chain(first: &Node, second: &Node) -> Node {
     memory(Composite::Sequence, [first.clone(), second.clone()])
 }

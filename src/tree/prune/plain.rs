@@ -1,19 +1,18 @@
-//! Which trees read more plainly, and moves to them that change no size.
+//! How hard a tree is to read, and moves to plainer trees of the same size.
 
 use super::units::{needs, select};
-use super::{Candidate, Change, Move, Possible, tidy, with_child};
+use super::{Candidate, Change, Move, Requirement, tidy, with_child};
 use crate::ir::tree::{Guard, Node};
 use crate::tree::Size;
-use crate::tree::atoms::children;
 use crate::tree::guard::{common, negations, not};
 use crate::tree::unit::{Unit, units};
 
-/// What it takes to read a tree; less is better, by the fields in their order.
+/// How hard a tree is to read, compared field by field; less is better.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Cost {
-    /// Its nodes, and one more for each unit that does not ask for what its behaviour needs: the reader has to know it.
+    /// Its nodes, and one more for each unit that does not ask for what its behaviour requires: the reader has to know it.
     pub nodes: usize,
-    /// How many such units there are.
+    /// The number of such units.
     pub unasked: usize,
     /// Literals.
     pub literals: usize,
@@ -23,9 +22,9 @@ pub struct Cost {
 
 impl Cost {
     /// The cost of a tree.
-    pub fn of(root: &Node, possible: &[Possible]) -> Self {
+    pub fn of(root: &Node, requirements: &[Requirement]) -> Self {
         let size = Size::of(root);
-        let unasked = count_unasked(root, possible);
+        let unasked = count_unasked(root, requirements);
         Self {
             nodes: size.nodes + unasked,
             unasked,
@@ -35,44 +34,46 @@ impl Cost {
     }
 }
 
-/// Every tree with the same behaviours that costs no more, depth aside, and has fewer negated literals.
-pub fn plainer(root: &Node, possible: &[Possible]) -> Vec<Candidate> {
+/// Trees with the same behaviours that cost no more, depth aside, and have fewer negated literals.
+pub fn plainer(root: &Node, requirements: &[Requirement]) -> Vec<Candidate> {
     let flat = |cost: Cost| Cost { depth: 0, ..cost };
-    let cost = flat(Cost::of(root, possible));
-    let odd = oddities(root);
+    let cost = flat(Cost::of(root, requirements));
+    let negated = negated_literals(root);
     let mut found = Vec::new();
     for (change, node) in everywhere(root) {
-        let candidate = Candidate::new(change, tidy(node), possible);
-        if flat(candidate.cost) <= cost && oddities(&candidate.root) < odd {
+        let candidate = Candidate::new(change, tidy(node), requirements);
+        if flat(candidate.cost) <= cost && negated_literals(&candidate.root) < negated {
             found.push(candidate);
         }
     }
     found
 }
 
-/// Negated literals.
-pub fn oddities(node: &Node) -> usize {
+/// The negated literals in the guards of a tree, each time they occur.
+pub fn negated_literals(node: &Node) -> usize {
     let own = match node {
         Node::Condition(guard) => negations(guard),
         _ => 0,
     };
-    own + children(node).iter().map(oddities).sum::<usize>()
+    own + node.children().iter().map(negated_literals).sum::<usize>()
 }
 
-/// Units that start a behaviour without asking for the predicate outside of which it fails.
-fn count_unasked(node: &Node, possible: &[Possible]) -> usize {
+/// The units that do not ask for what their behaviours require.
+fn count_unasked(node: &Node, requirements: &[Requirement]) -> usize {
     let own = units(node).unwrap_or_default();
-    let own = own.iter().filter(|unit| unasked(unit, possible).is_some());
-    let below = children(node).iter();
+    let own = own
+        .iter()
+        .filter(|unit| unasked(unit, requirements).is_some());
+    let below = node.children().iter();
     own.count()
         + below
-            .map(|child| count_unasked(child, possible))
+            .map(|child| count_unasked(child, requirements))
             .sum::<usize>()
 }
 
-/// What the behaviour of a unit needs and its guard does not ask for.
-pub(super) fn unasked(unit: &Unit, possible: &[Possible]) -> Option<Guard> {
-    let needs = needs(&unit.body, possible)?;
+/// What the behaviour of a unit requires, if the guard does not ask for it.
+pub(super) fn unasked(unit: &Unit, requirements: &[Requirement]) -> Option<Guard> {
+    let needs = needs(&unit.body, requirements)?;
     (!common(&unit.guard).0.contains(&needs)).then_some(needs)
 }
 
@@ -81,14 +82,14 @@ fn everywhere(node: &Node) -> Vec<Move> {
     if let Some(units) = units(node) {
         turned(&units, &mut found);
     }
-    for (i, child) in children(node).iter().enumerate() {
+    for (i, child) in node.children().iter().enumerate() {
         let below = everywhere(child).into_iter();
         found.extend(below.map(|(change, moved)| (change, with_child(node, i, moved))));
     }
     found
 }
 
-/// A unit and those after it exchanged: `not c => a, b` as `c => b, a`.
+/// A unit exchanged with all that follow it: `not c => a, b` as `c => b, a`.
 fn turned(units: &[Unit], found: &mut Vec<Move>) {
     for (i, unit) in units.iter().enumerate() {
         let rest: Vec<Unit> = units.iter().skip(i + 1).cloned().collect();

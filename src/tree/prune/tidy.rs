@@ -1,4 +1,4 @@
-//! Trees without the traces of what was taken out of them.
+//! What moves leave behind, cleared away.
 
 use crate::ir::tree::{Composite, Guard, Node};
 use crate::tree::guard::{and, simplified};

@@ -2,7 +2,7 @@
 
 use super::guards::looser;
 use super::plain::unasked;
-use super::{Change, Move, Possible};
+use super::{Change, Move, Requirement};
 use crate::ir::tree::{Composite, Guard, Node};
 use crate::tree::guard::{and, common, conjuncts, either, literals};
 use crate::tree::unit::{Unit, selector, units};
@@ -21,7 +21,7 @@ pub(super) fn put(units: &[Unit], at: usize, unit: Unit) -> Vec<Unit> {
     units
 }
 
-/// The units with one for two: `unit` stands where the one at `at` stood, the one at `gone` is left out.
+/// The selector of these units with `unit` instead of the one at `at`, and without the one at `gone`.
 pub(super) fn join(units: &[Unit], at: usize, gone: usize, unit: Unit) -> Node {
     let mut units = put(units, at, unit);
     units.remove(gone);
@@ -29,20 +29,20 @@ pub(super) fn join(units: &[Unit], at: usize, gone: usize, unit: Unit) -> Node {
 }
 
 /// The moves at a node, if it is a selector.
-pub(super) fn moves(node: &Node, possible: &[Possible]) -> Vec<Move> {
+pub(super) fn moves(node: &Node, requirements: &[Requirement]) -> Vec<Move> {
     let Some(units) = units(node) else {
         return Vec::new();
     };
     let mut found = Vec::new();
     merged(&units, &mut found);
-    where_possible(&units, possible, &mut found);
-    last_resort(&units, possible, &mut found);
+    required(&units, requirements, &mut found);
+    last_resort(&units, requirements, &mut found);
     reordered(&units, &mut found);
     factored(&units, &mut found);
     found
 }
 
-/// Two units in one: of the same behaviour wherever they stand, of different ones if they are neighbours.
+/// Two units as one: of the same behaviour wherever they stand, of different ones if they are neighbours.
 fn merged(units: &[Unit], found: &mut Vec<Move>) {
     for (i, first) in units.iter().enumerate() {
         for (j, second) in units.iter().enumerate().skip(i + 1) {
@@ -70,10 +70,10 @@ fn merged(units: &[Unit], found: &mut Vec<Move>) {
     }
 }
 
-/// The predicate outside of which what a unit does first fails.
-pub(super) fn needs(body: &Node, possible: &[Possible]) -> Option<Guard> {
+/// The predicate that a body requires: that of the behaviour that it ticks first.
+pub(super) fn needs(body: &Node, requirements: &[Requirement]) -> Option<Guard> {
     match body {
-        Node::Behavior(behavior) => possible
+        Node::Behavior(behavior) => requirements
             .iter()
             .find(|(b, _)| b == behavior)
             .map(|(_, atom)| Guard::Atom(*atom)),
@@ -81,20 +81,20 @@ pub(super) fn needs(body: &Node, possible: &[Possible]) -> Option<Guard> {
             kind: Composite::Sequence,
             memory: true,
             children,
-        } => needs(children.first()?, possible),
+        } => needs(children.first()?, requirements),
         _ => None,
     }
 }
 
-/// `X` only where it is possible: that predicate beside the guard, in the place of one part of it, or for all of it,
+/// A unit that asks for what its behaviour requires: beside its guard, instead of one part of it, or instead of all of it,
 /// alone or with one of the guard's literals.
-fn where_possible(units: &[Unit], possible: &[Possible], found: &mut Vec<Move>) {
+fn required(units: &[Unit], requirements: &[Requirement], found: &mut Vec<Move>) {
     for (i, unit) in units.iter().enumerate() {
-        let Some(needs) = needs(&unit.body, possible) else {
+        let Some(needs) = needs(&unit.body, requirements) else {
             continue;
         };
         let mut guards = vec![needs.clone()];
-        if unasked(unit, possible).is_some() {
+        if unasked(unit, requirements).is_some() {
             let parts = conjuncts(&unit.guard);
             guards.push(and(parts.iter().cloned().chain([needs.clone()])));
             for at in 0..parts.len() {
@@ -110,17 +110,17 @@ fn where_possible(units: &[Unit], possible: &[Possible], found: &mut Vec<Move>) 
         );
         for guard in guards.into_iter().filter(|guard| *guard != unit.guard) {
             let units = put(units, i, unit.under(guard));
-            found.push((Change::Possible, select(units)));
+            found.push((Change::Required, select(units)));
         }
     }
 }
 
-/// Another unit as the last resort, without a guard, and the last one only where it is possible.
-fn last_resort(units: &[Unit], possible: &[Possible], found: &mut Vec<Move>) {
+/// Another unit last, without a guard; the one that was last then asks for what its behaviour requires.
+fn last_resort(units: &[Unit], requirements: &[Requirement], found: &mut Vec<Move>) {
     let Some((last, others)) = units.split_last() else {
         return;
     };
-    let Some(needs) = needs(&last.body, possible) else {
+    let Some(needs) = needs(&last.body, requirements) else {
         return;
     };
     for (i, unit) in others.iter().enumerate() {
@@ -128,11 +128,11 @@ fn last_resort(units: &[Unit], possible: &[Possible], found: &mut Vec<Move>) {
         units.remove(i);
         units.push(last.under(and([last.guard.clone(), needs.clone()])));
         units.push(unit.under(Guard::Const(true)));
-        found.push((Change::Possible, select(units)));
+        found.push((Change::Required, select(units)));
     }
 }
 
-/// Two neighbours exchanged, or a unit brought to the front, and the guard of one of them loosened.
+/// Two neighbours exchanged, or a unit moved to the front, with a looser guard of one of them.
 fn reordered(units: &[Unit], found: &mut Vec<Move>) {
     for (i, unit) in units.iter().enumerate().skip(1) {
         let mut exchanged = units.to_vec();
@@ -156,7 +156,7 @@ fn reordered(units: &[Unit], found: &mut Vec<Move>) {
     }
 }
 
-/// A literal that a run of neighbours has in all their guards, once before a selector of them.
+/// A literal that the guards of neighbours share, once before a selector of them.
 fn factored(units: &[Unit], found: &mut Vec<Move>) {
     for (i, first) in units.iter().enumerate() {
         for literal in common(&first.guard).0 {
