@@ -31,8 +31,15 @@ pub mod logic;
 
 pub mod tree;
 
+pub mod trial;
+
+pub mod simplify;
+
 pub mod emit;
+
+pub mod report;
 
 pub mod driver;
 
+#[cfg(feature = "cli")]
 pub mod cli;

@@ -17,7 +17,7 @@ pub(super) struct Arguments {
     /// The form to write.
     #[arg(long, value_name = "FORM", default_value = "bt")]
     emit: Emit,
-    /// The file to write to, in the place of standard output.
+    /// The file to write to instead of standard output.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }
@@ -48,7 +48,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
         Emit::Csv => Form::Csv,
     };
     let (text, warning) = canonicalize::canonicalize(&loaded, &arguments.tree, form)
-        .map_err(|mistake| say.one(&loaded.sources, mistake))?;
+        .map_err(|refused| say.refused(&refused))?;
     files::put(arguments.output.as_deref(), &text)?;
     warning.iter().for_each(|line| tell(line));
     Ok(())

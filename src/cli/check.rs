@@ -1,10 +1,10 @@
 //! `btc check`
 
-use super::report::Reporter;
+use super::report::{Format, Reporter};
 use super::{Failure, files};
 use crate::diagnostic::{Diagnostic, render};
 use crate::driver::{check, load};
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
@@ -19,18 +19,10 @@ pub(super) struct Arguments {
     deny_warnings: bool,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
-    /// For a person.
-    Human,
-    /// A JSON object a line.
-    Json,
-}
-
 pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {
     let mut fine = true;
     for path in &arguments.files {
-        let Ok((name, bytes)) = files::read(path) else {
+        let Ok(files::File { name, bytes }) = files::read(path) else {
             fine = false;
             continue;
         };

@@ -1,13 +1,14 @@
 //! `btc decanonicalize`
 
+use super::files::File;
 use super::progress::Progress;
 use super::report::{Reporter, tell};
 use super::{Failure, files};
 use crate::driver::compile::Form;
-use crate::driver::decanonicalize::{self, Options, Recorded};
-use crate::driver::export::Runtime;
-use crate::driver::table::Text;
+use crate::driver::decanonicalize::{self, Options};
+use crate::driver::table::Recorded;
 use crate::tree::decanonicalise::{self, Method, Order};
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -27,10 +28,12 @@ pub(super) struct Arguments {
     slack: f64,
     /// How the tree is found.
     #[arg(long, value_name = "METHOD", default_value = "search")]
-    method: TreeMethod,
+    method: Method,
     /// In which order behaviours stand in the tree.
+    ///
+    /// A table gives the order of its columns of values, or else that in which its rows name the behaviours.
     #[arg(long, value_name = "ORDER", default_value = "learned")]
-    order: UnitOrder,
+    order: Order,
     /// How much work the search may take, in millions of units; the tree is the same on every machine.
     #[arg(long, value_name = "N", default_value_t = decanonicalise::Options::default().effort)]
     effort: u64,
@@ -38,12 +41,12 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "NAME", default_value = "learned", value_parser = name)]
     name: String,
     /// The form to write.
-    #[arg(long, value_name = "FORM", default_value = "bt")]
-    emit: Emit,
-    /// The file to write to, in the place of standard output.
+    #[arg(long, value_name = "FORM", default_value = "bt", value_parser = forms())]
+    emit: Form,
+    /// The file to write to instead of standard output.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Say on standard error what was read, found and proved.
+    /// Report on standard error what was read, found and proved.
     #[arg(long)]
     report: bool,
 }
@@ -57,39 +60,13 @@ JSON Lines: an object a line with the same names as keys. A predicate is 0, 1, f
 either; values may stand in an object under q:
   {\"low\": true, \"near\": null, \"behavior\": \"dock\", \"visits\": 12, \"q\": {\"dock\": 1.5, \"wander\": 0.2}}";
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum TreeMethod {
-    /// Algorithm 1 of the paper.
-    Paper,
-    /// The smallest tree that a search finds from there.
-    Search,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum UnitOrder {
-    /// As makes the tree smallest.
-    Learned,
-    /// As in the table: by their columns of values, else as they are met.
-    Given,
-    /// Those with the fewest rows first.
-    Rarest,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Emit {
-    /// A program that declares the names of the table.
-    Bt,
-    /// Graphviz.
-    Dot,
-    /// A picture.
-    Svg,
-    /// JSON.
-    Json,
-    /// XML for BehaviorTree.CPP 4, Groot2 and Nav2.
-    Btcpp,
-    /// A Python module for py_trees 2.
-    #[value(name = "py_trees")]
-    PyTrees,
+/// The forms that trees are written in.
+fn forms() -> impl TypedValueParser<Value = Form> {
+    let forms = Form::value_variants()
+        .iter()
+        .filter(|form| form.is_of_trees());
+    let values = forms.filter_map(ValueEnum::to_possible_value);
+    PossibleValuesParser::new(values).try_map(|name| Form::from_str(&name, false))
 }
 
 fn slack(text: &str) -> Result<f64, String> {
@@ -109,26 +86,12 @@ fn name(text: &str) -> Result<String, String> {
 
 pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {
     let options = Options {
-        method: match arguments.method {
-            TreeMethod::Paper => Method::Paper,
-            TreeMethod::Search => Method::Search,
-        },
-        order: match arguments.order {
-            UnitOrder::Learned => Order::Learned,
-            UnitOrder::Given => Order::Given,
-            UnitOrder::Rarest => Order::Rarest,
-        },
+        method: arguments.method,
+        order: arguments.order,
         effort: arguments.effort,
         slack: arguments.slack,
         name: &arguments.name,
-        form: match arguments.emit {
-            Emit::Bt => Form::Bt,
-            Emit::Dot => Form::Dot,
-            Emit::Svg => Form::Svg,
-            Emit::Json => Form::Json,
-            Emit::Btcpp => Form::Robot(Runtime::BtCpp),
-            Emit::PyTrees => Form::Robot(Runtime::PyTrees),
-        },
+        form: arguments.emit,
     };
     let bar = Progress::new();
     bar.stage("reading");
@@ -136,7 +99,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     bar.stage("finding a tree");
     let made = decanonicalize::decanonicalize(asked, &options);
     bar.finish();
-    let made = made.map_err(|refused| say.several(&refused.sources, &refused.diagnostics))?;
+    let made = made.map_err(|refused| say.refused(&refused))?;
     files::put(arguments.output.as_deref(), &made.text)?;
     made.warnings.iter().for_each(|line| tell(line));
     if arguments.report {
@@ -145,23 +108,18 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     Ok(())
 }
 
-/// Reads the tables; their texts are dropped with the end of this function.
+/// Reads the tables. Their texts are dropped as this function ends.
 fn read(
     arguments: &Arguments,
     options: &Options,
     say: &Reporter,
 ) -> Result<decanonicalize::Asked, Failure> {
-    let all = |path: &Option<String>| path.as_deref().map(files::read).transpose();
-    let (name, bytes) = files::read(&arguments.file)?;
-    let (transitions, start) = (all(&arguments.transitions)?, all(&arguments.start)?);
-    let recorded = transitions.as_ref().map(|(name, bytes)| Recorded {
-        transitions: Text { name, bytes },
-        starts: start.as_ref().map(|(name, bytes)| Text { name, bytes }),
+    let table = files::read(&arguments.file)?;
+    let transitions = files::read_optional(arguments.transitions.as_deref())?;
+    let start = files::read_optional(arguments.start.as_deref())?;
+    let recorded = transitions.as_ref().map(|transitions| Recorded {
+        transitions: transitions.text(),
+        starts: start.as_ref().map(File::text),
     });
-    let table = Text {
-        name: &name,
-        bytes: &bytes,
-    };
-    decanonicalize::read(table, recorded, options)
-        .map_err(|refused| say.several(&refused.sources, &refused.diagnostics))
+    decanonicalize::read(table.text(), recorded, options).map_err(|refused| say.refused(&refused))
 }

@@ -2,6 +2,7 @@
 
 use super::report::{Reporter, tell};
 use super::{Failure, interrupt};
+use crate::driver::Text;
 use crate::driver::load::{self, Loaded, Reader};
 use std::io::{self, Read, Write};
 use std::path::{Component, Path, PathBuf};
@@ -9,7 +10,7 @@ use std::path::{Component, Path, PathBuf};
 /// The name that stands for standard input.
 pub(super) const STDIN: &str = "-";
 
-/// Files as the system has them.
+/// Files on disk.
 pub(super) struct Disk;
 
 impl Reader for Disk {
@@ -18,19 +19,41 @@ impl Reader for Disk {
     }
 }
 
-/// The bytes of a file, or of standard input, with the name by which diagnostics call it.
-pub(super) fn read(path: &str) -> Result<(String, Vec<u8>), Failure> {
-    if path == STDIN {
+/// A file, or standard input, as it was read.
+pub(super) struct File {
+    /// The name in diagnostics.
+    pub(super) name: String,
+    /// The bytes.
+    pub(super) bytes: Vec<u8>,
+}
+
+impl File {
+    /// The file as the driver takes it.
+    pub(super) fn text(&self) -> Text<'_> {
+        Text {
+            name: &self.name,
+            bytes: &self.bytes,
+        }
+    }
+}
+
+/// Reads a file, or standard input.
+pub(super) fn read(path: &str) -> Result<File, Failure> {
+    let (name, place, bytes) = if path == STDIN {
         let mut bytes = Vec::new();
-        return match io::stdin().read_to_end(&mut bytes) {
-            Ok(_) => Ok(("<stdin>".to_owned(), bytes)),
-            Err(error) => Err(complain(&format!("standard input: {error}"))),
-        };
-    }
-    match std::fs::read(path) {
-        Ok(bytes) => Ok((path.to_owned(), bytes)),
-        Err(error) => Err(complain(&format!("{path}: {error}"))),
-    }
+        let read = io::stdin().read_to_end(&mut bytes);
+        ("<stdin>", "standard input", read.map(|_| bytes))
+    } else {
+        (path, path, std::fs::read(path))
+    };
+    let bytes = bytes.map_err(|error| complain(&format!("{place}: {error}")))?;
+    let name = name.to_owned();
+    Ok(File { name, bytes })
+}
+
+/// Reads a file, if one is named.
+pub(super) fn read_optional(path: Option<&str>) -> Result<Option<File>, Failure> {
+    path.map(read).transpose()
 }
 
 /// A mistake that has no place in a text.
@@ -39,10 +62,10 @@ pub(super) fn complain(message: &str) -> Failure {
     Failure::Input
 }
 
-/// Loads a program and reports what there is to report; a program with errors is a failure.
+/// Loads a program and writes its diagnostics; a program with errors is a failure.
 pub(super) fn load(path: &str, say: &Reporter) -> Result<Loaded, Failure> {
-    let (name, bytes) = read(path)?;
-    let loaded = load::load(&name, bytes, &mut Disk);
+    let file = read(path)?;
+    let loaded = load::load(&file.name, file.bytes, &mut Disk);
     say.all(&loaded.sources, &loaded.diagnostics);
     if loaded.has_errors() {
         say.count(&loaded.diagnostics);
@@ -51,8 +74,8 @@ pub(super) fn load(path: &str, say: &Reporter) -> Result<Loaded, Failure> {
     Ok(loaded)
 }
 
-/// Writes a whole file or nothing: to a temporary name beside it, synced and renamed. A file that was there keeps its
-/// permissions, a link goes on to lead to it, and what is no file (a device, a pipe) is written to as it is.
+/// Writes a whole file or nothing: to a temporary name beside it, synced and renamed. An existing file keeps its
+/// permissions, a link stays a link, and a device or a pipe is written to directly.
 pub(super) fn write(path: &Path, text: &str) -> Result<(), Failure> {
     let attempt = || -> io::Result<()> {
         let path = &path.canonicalize().unwrap_or_else(|_| path.to_owned());
@@ -66,7 +89,7 @@ pub(super) fn write(path: &Path, text: &str) -> Result<(), Failure> {
         let folder = folder.unwrap_or_else(|| Path::new("."));
         let mut builder = tempfile::Builder::new();
         builder.prefix(".btc-");
-        // A temporary file is its owner's alone; a result is anybody's to read.
+        // Only the owner may read a temporary file; anyone may read a result.
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
         let mut file = interrupt::begin(|| builder.tempfile_in(folder))?;
@@ -99,7 +122,7 @@ pub(super) fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// The path of a file from a folder, with `/` between its parts. Both are looked at as they are on disk.
+/// The path of a file from a folder, with `/` between its parts, after all links are followed.
 pub(super) fn from_folder(folder: &Path, file: &Path) -> Result<String, Failure> {
     let whole = |path: &Path| {
         path.canonicalize()

@@ -3,7 +3,7 @@
 use super::Failure;
 use super::files::{self, STDIN};
 use super::report::{Reporter, tell};
-use crate::driver::format;
+use crate::driver::format::format;
 use clap::Args;
 use std::path::Path;
 
@@ -20,29 +20,29 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {
     let mut fine = true;
     for path in &arguments.files {
-        let Ok((name, bytes)) = files::read(path) else {
+        let Ok(file) = files::read(path) else {
             fine = false;
             continue;
         };
-        let text = match format::format(&name, bytes.clone()) {
-            Ok(text) => text,
-            Err((sources, mistakes)) => {
-                say.all(&sources, &mistakes);
-                say.count(&mistakes);
+        let formatted = match format(file.text()) {
+            Ok(formatted) => formatted,
+            Err(refused) => {
+                say.refused(&refused);
+                say.count(&refused.diagnostics);
                 fine = false;
                 continue;
             }
         };
-        let changed = text.as_bytes() != bytes;
+        let changed = formatted.as_bytes() != file.bytes;
         if arguments.check {
             if changed {
-                tell(&format!("{name} is not laid out"));
+                tell(&format!("{} is not laid out", file.name));
                 fine = false;
             }
         } else if path == STDIN {
-            files::print(&text)?;
+            files::print(&formatted)?;
         } else if changed {
-            fine &= files::write(Path::new(path), &text).is_ok();
+            fine &= files::write(Path::new(path), &formatted).is_ok();
         }
     }
     if fine { Ok(()) } else { Err(Failure::Input) }

@@ -1,19 +1,19 @@
-//! An interrupt leaves nothing half-written: the temporary file that is being filled goes with the process.
+//! An interrupt leaves nothing half-written: the temporary file is removed as the process ends.
 
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use tempfile::NamedTempFile;
 
-/// What a shell calls the end by an interrupt: 128 and the number of the signal.
+/// The exit code of a process that an interrupt ended: 128 and the number of the signal.
 const INTERRUPTED: i32 = 130;
 
-/// The temporary file that is there, if any. It comes, goes and gets its name while this is held.
+/// The temporary file that exists now, if any. It is made, renamed and removed under this lock.
 static PENDING: Mutex<Option<PathBuf>> = Mutex::new(None);
 
 /// Watches for Ctrl-C.
 pub(super) fn watch() {
-    // Without a handler the process ends all the same, and leaves its temporary file.
+    // Without a handler the process still ends, but leaves its temporary file.
     let _ = ctrlc::set_handler(|| {
         let pending = PENDING.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(path) = &*pending {
@@ -31,7 +31,7 @@ pub(super) fn begin(make: impl FnOnce() -> io::Result<NamedTempFile>) -> io::Res
     Ok(file)
 }
 
-/// Gives a temporary file its name, in the place of what has it.
+/// Gives a temporary file its name; a file that has the name is replaced.
 pub(super) fn end(file: NamedTempFile, path: &Path) -> io::Result<()> {
     let mut pending = PENDING.lock().unwrap_or_else(PoisonError::into_inner);
     *pending = None;

@@ -7,7 +7,7 @@ use super::{Failure, PLAYED};
 use crate::driver::learn::{self, Options};
 use crate::driver::{target, verify};
 use crate::tree::decanonicalise::{Care, Method};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
@@ -20,49 +20,33 @@ pub(super) struct Arguments {
     /// The learner, if the program has several.
     #[arg(long, value_name = "NAME")]
     learner: Option<String>,
-    /// The seed, in the place of the program's.
+    /// The seed, instead of the program's.
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
     /// The number of runs, with this seed and those that follow it; the best by validation is taken.
     #[arg(long, value_name = "K", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1000))]
     seeds: u64,
-    /// The number of episodes, in the place of the program's.
+    /// The number of episodes, instead of the program's.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     episodes: Option<u64>,
     /// How the tree is found.
     #[arg(long, value_name = "METHOD", default_value = "search")]
-    method: TreeMethod,
+    method: Method,
     /// In which minterms the tree takes the policy's decisions.
     #[arg(long, value_name = "SET", default_value = "reachable")]
-    care: CareSet,
+    care: Care,
     /// Print a smaller tree that costs less than this part of the return, such as `1%`; tested in simulation, not proved.
     #[arg(long, value_name = "LOSS", value_parser = loss)]
     simplify: Option<f64>,
     /// The fewest decisions by which a minterm counts as learned; below, it is a don't-care.
     #[arg(long, value_name = "N", default_value_t = 10)]
     evidence: u64,
-    /// How many greedy episodes show the transitions of the policy.
+    /// The number of greedy episodes that show the transitions of the policy.
     #[arg(long, value_name = "N", default_value_t = 2000, value_parser = clap::value_parser!(u64).range(1..=PLAYED))]
     roll_outs: u64,
-    /// How many episodes test the tree: 1000 with several seeds, else none.
+    /// The number of episodes that test the tree: 1000 with several seeds, else none.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(0..=PLAYED))]
     tests: Option<u64>,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum TreeMethod {
-    /// Algorithm 1 of the paper.
-    Paper,
-    /// The smallest tree that a search finds from there.
-    Search,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum CareSet {
-    /// In all that were learned, as in the paper.
-    Seen,
-    /// In those that the greedy policy reaches.
-    Reachable,
 }
 
 /// A part of a return: `1%` or `0.01`.
@@ -85,7 +69,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     let loaded = files::load(&arguments.file, say)?;
     // Without a learner no folder is made.
     target::learner(&loaded, arguments.learner.as_deref())
-        .map_err(|mistake| say.one(&loaded.sources, mistake))?;
+        .map_err(|refused| say.refused(&refused))?;
     let folder = match &arguments.output {
         Some(folder) => folder.clone(),
         None => {
@@ -107,14 +91,8 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
         seeds: arguments.seeds,
         episodes: arguments.episodes,
         evidence: arguments.evidence,
-        method: match arguments.method {
-            TreeMethod::Paper => Method::Paper,
-            TreeMethod::Search => Method::Search,
-        },
-        care: match arguments.care {
-            CareSet::Seen => Care::Seen,
-            CareSet::Reachable => Care::Reachable,
-        },
+        method: arguments.method,
+        care: arguments.care,
         simplify: arguments.simplify,
         roll_outs: arguments.roll_outs,
         tests: arguments
@@ -125,7 +103,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     let bar = Progress::new();
     let learned = learn::learn(&loaded, &options, &|stage| bar.show(stage));
     bar.finish();
-    let learned = learned.map_err(|mistake| say.one(&loaded.sources, mistake))?;
+    let learned = learned.map_err(|refused| say.refused(&refused))?;
     files::print(&learned.tree)?;
     for (name, text) in &learned.files {
         files::write(&folder.join(name), text)?;
@@ -133,8 +111,8 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     for line in &learned.report {
         tell(line);
     }
-    let claims = verify::claims_of_learned(&loaded, &learned)
-        .map_err(|mistakes| say.several(&loaded.sources, &mistakes))?;
+    let claims =
+        verify::claims_of_learned(&loaded, &learned).map_err(|refused| say.refused(&refused))?;
     for claim in &claims {
         tell(&claim.text);
     }

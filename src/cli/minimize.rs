@@ -2,8 +2,8 @@
 
 use super::report::{Reporter, tell};
 use super::{Failure, files};
-use crate::driver::minimize::{self, Options};
-use clap::{Args, ValueEnum};
+use crate::driver::minimize::{self, Options, Order};
+use clap::Args;
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -13,7 +13,7 @@ pub(super) struct Arguments {
     /// Make the outputs a decision list: of the rows that hold the first decides.
     #[arg(long, value_name = "ORDER")]
     order: Option<Order>,
-    /// The file to write to, in the place of standard output.
+    /// The file to write to instead of standard output.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Say how large the sets are before and after, as Espresso does.
@@ -24,28 +24,14 @@ pub(super) struct Arguments {
     limit: usize,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Order {
-    /// The cheapest first.
-    Learned,
-    /// As in the file.
-    Given,
-    /// The output with the fewest rows first.
-    Rarest,
-}
-
 pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {
-    let (name, bytes) = files::read(&arguments.file)?;
+    let file = files::read(&arguments.file)?;
     let options = Options {
-        order: arguments.order.map(|order| match order {
-            Order::Learned => minimize::Order::Learned,
-            Order::Given => minimize::Order::Given,
-            Order::Rarest => minimize::Order::Rarest,
-        }),
+        order: arguments.order,
         limit: arguments.limit,
     };
-    let minimized = minimize::minimize(&name, bytes, &options)
-        .map_err(|(sources, mistakes)| say.several(&sources, &mistakes))?;
+    let minimized =
+        minimize::minimize(file.text(), &options).map_err(|refused| say.refused(&refused))?;
     if arguments.statistics {
         tell(minimized.statistics.trim_end());
     }

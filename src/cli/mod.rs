@@ -22,7 +22,7 @@ mod verify;
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
-/// The most episodes that are played at once: the figures of each are kept until the last has ended.
+/// The most episodes of one run: the figures of each are kept until the last has ended.
 const PLAYED: u64 = 1_000_000;
 
 /// A compiler for behaviour trees that robots learn by themselves.
@@ -65,7 +65,7 @@ enum Command {
     Explain(explain::Arguments),
 }
 
-/// Why a command stops without its result. Everything has been said on standard error.
+/// Why a command stops without its result. The reason stands on standard error already.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Failure {
     /// The input is wrong, or a claim does not hold.
@@ -87,7 +87,7 @@ impl From<Failure> for ExitCode {
 pub fn main() -> ExitCode {
     let arguments = Arguments::parse();
     if let Some(threads) = arguments.threads {
-        // Fails only if a pool is there already, and nothing has made one yet.
+        // Fails only if a pool exists already, and nothing has made one yet.
         let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads));
         let _ = pool.build_global();
     }

@@ -8,7 +8,7 @@ use std::time::Duration;
 
 /// A command that takes no longer shows no bar.
 const PATIENCE: Duration = Duration::from_secs(2);
-/// How often a bar is drawn that nothing moves.
+/// The time between two redraws of a bar that does not move.
 const BEAT: Duration = Duration::from_millis(200);
 
 /// Shows how far a command has come.

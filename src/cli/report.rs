@@ -2,6 +2,7 @@
 
 use super::Failure;
 use crate::diagnostic::{Diagnostic, render};
+use crate::driver::Refused;
 use crate::source::Sources;
 use clap::ValueEnum;
 use std::io::{IsTerminal, Write};
@@ -17,19 +18,28 @@ pub(super) enum Color {
     Never,
 }
 
-/// Writes a line to standard error. Nobody may be left to read it: the result matters, not the report.
+/// How results are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Format {
+    /// For a person.
+    Human,
+    /// JSON.
+    Json,
+}
+
+/// Writes a line to standard error. If nobody reads it, that is no failure: the result matters, not the report.
 pub(super) fn tell(line: &str) {
     let _ = writeln!(std::io::stderr().lock(), "{line}");
 }
 
-/// Says what there is to say.
+/// Writes diagnostics to standard error.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reporter {
     color: bool,
 }
 
 impl Reporter {
-    /// One that colours as it is told.
+    /// A reporter that colours where `color` says so.
     pub(super) fn new(color: Color) -> Self {
         let color = match color {
             Color::Always => true,
@@ -47,18 +57,13 @@ impl Reporter {
         let _ = write!(std::io::stderr().lock(), "{text}");
     }
 
-    /// One diagnostic that ends the command.
-    pub(super) fn one(&self, sources: &Sources, diagnostic: Diagnostic) -> Failure {
-        self.several(sources, &[diagnostic])
-    }
-
-    /// Diagnostics that end the command.
-    pub(super) fn several(&self, sources: &Sources, diagnostics: &[Diagnostic]) -> Failure {
-        self.all(sources, diagnostics);
+    /// The mistakes that end a command.
+    pub(super) fn refused(&self, refused: &Refused) -> Failure {
+        self.all(&refused.sources, &refused.diagnostics);
         Failure::Input
     }
 
-    /// How many there were.
+    /// The number of errors and warnings.
     pub(super) fn count(&self, diagnostics: &[Diagnostic]) {
         let errors = diagnostics.iter().filter(|d| d.is_error()).count();
         let warnings = diagnostics.len() - errors;

@@ -1,10 +1,10 @@
 //! `btc run`
 
-use super::report::Reporter;
+use super::report::{Format, Reporter};
 use super::{Failure, PLAYED, files};
+use crate::driver::picture;
 use crate::driver::run::{self, Subject};
-use crate::driver::{load, picture, table, target};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -35,48 +35,24 @@ pub(super) struct Arguments {
     svg_ticks: u64,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
-    /// For a person.
-    Human,
-    /// JSON.
-    Json,
-}
-
 pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {
-    let mut loaded = files::load(&arguments.file, say)?;
-    let policy = match &arguments.policy {
-        None => None,
-        Some(path) => {
-            let (name, bytes) = files::read(path)?;
-            let (file, mistake) = load::decode(&mut loaded.sources, &name, bytes);
-            if let Some(mistake) = mistake {
-                return Err(say.one(&loaded.sources, mistake));
-            }
-            let task = target::task_of(&loaded, None)
-                .map_err(|mistake| say.one(&loaded.sources, mistake))?;
-            let policy = table::policy(&loaded, file, task)
-                .map_err(|mistakes| say.several(&loaded.sources, &mistakes))?;
-            Some((policy, task))
-        }
-    };
-    let subject = match (&policy, &arguments.tree) {
-        (Some((policy, task)), _) => Subject::Policy(policy, *task),
-        (None, Some(name)) => Subject::Tree(
-            target::tree(&loaded, name).map_err(|mistake| say.one(&loaded.sources, mistake))?,
-        ),
+    let loaded = files::load(&arguments.file, say)?;
+    let subject = match (&arguments.policy, &arguments.tree) {
+        (Some(path), _) => Subject::policy(&loaded, files::read(path)?.text()),
+        (None, Some(name)) => Subject::tree(&loaded, name),
         // clap asks for one of the two.
         (None, None) => return Err(Failure::Usage),
     };
-    let ran = run::run(&loaded, subject, arguments.episodes, arguments.seed)
-        .map_err(|mistake| say.one(&loaded.sources, mistake))?;
+    let subject = subject.map_err(|refused| say.refused(&refused))?;
+    let ran = run::run(&loaded, &subject, arguments.episodes, arguments.seed)
+        .map_err(|refused| say.refused(&refused))?;
     if let Some(path) = &arguments.svg {
-        let picture = picture::draw(&loaded, subject, arguments.seed, arguments.svg_ticks)
-            .map_err(|mistake| say.one(&loaded.sources, mistake))?;
+        let picture = picture::draw(&loaded, &subject, arguments.seed, arguments.svg_ticks)
+            .map_err(|refused| say.refused(&refused))?;
         files::write(path, &picture)?;
     }
     match arguments.format {
         Format::Human => files::print(&ran.human()),
-        Format::Json => files::print(&format!("{:#}\n", ran.json())),
+        Format::Json => files::print(&ran.json()),
     }
 }

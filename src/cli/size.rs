@@ -19,7 +19,6 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {
     let loaded = files::load(&arguments.file, say)?;
-    let text = size::sizes(&loaded, &arguments.trees)
-        .map_err(|mistakes| say.several(&loaded.sources, &mistakes))?;
+    let text = size::sizes(&loaded, &arguments.trees).map_err(|refused| say.refused(&refused))?;
     files::print(&text)
 }

@@ -1,9 +1,10 @@
 //! `btc verify`
 
+use super::files::File;
 use super::report::{Reporter, tell};
 use super::{Failure, files};
 use crate::driver::load::Loaded;
-use crate::driver::table::Text;
+use crate::driver::table::Recorded;
 use crate::driver::verify::{self, Proved};
 use clap::Args;
 
@@ -31,12 +32,10 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
             tell("error: `--transitions` belongs to a policy table: name a tree and a table");
             return Err(Failure::Usage);
         }
-        [] => {
-            verify::claims(&loaded).map_err(|mistakes| say.several(&loaded.sources, &mistakes))?
-        }
+        [] => verify::claims(&loaded).map_err(|refused| say.refused(&refused))?,
         [left, right] => {
             let result = verify::trees(&loaded, left, right);
-            vec![result.map_err(|mistakes| say.several(&loaded.sources, &mistakes))?]
+            vec![result.map_err(|refused| say.refused(&refused))?]
         }
         _ => {
             tell(
@@ -68,16 +67,12 @@ fn with_table(
     arguments: &Arguments,
     say: &Reporter,
 ) -> Result<Proved, Failure> {
-    let all = |path: &Option<String>| path.as_deref().map(files::read).transpose();
     let table = files::read(table)?;
-    let (transitions, start) = (all(&arguments.transitions)?, all(&arguments.start)?);
-    let recorded = transitions
-        .as_ref()
-        .map(|file| (text(file), start.as_ref().map(text)));
-    verify::table(loaded, tree, text(&table), recorded)
-        .map_err(|refused| say.several(&refused.sources, &refused.diagnostics))
-}
-
-fn text((name, bytes): &(String, Vec<u8>)) -> Text<'_> {
-    Text { name, bytes }
+    let transitions = files::read_optional(arguments.transitions.as_deref())?;
+    let start = files::read_optional(arguments.start.as_deref())?;
+    let recorded = transitions.as_ref().map(|transitions| Recorded {
+        transitions: transitions.text(),
+        starts: start.as_ref().map(File::text),
+    });
+    verify::table(loaded, tree, table.text(), recorded).map_err(|refused| say.refused(&refused))
 }

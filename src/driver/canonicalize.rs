@@ -1,7 +1,8 @@
-//! `btc canonicalize`: any tree as a canonical one (paper, section IV), or as the policy table that it stands for.
+//! `btc canonicalize`: the canonical form of a tree (paper, section IV), or its policy table.
 
 use super::export;
 use super::load::Loaded;
+use super::refused::Refused;
 use super::target;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::emit;
@@ -12,7 +13,7 @@ use crate::syntax::print;
 use crate::tree::atoms::atoms;
 use crate::tree::canonicalise::{Canonical, Irreducible, canonicalise};
 
-/// What is written.
+/// The form to write.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form<'f> {
     /// A program with the canonical tree. What the tree mentions is declared, or found in the file that this path leads
@@ -22,24 +23,24 @@ pub enum Form<'f> {
     Csv,
 }
 
-/// The canonical form of a tree, with what a person has to know of it.
+/// The canonical form of a tree, with a warning if there is any.
 ///
 /// # Errors
-/// There is no such tree, or it has no canonical form: with the node that hinders it, and why.
+/// There is no such tree, or it has no canonical form: the diagnostic points to the node that has none.
 pub fn canonicalize(
     loaded: &Loaded,
     name: &str,
     form: Form,
-) -> Result<(String, Option<String>), Diagnostic> {
+) -> Result<(String, Option<String>), Refused> {
     let id = target::tree(loaded, name)?;
     let tree = &loaded.program.trees[id];
     let canonical = canonicalise(&tree.root).map_err(|why| irreducible(loaded, tree, &why))?;
     if canonical.units.is_empty() {
         let note = format!("`{}` selects nothing in any minterm", tree.name);
         let message = format!("`{}` has no canonical form", tree.name);
-        return Err(
-            Diagnostic::new(Code::E0819, export::place(loaded, tree, &[]), message).label(note),
-        );
+        let place = export::place(loaded, tree, &[]);
+        let diagnostic = Diagnostic::new(Code::E0819, place, message).label(note);
+        return Err(Refused::program(loaded, [diagnostic]));
     }
     match form {
         Form::Csv => Ok(table(&loaded.program, tree, &canonical)),
@@ -78,7 +79,7 @@ fn file(loaded: &Loaded, tree: &Tree, canonical: &Canonical, path: Option<&str>)
     }
 }
 
-/// Whether a program says nothing of its names but that they are there.
+/// Whether a program only declares names.
 fn is_declared_only(program: &Program) -> bool {
     program.world.is_none()
         && program.tasks.is_empty()
@@ -123,8 +124,9 @@ fn table(program: &Program, tree: &Tree, canonical: &Canonical) -> (String, Opti
     (decisions::write_bare(&policy, program), warning)
 }
 
-fn irreducible(loaded: &Loaded, tree: &Tree, why: &Irreducible) -> Diagnostic {
+fn irreducible(loaded: &Loaded, tree: &Tree, why: &Irreducible) -> Refused {
     let message = format!("`{}` has no canonical form", tree.name.family);
-    Diagnostic::new(Code::E0819, export::place(loaded, tree, &why.path), message)
-        .label(why.message())
+    let place = export::place(loaded, tree, &why.path);
+    let diagnostic = Diagnostic::new(Code::E0819, place, message).label(why.message());
+    Refused::program(loaded, [diagnostic])
 }

@@ -1,13 +1,14 @@
-//! `btc check`: what is known of a program before its first tick, though not from its text alone.
+//! `btc check`: mistakes that show only when the world of a program is built.
 
 use super::load::Loaded;
-use super::run;
+use super::world;
 use crate::diagnostic::Diagnostic;
 use crate::ir::Program;
 use crate::ir::task::{StartLine, Task};
+use crate::world::Simulator;
 
-/// Why the world of a task cannot be built: the robot fits nowhere, or not where it is to start, or the task is too
-/// large. Tasks with something that is declared only are not meant to be run.
+/// The first world that cannot be built: the robot fits nowhere, or not where it starts, or the task is too large. Tasks
+/// that use something that is declared only are not meant to run, and are left out.
 pub fn worlds(loaded: &Loaded) -> Option<Diagnostic> {
     let program = &loaded.program;
     if loaded.has_errors() || program.world.is_none() {
@@ -23,7 +24,8 @@ pub fn worlds(loaded: &Loaded) -> Option<Diagnostic> {
             .filter(|learner| learner.task == id)
             .map(|learner| learner.start.as_slice());
         let starts: Vec<&[StartLine]> = std::iter::once(task.start.as_slice()).chain(own).collect();
-        run::build(loaded, id, &starts, &[]).err()
+        let error = Simulator::build(program, id, &starts, &[]).err()?;
+        Some(world::unbuilt(loaded, &error))
     })
 }
 

@@ -2,45 +2,37 @@
 
 use super::compile::{self, Form};
 use super::load::{self, Loaded, Reader};
-use super::table::{self, Refused, Text};
+use super::refused::Refused;
+use super::table::{self, Recorded};
+use super::text::Text;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::emit;
 use crate::ir::tree::Tree;
 use crate::ir::{Name, Program};
 use crate::policy::table::{AtomName, Table};
 use crate::policy::{Policy, decisions};
+use crate::report::words::rows;
 use crate::source::{FileId, Span};
 use crate::tree::decanonicalise::{self, Care, Decanonicalised, Loosened, Method, Order};
 use crate::tree::prove::Refuted;
 
 mod report;
 
-pub(super) use report::rows;
-
-/// What a user may say beside the table.
+/// What a user may set.
 #[derive(Clone, Copy, Debug)]
 pub struct Options<'o> {
-    /// How the tree is found.
+    /// The method that finds the tree.
     pub method: Method,
-    /// In which order its units stand.
+    /// The order of its units.
     pub order: Order,
-    /// How much work the search may take; see [`decanonicalise::Options::effort`].
+    /// The effort of the search; see [`decanonicalise::Options::effort`].
     pub effort: u64,
-    /// How much less than the table's decision another may be worth; 0 for a tree that is equal to the table.
+    /// The value that a decision may lose against the table's; 0 for a tree that is equal to the table.
     pub slack: f64,
     /// The name of the tree.
     pub name: &'o str,
-    /// What is written.
+    /// The form to write.
     pub form: Form,
-}
-
-/// What is known of the process under the policy.
-#[derive(Clone, Copy, Debug)]
-pub struct Recorded<'t> {
-    /// Greedy transitions, with start minterms or without.
-    pub transitions: Text<'t>,
-    /// Start minterms.
-    pub starts: Option<Text<'t>>,
 }
 
 /// A policy with a program that declares its names. The texts that it was read from are no longer needed.
@@ -48,25 +40,25 @@ pub struct Recorded<'t> {
 pub struct Asked {
     program: Program,
     policy: Policy,
-    /// How the table is called.
+    /// The name of the table.
     source: String,
 }
 
-/// What was made of a table.
+/// A tree made from a table.
 #[derive(Clone, Debug)]
 pub struct Made {
-    /// The tree, in the form that was asked for.
+    /// The tree in its form.
     pub text: String,
-    /// What a person has to know.
+    /// Warnings, in lines.
     pub warnings: Vec<String>,
-    /// What a person may want to know, in lines.
+    /// The report, in lines.
     pub report: Vec<String>,
 }
 
-/// Reads a table, and what is known of the process under it.
+/// Reads a table, and the record of the process under it.
 ///
 /// # Errors
-/// What is wrong with the texts, with the places.
+/// The mistakes of the texts.
 pub fn read(text: Text, recorded: Option<Recorded>, options: &Options) -> Result<Asked, Refused> {
     let read = table::read(text)?;
     let at_header = |code, message: String| {
@@ -74,20 +66,20 @@ pub fn read(text: Text, recorded: Option<Recorded>, options: &Options) -> Result
         move |file: FileId| Diagnostic::new(code, span(file), message)
     };
     if options.slack > 0.0 && !read.has_values() {
-        let told = at_header(
+        let found = at_header(
             Code::E0817,
             "slack needs the values of the behaviours".to_owned(),
         );
         let help = "a column `q:NAME` for each behaviour says what it is worth";
-        return Err(Refused::new(text, |file| vec![told(file).help(help)]));
+        return Err(Refused::text(text, |file| vec![found(file).help(help)]));
     }
     if let Some(what) = names(&read, options.name) {
-        let told = at_header(
+        let found = at_header(
             Code::E0816,
             format!("`{}` is the tree and {what}", options.name),
         );
         let help = "call the tree otherwise, with `--name NAME`";
-        return Err(Refused::new(text, |file| vec![told(file).help(help)]));
+        return Err(Refused::text(text, |file| vec![found(file).help(help)]));
     }
     let (program, policy) = decisions::declared(&read);
     let mut asked = Asked {
@@ -96,17 +88,12 @@ pub fn read(text: Text, recorded: Option<Recorded>, options: &Options) -> Result
         source: called(text.name),
     };
     if let Some(recorded) = recorded {
-        table::record(
-            &mut asked.policy,
-            &asked.program,
-            recorded.transitions,
-            recorded.starts,
-        )?;
+        table::record(&mut asked.policy, &asked.program, recorded)?;
     }
     Ok(asked)
 }
 
-/// What of a table is called so.
+/// What has this name in a table.
 fn names(table: &Table, name: &str) -> Option<&'static str> {
     let predicate = AtomName::Predicate(name.to_owned());
     if table.atoms.iter().any(|(atom, _)| *atom == predicate) {
@@ -129,7 +116,7 @@ fn called(name: &str) -> String {
 /// Makes the tree and proves it.
 ///
 /// # Errors
-/// The tree is refuted, which is a mistake of btc.
+/// The tree is refuted, which is a bug of btc.
 pub fn decanonicalize(asked: Asked, options: &Options) -> Result<Made, Refused> {
     let wanted = decanonicalise::Options {
         method: options.method,
@@ -177,19 +164,14 @@ pub fn decanonicalize(asked: Asked, options: &Options) -> Result<Made, Refused> 
     })
 }
 
-/// The program in the form that was asked for.
+/// The program in its form.
 fn written(loaded: &Loaded, file: String, options: &Options) -> Result<String, Refused> {
-    let refused = |diagnostics| Refused {
-        sources: loaded.sources.clone(),
-        diagnostics,
-    };
     if loaded.has_errors() {
-        return Err(refused(loaded.diagnostics.clone()));
+        return Err(Refused::program(loaded, loaded.diagnostics.clone()));
     }
     match options.form {
         Form::Bt => Ok(file),
-        form => compile::emit(loaded, form, Some(options.name))
-            .map_err(|mistake| refused(vec![mistake])),
+        form => compile::emit(loaded, form, Some(options.name)),
     }
 }
 
@@ -214,7 +196,7 @@ fn doc(
     )
 }
 
-/// The program needs no other files.
+/// A reader for programs that use no other file.
 struct Alone;
 
 impl Reader for Alone {
@@ -223,13 +205,13 @@ impl Reader for Alone {
     }
 }
 
-/// A mistake of btc.
+/// A bug of btc.
 fn internal(source: &str, why: &str) -> Refused {
     let nothing = Text {
         name: source,
         bytes: b"",
     };
-    Refused::new(nothing, |file| {
+    Refused::text(nothing, |file| {
         let message = format!("the tree that was found is not equal to the table: {why}");
         vec![
             Diagnostic::new(Code::E0609, Span::new(file, 0, 0), message)

@@ -2,10 +2,10 @@
 
 use crate::diagnostic::{Code, suggest};
 
-/// The explanation of a code, or the likely code where there is none of that name.
+/// The explanation of a code.
 ///
 /// # Errors
-/// The code that was likely meant, if any is near.
+/// There is no such code: the one that was likely meant, if any is near.
 pub fn explain(code: &str) -> Result<&'static str, Option<&'static str>> {
     match Code::parse(code) {
         Some(code) => Ok(code.explanation()),

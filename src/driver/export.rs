@@ -1,6 +1,7 @@
 //! Trees for robots: BehaviorTree.CPP and py_trees.
 
 use super::load::Loaded;
+use super::refused::Refused;
 use super::target;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::emit::refusal::{Reason, Refusal};
@@ -19,8 +20,8 @@ pub enum Runtime {
     PyTrees,
 }
 
-/// A tree as a file for a robot. It need not be among the program's; of the program, names are enough. `place` is where
-/// the node that a path of child positions leads to is written, for the mistake that says it has no counterpart.
+/// A tree as a file for a robot. It may be a tree that the program does not have; the program gives the names. `place`
+/// gives the place in the text of the node at a path of child positions, for a node that has no counterpart.
 ///
 /// # Errors
 /// A node that the runtime has no counterpart for.
@@ -41,10 +42,11 @@ pub fn tree(
 ///
 /// # Errors
 /// A node that the runtime has no counterpart for.
-pub fn of_program(loaded: &Loaded, id: Id<Tree>, runtime: Runtime) -> Result<String, Diagnostic> {
+pub fn of_program(loaded: &Loaded, id: Id<Tree>, runtime: Runtime) -> Result<String, Refused> {
     let exported = &loaded.program.trees[id];
     let place = |path: &[usize]| place(loaded, exported, path);
     tree(&loaded.program, exported, runtime, place)
+        .map_err(|mistake| Refused::program(loaded, [mistake]))
 }
 
 /// Where the node at a path of child positions is written; a subtree is one leaf.

@@ -1,25 +1,26 @@
 //! `btc fmt`
 
+use super::refused::Refused;
+use super::text::{Text, decode};
 use crate::diagnostic::Diagnostic;
 use crate::source::Sources;
 use crate::syntax;
 
-use super::load::decode;
-
 /// A file as the formatter lays it out.
 ///
 /// # Errors
-/// What keeps it from being parsed; a file with mistakes in its syntax is not formatted.
-pub fn format(name: &str, bytes: Vec<u8>) -> Result<String, (Sources, Vec<Diagnostic>)> {
+/// The mistakes that keep it from being parsed: a file with mistakes in its syntax is not formatted.
+pub fn format(text: Text) -> Result<String, Refused> {
     let mut sources = Sources::default();
-    let (file, mistake) = decode(&mut sources, name, bytes);
-    if let Some(mistake) = mistake {
-        return Err((sources, vec![mistake]));
-    }
+    let (file, broken) = decode(&mut sources, text);
     let text = sources.get(file).map_or("", |source| &source.text);
     let (ast, mistakes) = syntax::parse(file, text);
-    if mistakes.iter().any(Diagnostic::is_error) {
-        return Err((sources, mistakes));
+    let diagnostics = broken.map_or(mistakes, |broken| vec![broken]);
+    if diagnostics.iter().any(Diagnostic::is_error) {
+        return Err(Refused {
+            sources,
+            diagnostics,
+        });
     }
     Ok(syntax::print::file(&ast, Some(text)))
 }

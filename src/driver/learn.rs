@@ -1,53 +1,48 @@
 //! `btc learn`: from a checked program to a learned, proved, printed tree.
 
-mod agreed;
-mod bench;
-mod drawn;
-mod elect;
-mod metrics;
-mod report;
-mod results;
+mod files;
 
 use super::load::Loaded;
-use super::{run, simplify, target};
+use super::refused::Refused;
+use super::{target, world};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::ir::program::Event;
-use crate::ir::task::{ClaimKind, Learner, TreeRef};
+use crate::ir::Id;
+use crate::ir::task::Learner;
 use crate::ir::tree::Node;
-use crate::ir::{Id, Program};
 use crate::learn::curve::Point;
+use crate::learn::experiment::{Experiment, Run};
 use crate::learn::extract;
 use crate::learn::simulated::Purpose;
-use crate::learn::statistics::Summary;
 use crate::policy::Policy;
+use crate::report::results::{Results, Trees};
+use crate::simplify::{Simplified, simplify};
 use crate::tree::decanonicalise::{self, Care, Method};
-use bench::{Bench, Run};
-use rayon::prelude::*;
-use results::{Results, Trees};
+use crate::tree::prove::Refuted;
+use crate::trial::{Unplayable, learned};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// What a user may say beside the program.
+/// What a user may set.
 #[derive(Clone, Copy, Debug)]
 pub struct Options<'o> {
-    /// Which learner, if there are several.
+    /// The learner, if there are several.
     pub learner: Option<&'o str>,
-    /// In the place of the learner's own.
+    /// The first seed, instead of the learner's.
     pub seed: Option<u64>,
-    /// How many runs, with this seed and those that follow it; the best is taken.
+    /// The number of runs, one for each seed from the first on; the best is taken.
     pub seeds: u64,
-    /// In the place of the learner's own.
+    /// The number of episodes, instead of the learner's.
     pub episodes: Option<u64>,
     /// The fewest decisions by which a minterm counts as learned; below, it is a don't-care.
     pub evidence: u64,
-    /// How the tree is found.
+    /// The method that finds the tree.
     pub method: Method,
     /// In which minterms the tree takes the policy's decisions.
     pub care: Care,
     /// The part of the exact tree's return that a smaller tree may cost; `None` for the exact tree.
     pub simplify: Option<f64>,
-    /// How many greedy episodes show the transitions of the policy.
+    /// The number of greedy episodes that show the transitions of the policy.
     pub roll_outs: u64,
-    /// How many episodes test the tree.
+    /// The number of episodes that test the tree.
     pub tests: u64,
     /// The path of the source from the folder of the results.
     pub source: &'o str,
@@ -56,13 +51,13 @@ pub struct Options<'o> {
 /// How far the learning has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
-    /// Learning: this many of so many episodes are done, over all runs.
+    /// Learning: the episodes that are done, and all of them, over all runs.
     Learning(u64, u64),
     /// Finding the best of several runs.
     Validating,
     /// Rolling the greedy policy out.
     RollingOut,
-    /// Turning it into a tree, and proving.
+    /// Turning the policy into a tree, and proving it.
     Proving,
     /// Simplifying the tree.
     Simplifying,
@@ -77,7 +72,7 @@ pub struct Learned {
     pub tree: String,
     /// The files to write, by name.
     pub files: Vec<(&'static str, String)>,
-    /// What a person wants to know, in lines.
+    /// The report, in lines.
     pub report: Vec<String>,
     /// The tree.
     pub root: Node,
@@ -97,81 +92,53 @@ pub fn learn(
     loaded: &Loaded,
     options: &Options,
     progress: &(dyn Fn(Stage) + Sync),
-) -> Result<Learned, Diagnostic> {
+) -> Result<Learned, Refused> {
     let program = &loaded.program;
-    let learner_id = target::learner(loaded, options.learner)?;
-    let learner = &program.learners[learner_id];
-    let task = &program.tasks[learner.task];
-    let seed = options.seed.unwrap_or(learner.seed);
-    let simulator = run::build(loaded, learner.task, &[&learner.start, &task.start], &[])?;
-    let bench = Bench {
-        program,
-        learner,
-        task,
-        simulator: &simulator,
-        episodes: options.episodes.unwrap_or(learner.episodes),
-        evidence: options.evidence,
-        never: never(program, learner_id),
-    };
-    let runs = learn_all(&bench, seed, options.seeds, progress);
+    let id = target::learner(loaded, options.learner)?;
+    let experiment = Experiment::new(program, id, options.episodes, options.evidence)
+        .map_err(|error| world::unplayable(loaded, error))?;
+    let seed = options.seed.unwrap_or(experiment.learner.seed);
+    let runs = learn_all(&experiment, seed, options.seeds, progress);
     progress(Stage::Validating);
-    let (best, validated) = best(&bench, seed, &runs);
+    let (best, validated) = experiment.elect(&runs, seed);
     let Some(run) = runs.get(best) else {
         return Err(nothing(loaded, options.evidence));
     };
     progress(Stage::RollingOut);
     let stream = (Purpose::RollOut, run.seed);
-    let (met, summary) = bench.roll_out(&run.decisions, options.roll_outs, stream);
-    let atoms = program.atoms(learner.task);
-    let thin = results::thin(run, options.evidence, atoms.len());
-    let policy = extract::policy(&run.decisions, &run.table, &met, task, atoms);
-    let values = policy
+    let (met, summary) = experiment.roll_out(&run.decisions, options.roll_outs, stream);
+    let atoms = program.atoms(experiment.learner.task);
+    let thin = extract::thin(&run.table, options.evidence, atoms.len());
+    let policy = extract::policy(&run.decisions, &run.table, &met, experiment.task, atoms);
+    let mut values = policy
         .rows
         .iter()
         .flat_map(|row| row.values.iter().flatten());
-    if values.into_iter().any(|value| !value.q.is_finite()) {
+    if values.any(|value| !value.q.is_finite()) {
         return Err(without_value(loaded));
     }
     progress(Stage::Proving);
-    let tree = |care| {
-        let asked = decanonicalise::Options {
-            method: options.method,
-            care,
-            ..decanonicalise::Options::default()
-        };
-        decanonicalise::decanonicalise(&policy, &asked)
-            .map_err(|refuted| refused(loaded, &refuted, options.evidence))
-    };
-    let (seen, reachable) = rayon::join(|| tree(Care::Seen), || tree(Care::Reachable));
-    let trees = Trees {
-        care: options.care,
-        seen: seen?,
-        reachable: reachable?,
-    };
+    let trees = trees(&policy, options).map_err(|why| refuted(loaded, &why, options.evidence))?;
     let exact = &trees.chosen().root;
-    let simplified = match options.simplify {
+    let unplayable = |why: Unplayable| world::unplayable(loaded, why);
+    let simplified: Option<Simplified> = match options.simplify {
         None => None,
         Some(loss) => {
             let heard = |_| progress(Stage::Simplifying);
-            Some(simplify::simplify(
-                loaded,
-                learner.task,
-                exact,
-                loss,
-                seed,
-                &heard,
-            )?)
+            let task = experiment.learner.task;
+            Some(simplify(program, task, exact, loss, seed, &heard).map_err(unplayable)?)
         }
     };
     let tested = if options.tests > 0 {
         progress(Stage::Testing);
-        let care = results::care_set(options.care, &met, run);
-        let tested = bench.test(&trees.chosen().root, &care, options.tests, seed);
-        Some(tested.map_err(|atom| run::internal(loaded, &program.atom_name(atom).to_string()))?)
+        let care = learned::care_set(options.care, &run.decisions, &met);
+        let tested = learned::test(&experiment, exact, &care, options.tests, seed);
+        Some(tested.map_err(|atom| unplayable(Unplayable::Unknown(atom)))?)
     } else {
         None
     };
     let results = Results {
+        experiment: &experiment,
         runs,
         validated,
         best,
@@ -183,99 +150,75 @@ pub fn learn(
         simplified,
         tested,
     };
-    results::write(&bench, loaded, options, learner_id, results)
+    files::written(loaded, options, id, results)
 }
 
-/// The runs of so many seeds, on all threads.
-fn learn_all(bench: &Bench, seed: u64, seeds: u64, progress: &(dyn Fn(Stage) + Sync)) -> Vec<Run> {
-    let all = bench.episodes.saturating_mul(seeds);
+/// The runs of all seeds.
+fn learn_all(
+    experiment: &Experiment,
+    seed: u64,
+    seeds: u64,
+    progress: &(dyn Fn(Stage) + Sync),
+) -> Vec<Run> {
+    let all = experiment.episodes.saturating_mul(seeds);
     let done = AtomicU64::new(0);
-    let episode = || {
+    experiment.learn_all(seed, seeds, || {
         let done = done.fetch_add(1, Ordering::Relaxed) + 1;
         progress(Stage::Learning(done, all));
+    })
+}
+
+/// The policy as a tree, on both care sets.
+fn trees(policy: &Policy, options: &Options) -> Result<Trees, Refuted> {
+    let tree = |care| {
+        let options = decanonicalise::Options {
+            method: options.method,
+            care,
+            ..decanonicalise::Options::default()
+        };
+        decanonicalise::decanonicalise(policy, &options)
     };
-    let seeds = seed..seed.saturating_add(seeds);
-    seeds
-        .into_par_iter()
-        .map(|seed| bench.learn(seed, episode))
-        .collect()
+    let (seen, reachable) = rayon::join(|| tree(Care::Seen), || tree(Care::Reachable));
+    Ok(Trees {
+        care: options.care,
+        seen: seen?,
+        reachable: reachable?,
+    })
 }
 
-/// The best of several runs on common episodes that none of them learned from; with what each came to there.
-fn best(bench: &Bench, seed: u64, runs: &[Run]) -> (usize, Vec<Summary>) {
-    if runs.len() < 2 {
-        return (0, Vec::new());
+/// No tree is printed that is not proved.
+fn refuted(loaded: &Loaded, refuted: &Refuted, evidence: u64) -> Refused {
+    if *refuted == Refuted::Empty {
+        return nothing(loaded, evidence);
     }
-    let stream = (Purpose::Validate, seed);
-    let validate = |run: &Run| bench.validate(&run.decisions, stream);
-    let validated: Vec<Summary> = runs.iter().map(validate).collect();
-    (bench.best(&validated), validated)
-}
-
-/// The events that the program claims never to happen under what a learner learns.
-fn never(program: &Program, learner: Id<Learner>) -> Vec<Id<Event>> {
-    let claims = program.claims.iter();
-    claims
-        .filter_map(|claim| match &claim.kind {
-            ClaimKind::Never(occurrence) if claim.tree == TreeRef::Learned(learner) => {
-                Some(occurrence.event)
-            }
-            _ => None,
-        })
-        .collect()
-}
-
-/// The atoms that hold in a minterm.
-pub(super) fn minterm_text(
-    program: &Program,
-    policy: &Policy,
-    minterm: &crate::policy::Minterm,
-) -> String {
-    let held: Vec<String> = policy
-        .atoms
-        .iter()
-        .zip(minterm.values())
-        .filter(|(_, holds)| *holds)
-        .map(|(atom, _)| program.atom_name(*atom).to_string())
-        .collect();
-    if held.is_empty() {
-        "{}".to_owned()
-    } else {
-        format!("{{{}}}", held.join(", "))
-    }
-}
-
-/// Nothing is printed unproved.
-fn refused(loaded: &Loaded, refuted: &crate::tree::prove::Refuted, evidence: u64) -> Diagnostic {
-    let at = target::end_of_file(loaded);
-    match refuted {
-        crate::tree::prove::Refuted::Empty => nothing(loaded, evidence),
-        other => Diagnostic::new(
-            Code::E0609,
-            at,
-            format!("the tree that was found is not equal to the policy: {other:?}"),
-        )
-        .note("this is a mistake of btc itself; please report it with the program"),
-    }
+    let diagnostic = Diagnostic::new(
+        Code::E0609,
+        target::end_of_file(loaded),
+        format!("the tree that was found is not equal to the policy: {refuted:?}"),
+    )
+    .note("this is a mistake of btc itself; please report it with the program");
+    Refused::program(loaded, [diagnostic])
 }
 
 /// A reward such as 0 / 0 makes every comparison of values void.
-fn without_value(loaded: &Loaded) -> Diagnostic {
-    Diagnostic::new(
+fn without_value(loaded: &Loaded) -> Refused {
+    let diagnostic = Diagnostic::new(
         Code::E0505,
         target::end_of_file(loaded),
         "nothing was learned: the rewards come to no finite number",
     )
     .help(
         "look for a division by zero, or a root or logarithm of a negative number, under `reward`",
-    )
+    );
+    Refused::program(loaded, [diagnostic])
 }
 
-fn nothing(loaded: &Loaded, evidence: u64) -> Diagnostic {
+fn nothing(loaded: &Loaded, evidence: u64) -> Refused {
     let diagnostic = Diagnostic::new(
         Code::E0505,
         target::end_of_file(loaded),
         format!("nothing was learned: no minterm has {evidence} completed decisions"),
-    );
-    diagnostic.help("let there be more episodes, or longer ones, or ask for less `--evidence`")
+    )
+    .help("let there be more episodes, or longer ones, or ask for less `--evidence`");
+    Refused::program(loaded, [diagnostic])
 }

@@ -1,16 +1,17 @@
 //! A program with everything that it uses.
 
+use super::text::{Text, decode};
 use crate::check::{self, Input};
 use crate::diagnostic::{self, Code, Diagnostic};
 use crate::ir::Program;
-use crate::source::{FileId, Source, Sources, Span};
+use crate::source::{FileId, Sources, Span};
 use crate::syntax;
 use crate::syntax::ast::{self, ItemKind, UseWhat};
 
 /// The embedded library.
 const LIBRARY: &str = include_str!("../library/std.bt");
 
-/// How the library is called in diagnostics.
+/// The name of the library in diagnostics.
 const LIBRARY_NAME: &str = "std";
 
 /// Where the files of a program come from.
@@ -18,7 +19,7 @@ pub trait Reader {
     /// The bytes of the file at a path.
     ///
     /// # Errors
-    /// Why it cannot be read, in the words of the system.
+    /// The reason of the system that it cannot be read.
     fn read(&mut self, path: &str) -> Result<Vec<u8>, String>;
 }
 
@@ -31,7 +32,7 @@ pub struct Loaded {
     pub main: FileId,
     /// Its syntax tree.
     pub ast: ast::File,
-    /// The program; of use only without errors.
+    /// The program; usable only without errors.
     pub program: Program,
     /// The files of the user's program in the order of their first use, the main file last.
     pub files: Vec<FileId>,
@@ -60,7 +61,7 @@ pub fn load(name: &str, text: Vec<u8>, reader: &mut dyn Reader) -> Loaded {
         depth: 0,
         incomplete: false,
     };
-    let main = loader.file(name, text, false);
+    let main = loader.file(name, &text, false);
     let inputs: Vec<Input> = loader
         .parsed
         .iter()
@@ -71,9 +72,9 @@ pub fn load(name: &str, text: Vec<u8>, reader: &mut dyn Reader) -> Loaded {
         .collect();
     let checked = check::check(&inputs);
     let mut diagnostics = loader.diagnostics;
-    // What is not declared may be declared in the file that is missing.
+    // A missing file may declare what seems undeclared.
     let elsewhere = |found: &Diagnostic| matches!(found.code, Code::E0202 | Code::E0407);
-    // What a world, a task or a learner does not say may stand behind a brace that is not closed.
+    // A setting that seems missing may stand behind an unclosed brace.
     let unclosed: Vec<FileId> = diagnostics
         .iter()
         .filter(|found| found.code == Code::E0102)
@@ -105,22 +106,6 @@ pub fn load(name: &str, text: Vec<u8>, reader: &mut dyn Reader) -> Loaded {
     }
 }
 
-/// The text of a source, with a diagnostic where its bytes are no text.
-pub fn decode(sources: &mut Sources, name: &str, bytes: Vec<u8>) -> (FileId, Option<Diagnostic>) {
-    match String::from_utf8(bytes) {
-        Ok(text) => (sources.add(Source::new(name, text)), None),
-        Err(error) => {
-            let at = error.utf8_error().valid_up_to();
-            let text = String::from_utf8_lossy(error.as_bytes()).into_owned();
-            let file = sources.add(Source::new(name, text));
-            let span = Span::new(file, at, at + '\u{fffd}'.len_utf8());
-            let diagnostic = Diagnostic::new(Code::E0130, span, "the file is not text (UTF-8)")
-                .label("this byte belongs to no character");
-            (file, Some(diagnostic))
-        }
-    }
-}
-
 struct Parsed {
     file: FileId,
     ast: ast::File,
@@ -141,9 +126,9 @@ struct Loader<'r> {
 }
 
 impl Loader<'_> {
-    fn file(&mut self, name: &str, bytes: Vec<u8>, library: bool) -> FileId {
+    fn file(&mut self, name: &str, bytes: &[u8], library: bool) -> FileId {
         self.known.push(beside("", name));
-        let (file, mistake) = decode(&mut self.sources, name, bytes);
+        let (file, mistake) = decode(&mut self.sources, Text { name, bytes });
         let broken = mistake.is_some();
         self.diagnostics.extend(mistake);
         let text = self.sources.get(file).map(|source| source.text.clone());
@@ -167,7 +152,7 @@ impl Loader<'_> {
 
     fn library(&mut self) {
         if !self.known.iter().any(|known| known == LIBRARY_NAME) {
-            self.file(LIBRARY_NAME, LIBRARY.as_bytes().to_vec(), true);
+            self.file(LIBRARY_NAME, LIBRARY.as_bytes(), true);
         }
     }
 
@@ -179,14 +164,18 @@ impl Loader<'_> {
         }
         match self.reader.read(&resolved) {
             Ok(bytes) if table => {
-                let (file, mistake) = decode(&mut self.sources, &resolved, bytes);
+                let text = Text {
+                    name: &resolved,
+                    bytes: &bytes,
+                };
+                let (file, mistake) = decode(&mut self.sources, text);
                 self.diagnostics.extend(mistake);
                 if self.depth == 1 {
                     self.tables.push((file, span));
                 }
             }
             Ok(bytes) => {
-                self.file(&resolved, bytes, false);
+                self.file(&resolved, &bytes, false);
             }
             Err(why) => {
                 self.incomplete |= !table;

@@ -1,18 +1,16 @@
-//! PLAs, minimised.
+//! `btc minimize`: a PLA with smaller covers.
 
-use super::load::decode;
+use super::refused::Refused;
+use super::text::Text;
 use crate::diagnostic::{Code, Diagnostic};
 pub use crate::logic::Order;
-use crate::logic::pla::{self, Conflict, Cost, Kind, Line, Part, Pla, PlaError, PlaErrorKind};
-use crate::logic::{Columns, Cube, Effort, Solution, list, minimise_with};
-use crate::source::{FileId, Sources, Span};
-use rayon::prelude::*;
-use std::collections::BTreeMap;
+use crate::logic::pla::{self, Cost, Line, Part, Pla, PlaError, PlaErrorKind, Uncovered};
+use crate::source::{FileId, Span};
 
-/// What is asked for.
+/// What a user may set.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
-    /// Make the outputs a decision list, in this order; else each is minimised by itself.
+    /// The order of a decision list of the outputs; `None` to minimise each output by itself.
     pub order: Option<Order>,
     /// The most cubes of a complement.
     pub limit: usize,
@@ -27,117 +25,38 @@ pub struct Minimized {
     pub statistics: String,
 }
 
-/// The PLA in a file, with the smallest covers that are found for its outputs.
+/// The PLA in a text, with the smallest covers that are found for its outputs.
 ///
 /// # Errors
-/// What is wrong with the file, with its place, and its text.
-pub fn minimize(
-    name: &str,
-    bytes: Vec<u8>,
-    options: &Options,
-) -> Result<Minimized, (Sources, Vec<Diagnostic>)> {
-    let mut sources = Sources::default();
-    let (file, mistake) = decode(&mut sources, name, bytes);
-    if let Some(mistake) = mistake {
-        return Err((sources, vec![mistake]));
-    }
-    let text = sources.get(file).map_or("", |source| &source.text);
-    let found = match pla::read(text) {
-        Ok(pla) => {
-            let found = match options.order {
-                Some(order) => decision_list(&pla, order),
-                None => covers(&pla, options.limit),
-            };
-            found.map_err(|trouble| vec![trouble.located(file, &pla, text)])
+/// The mistakes of the text.
+pub fn minimize(text: Text, options: &Options) -> Result<Minimized, Refused> {
+    let read = std::str::from_utf8(text.bytes);
+    let read = read.map_err(|_| Refused::text(text, |_| Vec::new()))?;
+    let pla = pla::read(read).map_err(|mistakes| {
+        let located = |file| mistakes.iter().map(|m| located(file, m)).collect();
+        Refused::text(text, located)
+    })?;
+    minimized(&pla, options)
+        .map_err(|why| Refused::text(text, |file| vec![uncovered(why, file, &pla, read)]))
+}
+
+fn minimized(pla: &Pla, options: &Options) -> Result<Minimized, Uncovered> {
+    let (lines, comments, note) = match options.order {
+        Some(order) => (pla.decision_list(order)?, &[LIST][..], String::new()),
+        None => {
+            let (lines, proved) = pla.covers(options.limit)?;
+            let note = format!("# proved smallest: {proved} of {} outputs\n", pla.outputs);
+            (lines, &[][..], note)
         }
-        Err(mistakes) => Err(mistakes.iter().map(|m| located(file, m)).collect()),
     };
-    found.map_err(|diagnostics| (sources, diagnostics))
-}
-
-/// Why a PLA has no covers.
-#[derive(Clone, Copy, Debug)]
-enum Trouble {
-    /// Rows that contradict each other, in an output if it is one.
-    Conflict(Conflict),
-    /// The complement of an output is too large.
-    TooLarge(usize),
-    /// No decision list: the type is not `fr`.
-    Kind,
-    /// No decision list: not exactly one output is 1 in this row.
-    Outputs(usize),
-}
-
-/// A smallest cover of each output; cubes that outputs share stand once.
-fn covers(pla: &Pla, limit: usize) -> Result<Minimized, Trouble> {
-    let columns = pla.columns();
-    let one = |output| cover(pla, &columns, output, limit);
-    let solutions: Vec<Result<Solution, Trouble>> =
-        (0..pla.outputs).into_par_iter().map(one).collect();
-    let mut lines: Vec<Line> = Vec::new();
-    let mut known: BTreeMap<Cube, usize> = BTreeMap::new();
-    let mut proved = 0;
-    for (output, solution) in solutions.into_iter().enumerate() {
-        let solution = solution?;
-        proved += usize::from(solution.proved);
-        for cube in solution.cover.cubes() {
-            let at = *known.entry(cube.clone()).or_insert(lines.len());
-            match lines.get_mut(at) {
-                Some(line) => line.outputs.push(output),
-                None => lines.push(Line {
-                    cube: cube.clone(),
-                    outputs: vec![output],
-                }),
-            }
-        }
-    }
-    let note = format!("# proved smallest: {proved} of {} outputs\n", pla.outputs);
     Ok(Minimized {
         statistics: statistics(pla, &lines) + &note,
-        text: pla::write(pla, &[], &lines),
+        text: pla::write(pla, comments, &lines),
     })
 }
 
-fn cover(pla: &Pla, columns: &Columns, output: usize, limit: usize) -> Result<Solution, Trouble> {
-    if let Some(conflict) = pla.contradiction(columns, output) {
-        return Err(Trouble::Conflict(conflict));
-    }
-    let function = pla.function(columns, output, limit);
-    let function = function.map_err(|_| Trouble::TooLarge(output))?;
-    let effort = Effort::default();
-    Ok(minimise_with(
-        &function.columns,
-        &function.on,
-        &function.off,
-        &effort,
-    ))
-}
-
-/// The outputs as a decision list: the first row that holds decides.
-fn decision_list(pla: &Pla, order: Order) -> Result<Minimized, Trouble> {
-    if pla.kind != Kind::Fr {
-        return Err(Trouble::Kind);
-    }
-    let classes = pla.classes().map_err(Trouble::Outputs)?;
-    let columns = pla.columns();
-    if let Some(conflict) = pla.class_conflict(&columns) {
-        return Err(Trouble::Conflict(conflict));
-    }
-    let list = list(&columns, &classes, order, &Effort::default());
-    let lines = list.iter().flat_map(|(output, cover)| {
-        let line = |cube: &Cube| Line {
-            cube: cube.clone(),
-            outputs: vec![*output],
-        };
-        cover.cubes().iter().map(line)
-    });
-    let lines: Vec<Line> = lines.collect();
-    let comment = "a decision list: the first row that holds decides, and only its output is 1";
-    Ok(Minimized {
-        statistics: statistics(pla, &lines),
-        text: pla::write(pla, &[comment], &lines),
-    })
-}
+/// The comment on a decision list.
+const LIST: &str = "a decision list: the first row that holds decides, and only its output is 1";
 
 fn statistics(pla: &Pla, lines: &[Line]) -> String {
     let set = |part| Cost::of(pla, part);
@@ -150,41 +69,39 @@ fn statistics(pla: &Pla, lines: &[Line]) -> String {
     )
 }
 
-impl Trouble {
-    fn located(self, file: FileId, pla: &Pla, text: &str) -> Diagnostic {
-        let row = |row: usize| {
-            let start = pla.start(row);
-            let rest = text.get(start..).unwrap_or_default();
-            let said = rest.lines().next().and_then(|line| line.split('#').next());
-            let length = said.map_or(0, |said| said.trim_end().len());
-            Span::new(file, start, start + length)
-        };
-        match self {
-            Self::Conflict(conflict) => Diagnostic::new(
-                Code::E0805,
-                row(conflict.second),
-                "this row contradicts an earlier one",
-            )
-            .also(row(conflict.first), "this row says otherwise")
-            .note("both hold on some minterm"),
-            Self::TooLarge(output) => Diagnostic::new(
-                Code::E0806,
-                row(0),
-                format!("the complement of {} has too many cubes", name(pla, output)),
-            )
-            .help("say where it is 0, in a PLA of type `fr`; or allow more cubes with `--limit`"),
-            Self::Kind => Diagnostic::new(
-                Code::E0807,
-                row(0),
-                "a decision list is made of a PLA of type `fr`",
-            )
-            .help("add `.type fr` if the rows are all that matters"),
-            Self::Outputs(at) => Diagnostic::new(
-                Code::E0807,
-                row(at),
-                "in a decision list exactly one output of a row is 1",
-            ),
-        }
+fn uncovered(why: Uncovered, file: FileId, pla: &Pla, text: &str) -> Diagnostic {
+    let row = |row: usize| {
+        let start = pla.start(row);
+        let rest = text.get(start..).unwrap_or_default();
+        let said = rest.lines().next().and_then(|line| line.split('#').next());
+        let length = said.map_or(0, |said| said.trim_end().len());
+        Span::new(file, start, start + length)
+    };
+    match why {
+        Uncovered::Conflict(conflict) => Diagnostic::new(
+            Code::E0805,
+            row(conflict.second),
+            "this row contradicts an earlier one",
+        )
+        .also(row(conflict.first), "this row says otherwise")
+        .note("both hold on some minterm"),
+        Uncovered::TooLarge(output) => Diagnostic::new(
+            Code::E0806,
+            row(0),
+            format!("the complement of {} has too many cubes", name(pla, output)),
+        )
+        .help("say where it is 0, in a PLA of type `fr`; or allow more cubes with `--limit`"),
+        Uncovered::Kind => Diagnostic::new(
+            Code::E0807,
+            row(0),
+            "a decision list is made of a PLA of type `fr`",
+        )
+        .help("add `.type fr` if the rows are all that matters"),
+        Uncovered::Outputs(at) => Diagnostic::new(
+            Code::E0807,
+            row(at),
+            "in a decision list exactly one output of a row is 1",
+        ),
     }
 }
 

@@ -1,4 +1,4 @@
-//! What each command does, as functions from text to results: nothing is printed, no file is touched.
+//! The commands as functions from texts to results: nothing here prints or touches a file.
 
 pub mod canonicalize;
 pub mod check;
@@ -11,9 +11,14 @@ pub mod learn;
 pub mod load;
 pub mod minimize;
 pub mod picture;
+mod refused;
 pub mod run;
-pub mod simplify;
 pub mod size;
 pub mod table;
 pub mod target;
+mod text;
 pub mod verify;
+mod world;
+
+pub use refused::Refused;
+pub use text::Text;

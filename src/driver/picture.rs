@@ -1,73 +1,63 @@
 //! `btc run --svg`: the beginning of an episode as a picture.
 
 use super::load::Loaded;
-use super::run::{self, Subject};
-use super::target;
-use crate::diagnostic::Diagnostic;
+use super::refused::Refused;
+use super::run::Subject;
+use super::world;
 use crate::emit::svg;
 use crate::emit::svg::track::{Stand, Step, Track};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
-use crate::ir::task::Task;
 use crate::ir::tree::Status;
+use crate::learn::greedy::Greedy;
 use crate::learn::simulated::Purpose;
-use crate::world::{End, Simulation, Start};
+use crate::report::words::end_names;
+use crate::trial::play;
+use crate::world::{End, Simulation, Simulator};
 
-/// Draws the world with the first `ticks` ticks of episode 0 of a seed, which is also the first that [`run::run`]
-/// plays.
+/// Draws the world with the first `ticks` ticks of episode 0 of a seed, which is also the first that
+/// [`run`](super::run::run) plays.
 ///
 /// # Errors
-/// As [`run::run`].
-pub fn draw(
-    loaded: &Loaded,
-    subject: Subject,
-    seed: u64,
-    ticks: u64,
-) -> Result<String, Diagnostic> {
+/// As [`run`](super::run::run).
+pub fn draw(loaded: &Loaded, subject: &Subject, seed: u64, ticks: u64) -> Result<String, Refused> {
     let program = &loaded.program;
-    let begin = |task: Id<Task>| Start {
-        seed,
-        stream: Purpose::Run as u64,
-        limit: program.tasks[task].end_after,
-        ..Start::default()
-    };
-    let (name, task, (start, steps, end)) = match subject {
-        Subject::Tree(id) => {
-            let tree = &program.trees[id];
-            let task = target::task_of(loaded, Some(id))?;
-            let (simulator, mut runner) = run::ready(loaded, task, &tree.root)?;
+    let id = subject.task(loaded)?;
+    let task = &program.tasks[id];
+    let begin = Purpose::Run.start(seed, task.end_after);
+    let (name, (start, steps, end)) = match subject {
+        Subject::Tree(tree) => {
+            let tree = &program.trees[*tree];
+            let (simulator, mut ticked) = play::ready(program, id, &tree.root)
+                .map_err(|why| world::unplayable(loaded, why))?;
             let mut simulation = simulator.simulation();
-            simulation.start(begin(task));
+            simulation.start(begin);
             let recorded = record(&mut simulation, ticks, |simulation| {
                 let (mut driver, mut drives) = (None, false);
-                let atoms = simulation.atoms();
-                runner.tick_key(atoms, |behavior| {
-                    let status = simulation.act(behavior);
+                ticked.tick_noting(simulation, |behavior, status| {
                     if !drives {
                         driver = Some(behavior);
                         drives = status == Status::Running;
                     }
-                    status
                 });
                 driver
             });
-            (format!("tree {}", tree.name), task, recorded)
+            (format!("tree {}", tree.name), recorded)
         }
-        Subject::Policy(policy, task) => {
-            let simulator = run::simulator(loaded, task, &[])?;
-            let choices = run::choices(policy);
-            let unseen = run::unseen(program, task);
+        Subject::Policy(policy, _) => {
+            let simulator = Simulator::build(program, id, &[&task.start], &[])
+                .map_err(|error| world::unplayable(loaded, error))?;
+            let mut greedy = Greedy::new(policy, program, id);
             let mut simulation = simulator.simulation();
-            simulation.start(begin(task));
+            simulation.start(begin);
             let recorded = record(&mut simulation, ticks, |simulation| {
-                let behavior = choices.get(&simulation.key()).copied().unwrap_or(unseen);
+                let behavior = greedy.choose(simulation.key());
                 simulation.act(behavior);
                 Some(behavior)
             });
-            ("policy".to_owned(), task, recorded)
+            ("policy".to_owned(), recorded)
         }
     };
-    let task = &program.tasks[task];
     let track = Track {
         choices: task.choose.clone(),
         start,
@@ -75,7 +65,7 @@ pub fn draw(
     };
     let mut caption = format!("{name}, seed {seed}, {} ticks", track.steps.len());
     if let Some(End::On(line)) = end
-        && let Some(name) = run::end_names(program, task).get(line)
+        && let Some(name) = end_names(program, task).get(line)
     {
         caption.push_str(&format!(", ended by {name}"));
     }

@@ -1,8 +1,8 @@
-//! `btc size`: how large trees are, and so how well they read.
+//! `btc size`: the sizes of trees, a measure of how well they read.
 
 use super::load::Loaded;
+use super::refused::Refused;
 use super::target;
-use crate::diagnostic::Diagnostic;
 use crate::ir::Id;
 use crate::ir::tree::{Node, Tree};
 use crate::tree::Size;
@@ -11,22 +11,22 @@ use crate::tree::atoms::{atoms, behaviors};
 /// The heads of the columns.
 const HEADS: [&str; 5] = ["tree", "nodes", "literals", "depth", "leaves"];
 
-/// The sizes of these trees, a row each under a header; of all if none is named.
+/// The sizes of these trees, a row each under a header; of all trees if none is named.
 ///
 /// # Errors
-/// There is no tree of a name.
-pub fn sizes(loaded: &Loaded, names: &[String]) -> Result<String, Vec<Diagnostic>> {
+/// There is no tree of that name.
+pub fn sizes(loaded: &Loaded, names: &[String]) -> Result<String, Refused> {
     let trees = &loaded.program.trees;
     let mut wrong = Vec::new();
     let mut ids: Vec<Id<Tree>> = Vec::new();
     for name in names {
         match target::tree(loaded, name) {
             Ok(id) => ids.push(id),
-            Err(mistake) => wrong.push(mistake),
+            Err(refused) => wrong.extend(refused.diagnostics),
         }
     }
     if !wrong.is_empty() {
-        return Err(wrong);
+        return Err(Refused::program(loaded, wrong));
     }
     if names.is_empty() {
         ids = trees.ids().collect();
@@ -64,7 +64,7 @@ fn line(row: &[String; 5], widths: &[usize]) -> String {
     text
 }
 
-/// How many different leaves a tree has: the behaviours that it ticks and the atoms that it asks, negated or not.
+/// The number of different leaves of a tree: the behaviours that it ticks and the atoms that it asks, negated or not.
 fn leaves(root: &Node) -> usize {
     atoms(root).len() + behaviors(root).len()
 }

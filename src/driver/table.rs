@@ -1,85 +1,53 @@
-//! Tables of the user's, read with located mistakes.
+//! The tables of a user, read with diagnostics.
 
-use super::load::{self, Loaded};
+use super::load::Loaded;
+use super::refused::Refused;
+use super::text::Text;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::task::Task;
 use crate::ir::{Id, Program};
 use crate::policy::error::{TableError, TableErrorKind};
 use crate::policy::table::{self, Format, Table};
 use crate::policy::{Policy, decisions, transitions};
-use crate::source::{FileId, Sources, Span};
+use crate::source::{FileId, Span};
 
-/// A text with a name, as a command is given it.
+/// The record of a process under a policy.
 #[derive(Clone, Copy, Debug)]
-pub struct Text<'t> {
-    /// As diagnostics call it.
-    pub name: &'t str,
-    /// What it holds.
-    pub bytes: &'t [u8],
+pub struct Recorded<'t> {
+    /// Greedy transitions, with start minterms or without.
+    pub transitions: Text<'t>,
+    /// Start minterms.
+    pub starts: Option<Text<'t>>,
 }
 
-/// Why a text is refused, with the text.
-#[derive(Clone, Debug)]
-pub struct Refused {
-    /// The texts that it is about.
-    pub sources: Sources,
-    /// The mistakes, sorted.
-    pub diagnostics: Vec<Diagnostic>,
-}
-
-impl Refused {
-    /// Mistakes of one text, as `located` places them in it.
-    pub(super) fn new(text: Text, located: impl FnOnce(FileId) -> Vec<Diagnostic>) -> Self {
-        let mut sources = Sources::default();
-        let (file, broken) = load::decode(&mut sources, text.name, text.bytes.to_vec());
-        // The places are those of the bytes: where these are no text, that alone is told.
-        let diagnostics = broken.map_or_else(|| located(file), |broken| vec![broken]);
-        Self {
-            sources,
-            diagnostics,
-        }
-    }
-
-    /// Mistakes of one table.
-    pub(super) fn table(text: Text, errors: &[TableError]) -> Self {
-        Self::new(text, |file| all_located(file, errors))
-    }
-}
-
-/// The policy table in a text, whatever its origin.
+/// The policy table in a text of any origin.
 ///
 /// # Errors
-/// What is wrong with it, with the places.
+/// The mistakes of the text.
 pub fn read(text: Text) -> Result<Table, Refused> {
     let format = Format::of(text.name, text.bytes);
-    Table::read(text.bytes, format).map_err(|errors| Refused::table(text, &errors))
+    Table::read(text.bytes, format).map_err(|errors| refused(text, &errors))
 }
 
-/// Adds start minterms and greedy transitions to a policy. Those of `starts` come to the ones that `recorded` has.
+/// Adds start minterms and greedy transitions to a policy. A table of starts adds to those that the transitions have.
 ///
 /// # Errors
-/// What is wrong with them, with the places.
-pub fn record(
-    policy: &mut Policy,
-    program: &Program,
-    recorded: Text,
-    starts: Option<Text>,
-) -> Result<(), Refused> {
+/// The mistakes of the texts.
+pub fn record(policy: &mut Policy, program: &Program, recorded: Recorded) -> Result<(), Refused> {
     let one = |text: Text, read: &mut dyn FnMut(&str) -> Result<(), TableError>| {
-        let refused = |errors: &[TableError]| Refused::table(text, errors);
-        let decoded = std::str::from_utf8(text.bytes).map_err(|_| refused(&[]))?;
-        read(decoded).map_err(|error| refused(&[error]))
+        let decoded = std::str::from_utf8(text.bytes).map_err(|_| refused(text, &[]))?;
+        read(decoded).map_err(|error| refused(text, &[error]))
     };
-    one(recorded, &mut |text| {
+    one(recorded.transitions, &mut |text| {
         transitions::read(text, program, policy)
     })?;
-    if let Some(starts) = starts {
+    if let Some(starts) = recorded.starts {
         one(starts, &mut |text| {
             transitions::read_starts(text, program, policy)
         })?;
     }
     if policy.starts.is_empty() {
-        return Err(Refused::new(recorded, |file| {
+        return Err(Refused::text(recorded.transitions, |file| {
             let start = Span::new(file, 0, 0);
             let message = "no minterm is said to be one in which an episode starts";
             vec![
@@ -92,24 +60,20 @@ pub fn record(
     Ok(())
 }
 
-/// The policy in a file of decisions.
+/// The policy for a task in a table of its decisions.
 ///
 /// # Errors
-/// What is wrong with the table, with its places.
-pub fn policy(loaded: &Loaded, file: FileId, task: Id<Task>) -> Result<Policy, Vec<Diagnostic>> {
-    let text = loaded.sources.get(file).map_or("", |source| &source.text);
-    decisions::read(text, &loaded.program, Some(task)).map_err(|errors| all_located(file, &errors))
+/// The mistakes of the table.
+pub fn policy(program: &Program, text: Text, task: Id<Task>) -> Result<Policy, Refused> {
+    let decoded = std::str::from_utf8(text.bytes).map_err(|_| refused(text, &[]))?;
+    decisions::read(decoded, program, Some(task)).map_err(|errors| refused(text, &errors))
 }
 
-/// The environment in a file of transitions.
+/// The environment in a file of transitions, which a program uses.
 ///
 /// # Errors
-/// What is wrong with the table, with its place.
-pub fn environment(
-    loaded: &Loaded,
-    file: FileId,
-    task: Id<Task>,
-) -> Result<Policy, Vec<Diagnostic>> {
+/// The mistake of the table.
+pub fn environment(loaded: &Loaded, file: FileId, task: Id<Task>) -> Result<Policy, Refused> {
     let program = &loaded.program;
     let text = loaded.sources.get(file).map_or("", |source| &source.text);
     let mut policy = Policy {
@@ -120,47 +84,52 @@ pub fn environment(
     };
     match transitions::read(text, program, &mut policy) {
         Ok(()) => Ok(policy),
-        Err(error) => Err(all_located(file, &[error])),
+        Err(error) => Err(Refused::program(loaded, located_all(file, &[error]))),
     }
 }
 
-/// Mistakes at their places in a file; the last says so if the rest was not looked at.
-fn all_located(file: FileId, errors: &[TableError]) -> Vec<Diagnostic> {
+/// Mistakes of one table.
+fn refused(text: Text, errors: &[TableError]) -> Refused {
+    Refused::text(text, |file| located_all(file, errors))
+}
+
+/// Mistakes at their places in a file; the last says so if the reading stopped there.
+fn located_all(file: FileId, errors: &[TableError]) -> Vec<Diagnostic> {
     let mut found: Vec<Diagnostic> = errors.iter().map(|error| located(file, error)).collect();
     if found.len() >= table::MISTAKES
         && let Some(last) = found.pop()
     {
-        found.push(last.note("the table may have more mistakes, which are not told"));
+        found.push(last.note("the table may have more mistakes, which are not listed"));
     }
     found
 }
 
 fn located(file: FileId, error: &TableError) -> Diagnostic {
     let span = |range: &std::ops::Range<usize>| Span::new(file, range.start, range.end);
-    let told = Diagnostic::new(code(&error.kind), span(&error.span), error.to_string());
+    let found = Diagnostic::new(code(&error.kind), span(&error.span), error.to_string());
     match &error.kind {
         TableErrorKind::Contradiction { earlier, overlap } => {
-            let told = told.also(span(earlier), "this row says otherwise");
+            let found = found.also(span(earlier), "this row says otherwise");
             match overlap {
-                Some(common) => told.note(format!("both rows speak of minterms with {common}")),
-                None => told,
+                Some(common) => found.note(format!("both rows speak of minterms with {common}")),
+                None => found,
             }
         }
-        TableErrorKind::Empty => told.label("a table has a header and a row for each minterm"),
+        TableErrorKind::Empty => found.label("a table has a header and a row for each minterm"),
         TableErrorKind::MissingColumn {
             likely: Some(likely),
             ..
-        } => told.help(format!("is it `{likely}`?")),
+        } => found.help(format!("is it `{likely}`?")),
         TableErrorKind::MissingColumn { name, .. } if name == "behavior" => {
-            told.help("what is done stands under `behavior`, `behaviour` or `action`")
+            found.help("what is done stands under `behavior`, `behaviour` or `action`")
         }
         TableErrorKind::Nameless => {
-            told.help("a table that pandas has written has a column of row numbers: write it with `index=False`")
+            found.help("a table that pandas has written has a column of row numbers: write it with `index=False`")
         }
         TableErrorKind::SharedName(_) => {
-            told.help("the language has one name for one thing: rename the column, or the behaviour")
+            found.help("the language has one name for one thing: rename the column, or the behaviour")
         }
-        _ => told,
+        _ => found,
     }
 }
 

@@ -1,6 +1,7 @@
-//! Which task, tree or learner a command is about.
+//! The task, tree or learner that a command is about.
 
 use super::load::Loaded;
+use super::refused::Refused;
 use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::ir::name::{self, Name};
 use crate::ir::task::{Learner, Task};
@@ -31,7 +32,7 @@ pub fn world_span(loaded: &Loaded) -> Span {
 ///
 /// # Errors
 /// There is none: a diagnostic that offers the likely one.
-pub fn tree(loaded: &Loaded, name: &str) -> Result<Id<Tree>, Diagnostic> {
+pub fn tree(loaded: &Loaded, name: &str) -> Result<Id<Tree>, Refused> {
     let trees = &loaded.program.trees;
     trees
         .find(|tree| tree.name.is(name))
@@ -42,7 +43,7 @@ pub fn tree(loaded: &Loaded, name: &str) -> Result<Id<Tree>, Diagnostic> {
 ///
 /// # Errors
 /// There is none, or there are several and no name was given.
-pub fn learner(loaded: &Loaded, name: Option<&str>) -> Result<Id<Learner>, Diagnostic> {
+pub fn learner(loaded: &Loaded, name: Option<&str>) -> Result<Id<Learner>, Refused> {
     let learners = &loaded.program.learners;
     let names = learners.values().map(|learner| &learner.name);
     match name {
@@ -57,7 +58,7 @@ pub fn learner(loaded: &Loaded, name: Option<&str>) -> Result<Id<Learner>, Diagn
 ///
 /// # Errors
 /// There is none, or there are several and the tree does not say which.
-pub fn task_of(loaded: &Loaded, tree: Option<Id<Tree>>) -> Result<Id<Task>, Diagnostic> {
+pub fn task_of(loaded: &Loaded, tree: Option<Id<Tree>>) -> Result<Id<Task>, Refused> {
     let program: &Program = &loaded.program;
     if let Some(task) = tree.and_then(|tree| program.trees[tree].task) {
         return Ok(task);
@@ -71,29 +72,28 @@ fn only<'n, T>(
     word: &str,
     names: impl Iterator<Item = &'n Name>,
     ids: impl Iterator<Item = Id<T>>,
-) -> Result<Id<T>, Diagnostic> {
+) -> Result<Id<T>, Refused> {
     let ids: Vec<Id<T>> = ids.collect();
-    match ids.as_slice() {
-        [one] => Ok(*one),
-        [] => Err(Diagnostic::new(
-            Code::E0504,
-            end_of_file(loaded),
+    let (message, label) = match ids.as_slice() {
+        [one] => return Ok(*one),
+        [] => (
             format!("the program has no `{word}` item"),
-        )
-        .label(format!("`{word} … {{ … }}` is missing"))),
-        _ => Err(Diagnostic::new(
-            Code::E0504,
-            end_of_file(loaded),
+            format!("`{word} … {{ … }}` is missing"),
+        ),
+        _ => (
             format!(
                 "the program has several `{word}` items: {}",
                 name::list(names)
             ),
-        )
-        .label(match word {
-            "learn" => "say which one with `--learner NAME`",
-            _ => "a tree says which one is meant: `tree NAME for TASK = …`",
-        })),
-    }
+            match word {
+                "learn" => "say which one with `--learner NAME`",
+                _ => "a tree says which one is meant: `tree NAME for TASK = …`",
+            }
+            .to_owned(),
+        ),
+    };
+    let diagnostic = Diagnostic::new(Code::E0504, end_of_file(loaded), message).label(label);
+    Err(Refused::program(loaded, [diagnostic]))
 }
 
 fn missing<'n>(
@@ -101,7 +101,7 @@ fn missing<'n>(
     what: &str,
     name: &str,
     names: impl Iterator<Item = &'n Name>,
-) -> Diagnostic {
+) -> Refused {
     let diagnostic = Diagnostic::new(
         Code::E0504,
         end_of_file(loaded),
@@ -109,9 +109,10 @@ fn missing<'n>(
     )
     .label("not in this file, nor in those that it uses");
     let names: Vec<String> = names.map(Name::to_string).collect();
-    match suggest::nearest(name, names.iter().map(String::as_str)) {
+    let diagnostic = match suggest::nearest(name, names.iter().map(String::as_str)) {
         Some(likely) => diagnostic.help(format!("did you mean `{likely}`?")),
         None if names.is_empty() => diagnostic,
         None => diagnostic.help(format!("it has: {}", names.join(", "))),
-    }
+    };
+    Refused::program(loaded, [diagnostic])
 }

@@ -1,27 +1,27 @@
-//! `btc verify`: proofs that two trees take the same decisions, and tests of what is claimed of events.
+//! `btc verify`: proofs that two trees take the same decisions, and tests of claims on events.
 
 mod rows;
-mod tested;
-mod trace;
 
 pub use rows::table;
 
 use super::learn::Learned;
 use super::load::Loaded;
-use super::target;
+use super::refused::Refused;
+use super::{table as tables, target, world};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::ir::task::{ClaimKind, History, Learner, TreeRef};
+use crate::ir::task::{Claim, ClaimKind, History, Occurrence, Task, TreeRef};
 use crate::ir::tree::{Atom, Node, Tree};
 use crate::ir::{Id, Name, Program};
 use crate::policy::Policy;
+use crate::report::difference;
 use crate::tree::atoms::atoms;
 use crate::tree::equivalence::{Environment, Side, Verdict, compare};
-use tested::Tests;
+use crate::trial::claim::Tests;
 
-/// What came of a proof.
+/// The outcome of a proof or a test.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Proved {
-    /// Whether what was asked holds.
+    /// Whether the claim holds.
     pub holds: bool,
     /// The answer in words: equal, with environment and care set, or the shortest trace on which they part.
     pub text: String,
@@ -32,15 +32,13 @@ pub struct Proved {
 ///
 /// # Errors
 /// There is no such tree, the trees are for different tasks, or the table that is named does not fit.
-pub fn trees(loaded: &Loaded, left: &str, right: &str) -> Result<Proved, Vec<Diagnostic>> {
-    let one = |mistake| vec![mistake];
-    let left = target::tree(loaded, left).map_err(one)?;
-    let right = target::tree(loaded, right).map_err(one)?;
+pub fn trees(loaded: &Loaded, left: &str, right: &str) -> Result<Proved, Refused> {
+    let left = target::tree(loaded, left)?;
+    let right = target::tree(loaded, right)?;
     compared(loaded, left, right)
 }
 
-fn compared(loaded: &Loaded, left: Id<Tree>, right: Id<Tree>) -> Result<Proved, Vec<Diagnostic>> {
-    let one = |mistake| vec![mistake];
+fn compared(loaded: &Loaded, left: Id<Tree>, right: Id<Tree>) -> Result<Proved, Refused> {
     let program = &loaded.program;
     let (a, b) = (&program.trees[left], &program.trees[right]);
     if program.tasks.is_empty() {
@@ -51,25 +49,24 @@ fn compared(loaded: &Loaded, left: Id<Tree>, right: Id<Tree>) -> Result<Proved, 
         };
         return pair.prove((&a.name, &a.root), (&b.name, &b.root));
     }
-    let task = target::task_of(loaded, Some(left)).map_err(one)?;
-    let other = target::task_of(loaded, Some(right)).map_err(one)?;
+    let task = target::task_of(loaded, Some(left))?;
+    let other = target::task_of(loaded, Some(right))?;
     if task != other {
         let (first, second) = (&program.tasks[task].name, &program.tasks[other].name);
-        return Err(vec![
-            Diagnostic::new(
-                Code::E0504,
-                target::end_of_file(loaded),
-                format!(
-                    "`{}` is for the task `{first}`, `{}` for `{second}`",
-                    a.name, b.name
-                ),
-            )
-            .label("trees for different tasks are not compared"),
-        ]);
+        let diagnostic = Diagnostic::new(
+            Code::E0504,
+            target::end_of_file(loaded),
+            format!(
+                "`{}` is for the task `{first}`, `{}` for `{second}`",
+                a.name, b.name
+            ),
+        )
+        .label("trees for different tasks are not compared");
+        return Err(Refused::program(loaded, [diagnostic]));
     }
     let recorded = match loaded.tables.as_slice() {
         [] => None,
-        [(file, _), ..] => Some(super::table::environment(loaded, *file, task)?),
+        [(file, _), ..] => Some(tables::environment(loaded, *file, task)?),
     };
     let pair = Pair {
         loaded,
@@ -79,15 +76,14 @@ fn compared(loaded: &Loaded, left: Id<Tree>, right: Id<Tree>) -> Result<Proved, 
     pair.prove((&a.name, &a.root), (&b.name, &b.root))
 }
 
-/// Proves or tests every claim of the program whose trees are there.
+/// Proves or tests every claim of the program whose trees exist.
 ///
 /// # Errors
 /// As [`trees`], or the world cannot be built.
-pub fn claims(loaded: &Loaded) -> Result<Vec<Proved>, Vec<Diagnostic>> {
+pub fn claims(loaded: &Loaded) -> Result<Vec<Proved>, Refused> {
     let program = &loaded.program;
-    let one = |mistake| vec![mistake];
     let mut results = Vec::new();
-    let mut tests = Tests::new(loaded);
+    let mut tests = Tests::new(program);
     for claim in &program.claims {
         let TreeRef::Tree(id) = claim.tree else {
             results.push(not_learned(&claim.text));
@@ -98,11 +94,8 @@ pub fn claims(loaded: &Loaded) -> Result<Vec<Proved>, Vec<Diagnostic>> {
             ClaimKind::Equals(TreeRef::Tree(other)) => compared(loaded, id, *other)?,
             ClaimKind::Equals(TreeRef::Learned(_)) => not_learned(&claim.text),
             ClaimKind::Never(occurrence) | ClaimKind::Reaches(occurrence) => {
-                let task = target::task_of(loaded, Some(id)).map_err(one)?;
-                let reaches = matches!(claim.kind, ClaimKind::Reaches(_));
-                tests
-                    .event((task, &tree.root), &claim.text, occurrence, reaches)
-                    .map_err(one)?
+                let task = target::task_of(loaded, Some(id))?;
+                tested(loaded, &mut tests, (task, &tree.root), claim, occurrence)?
             }
         });
     }
@@ -122,14 +115,11 @@ fn not_learned(claim: &str) -> Proved {
     }
 }
 
-/// Proves or tests the claims about the tree that was just learned, proofs along the greedy transitions of its policy.
+/// Proves or tests the claims on the tree that was just learned; proofs go along the greedy transitions of its policy.
 ///
 /// # Errors
 /// A claim asks what the policy does not observe, or the world cannot be built.
-pub fn claims_of_learned(
-    loaded: &Loaded,
-    learned: &Learned,
-) -> Result<Vec<Proved>, Vec<Diagnostic>> {
+pub fn claims_of_learned(loaded: &Loaded, learned: &Learned) -> Result<Vec<Proved>, Refused> {
     let program = &loaded.program;
     let task = program.learners[learned.learner].task;
     let pair = Pair {
@@ -137,7 +127,7 @@ pub fn claims_of_learned(
         history: program.tasks[task].history,
         recorded: Some(&learned.policy),
     };
-    let mut tests = Tests::new(loaded);
+    let mut tests = Tests::new(program);
     let mut results = Vec::new();
     for claim in &program.claims {
         let subject = side(program, learned, claim.tree);
@@ -152,9 +142,7 @@ pub fn claims_of_learned(
             (ClaimKind::Never(occurrence) | ClaimKind::Reaches(occurrence), Some((_, root)))
                 if own =>
             {
-                let reaches = matches!(claim.kind, ClaimKind::Reaches(_));
-                let tested = tests.event((task, root), &claim.text, occurrence, reaches);
-                results.push(tested.map_err(|mistake| vec![mistake])?);
+                results.push(tested(loaded, &mut tests, (task, root), claim, occurrence)?);
             }
             _ => {}
         }
@@ -162,8 +150,36 @@ pub fn claims_of_learned(
     Ok(results)
 }
 
-/// Whether a claim speaks of the tree that was learned: by the learner, or by an accepted result of its name, which the
-/// new one takes the place of.
+/// The test of a claim on an event.
+fn tested<'a>(
+    loaded: &Loaded,
+    tests: &mut Tests<'a>,
+    subject: (Id<Task>, &'a Node),
+    claim: &Claim,
+    occurrence: &Occurrence,
+) -> Result<Proved, Refused> {
+    let reaches = matches!(claim.kind, ClaimKind::Reaches(_));
+    let tested = tests
+        .event(subject, occurrence, reaches)
+        .map_err(|why| world::unplayable(loaded, why))?;
+    let (verdict, side) = match tested.refuted {
+        true => ("refuted", "above"),
+        false => ("not refuted", "below"),
+    };
+    Ok(Proved {
+        holds: !tested.refuted,
+        text: format!(
+            "{}: {verdict} in {} episodes; it fails in {} of them, a rate {side} {:.2} % at 95 %",
+            claim.text,
+            tested.episodes,
+            tested.failed,
+            100.0 * tested.bound()
+        ),
+    })
+}
+
+/// Whether a claim is about the tree that was learned: through the learner, or through an earlier result of the same
+/// name, which the new one replaces.
 fn is_learned(program: &Program, learned: &Learned, tree: TreeRef) -> bool {
     match tree {
         TreeRef::Tree(id) => program.trees[id].name == program.learners[learned.learner].name,
@@ -177,7 +193,7 @@ fn side<'a>(
     tree: TreeRef,
 ) -> Option<(&'a Name, &'a Node)> {
     if is_learned(program, learned, tree) {
-        let learner: &Learner = &program.learners[learned.learner];
+        let learner = &program.learners[learned.learner];
         return Some((&learner.name, &learned.root));
     }
     match tree {
@@ -201,24 +217,23 @@ impl Pair<'_> {
         &self,
         (left, a): (&Name, &Node),
         (right, b): (&Name, &Node),
-    ) -> Result<Proved, Vec<Diagnostic>> {
+    ) -> Result<Proved, Refused> {
         let program = &self.loaded.program;
         let environment = match self.recorded {
             Some(policy) => Environment::Greedy(policy),
             None => Environment::Any(self.history),
         };
         let verdict = compare(Side::Tree(a), Side::Tree(b), environment).map_err(|unknown| {
-            vec![
-                Diagnostic::new(
-                    Code::E0610,
-                    self.place_of_table(),
-                    format!(
-                        "the table does not say whether `{}` holds, and a tree asks it",
-                        program.atom_name(unknown.0)
-                    ),
-                )
-                .label("named here"),
-            ]
+            let diagnostic = Diagnostic::new(
+                Code::E0610,
+                self.place_of_table(),
+                format!(
+                    "the table does not say whether `{}` holds, and a tree asks it",
+                    program.atom_name(unknown.0)
+                ),
+            )
+            .label("named here");
+            Refused::program(self.loaded, [diagnostic])
         })?;
         Ok(match verdict {
             Verdict::Equal(explored) => Proved {
@@ -254,7 +269,7 @@ impl Pair<'_> {
                         Some(_) => "along the greedy transitions".to_owned(),
                         None => format!("in an environment consistent with {}", self.window()),
                     };
-                    trace::text(program, (left, right), &along, &trace)
+                    difference::text(program, (left, right), &along, &trace)
                 },
             },
             Verdict::Undecided(explored) => Proved {
@@ -282,7 +297,7 @@ impl Pair<'_> {
     }
 }
 
-/// The window of a program without a task: the paper's if these trees remember anything, else none.
+/// The window of a program without a task: the paper's if one of these trees has memory or asks the history, else none.
 fn assumed(trees: &[&Node]) -> History {
     let asks = |atom: &Atom| !matches!(atom, Atom::Predicate(_));
     let remembered = |root: &&Node| root.remembers() || atoms(root).iter().any(asks);

@@ -116,7 +116,8 @@ pub struct Learner {
 }
 
 /// The methods of learning.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Method {
     /// Tabular Q-learning (Watkins 1989; the paper's).
     QLearning,

@@ -1,4 +1,4 @@
-//! What a few runs say: the interquartile mean with a bootstrap interval (Agarwal, Schwarzer, Castro, Courville and
+//! The figures of a few runs: the interquartile mean with a bootstrap interval (Agarwal, Schwarzer, Castro, Courville and
 //! Bellemare 2021).
 
 use crate::random::Random;
@@ -24,14 +24,14 @@ fn middle(sorted: &[f64]) -> f64 {
     weighted.sum::<f64>() / (to - from)
 }
 
-/// How often the sample is drawn anew.
+/// The number of resamples.
 const DRAWS: u64 = 2000;
 
 /// The stream of the bootstrap's random numbers.
 const BOOTSTRAP: u64 = u64::MAX - 2;
 
 /// The 95 % interval of the interquartile mean by the percentile bootstrap (Efron 1979): the same sample gives the same
-/// interval. One value has no interval but itself.
+/// interval. The interval of a single value is that value.
 pub fn interval95(sample: &[f64]) -> [f64; 2] {
     let n = sample.len();
     let mut random = Random::new(n as u64, BOOTSTRAP, 0);

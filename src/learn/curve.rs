@@ -14,77 +14,57 @@ pub struct Point {
     pub ticks: u64,
     /// Minterms in which a decision was completed so far.
     pub minterms: usize,
-    /// The return of greedy episodes on seeds of their own.
+    /// The return of greedy episodes on seeds that only curves use.
     pub total: Mean,
-    /// How many of these an event ended.
+    /// The number of these that an event ended.
     pub ended: u64,
 }
 
-/// How many points a curve has at most.
+/// The most points of a curve.
 pub const POINTS: u64 = 20;
 
-/// How many greedy episodes a point is measured by.
+/// The greedy episodes that measure a point.
 pub const EPISODES: u64 = 20;
 
-/// Whether a point is due after this episode of so many.
+/// Whether a point is due after episode number `episode` of `episodes`.
 pub fn due(episode: u64, episodes: u64) -> bool {
     let points = POINTS.min(episodes.max(1));
     let passed = |n: u64| u128::from(n) * u128::from(points) / u128::from(episodes.max(1));
     passed(episode + 1) > passed(episode)
 }
 
-/// The curves of several seeds as CSV: point by point where there is one, else the interquartile mean over the seeds with
-/// its bootstrap interval, and the return of each.
-pub fn csv(curves: &[(u64, Vec<Point>)]) -> String {
-    match curves {
-        [(_, points)] => single(points),
-        _ => several(curves),
-    }
+/// A point of the curves of several seeds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pooled {
+    /// Episodes learned from so far, by each seed.
+    pub episodes: u64,
+    /// Ticks simulated so far, by the slowest seed.
+    pub ticks: u64,
+    /// Minterms in which a decision was completed so far, by the seed that has the most.
+    pub minterms: usize,
+    /// The return of each seed.
+    pub totals: Vec<f64>,
+    /// Their interquartile mean, with its bootstrap interval over the seeds.
+    pub total: Mean,
 }
 
-fn single(points: &[Point]) -> String {
-    let mut text =
-        String::from("episodes,decisions,ticks,minterms,return,return_low,return_high,ended\n");
-    for point in points {
-        let [low, high] = point.total.ci95;
-        text.push_str(&format!(
-            "{},{},{},{},{},{},{},{}\n",
-            point.episodes,
-            point.decisions,
-            point.ticks,
-            point.minterms,
-            point.total.mean,
-            low,
-            high,
-            point.ended,
-        ));
-    }
-    text
-}
-
-fn several(curves: &[(u64, Vec<Point>)]) -> String {
-    let mut text = String::from("episodes,return,return_low,return_high");
-    for (seed, _) in curves {
-        text.push_str(&format!(",seed_{seed}"));
-    }
-    text.push('\n');
-    let points = curves.iter().map(|(_, points)| points.len()).min();
-    for at in 0..points.unwrap_or(0) {
-        let of: Vec<&Point> = curves
-            .iter()
-            .filter_map(|(_, points)| points.get(at))
-            .collect();
-        let totals: Vec<f64> = of.iter().map(|point| point.total.mean).collect();
-        let episodes = of.first().map_or(0, |point| point.episodes);
-        let [low, high] = interval95(&totals);
-        text.push_str(&format!(
-            "{episodes},{},{low},{high}",
-            interquartile_mean(&totals)
-        ));
-        for total in totals {
-            text.push_str(&format!(",{total}"));
-        }
-        text.push('\n');
-    }
-    text
+/// Several curves as one, up to the end of the shortest.
+pub fn pooled(curves: &[(u64, Vec<Point>)]) -> Vec<Pooled> {
+    let shortest = curves.iter().map(|(_, points)| points.len()).min();
+    (0..shortest.unwrap_or(0))
+        .map(|at| {
+            let of = || curves.iter().filter_map(|(_, points)| points.get(at));
+            let totals: Vec<f64> = of().map(|point| point.total.mean).collect();
+            Pooled {
+                episodes: of().map(|point| point.episodes).next().unwrap_or(0),
+                ticks: of().map(|point| point.ticks).max().unwrap_or(0),
+                minterms: of().map(|point| point.minterms).max().unwrap_or(0),
+                total: Mean {
+                    mean: interquartile_mean(&totals),
+                    ci95: interval95(&totals),
+                },
+                totals,
+            }
+        })
+        .collect()
 }

@@ -1,4 +1,4 @@
-//! How much the future counts when a decision has taken its time.
+//! The discount of what follows a decision that took its time.
 
 use crate::ir::task::Discount;
 
@@ -12,7 +12,7 @@ pub struct Discounting {
 }
 
 impl Discounting {
-    /// The factor on all that follows a decision that took so many ticks: γ, or γ^(t/T) in a semi-Markov process whose
+    /// The factor on all that follows a decision that took `ticks` ticks: γ, or γ^(t/T) in a semi-Markov process whose
     /// time counts (Sutton, Precup and Singh 1999).
     pub fn factor(&self, ticks: u64) -> f64 {
         match self.discount {

@@ -3,16 +3,16 @@
 
 use super::method::{Decision, Method, Settings};
 use super::process::Key;
+use super::q_table::QTable;
 use super::schedule::Schedule;
-use super::table::Table;
 use crate::random::Random;
 
 /// Q_A(s, a) ← Q_A(s, a) + α [r + γ Q_B(s′, argmax Q_A(s′, ·)) − Q_A(s, a)], or with A and B exchanged, by the toss of a
 /// coin. Choices are greedy in the mean of both.
 #[derive(Clone, Debug)]
 pub struct DoubleQ<'a> {
-    tables: [Table; 2],
-    mean: Table,
+    tables: [QTable; 2],
+    mean: QTable,
     rate: Schedule<'a>,
     coin: Random,
 }
@@ -23,7 +23,7 @@ const COIN: u64 = u64::MAX - 1;
 impl<'a> DoubleQ<'a> {
     /// One that knows nothing yet.
     pub fn new(settings: &Settings<'a>) -> Self {
-        let table = Table::new(settings.choices, settings.initial);
+        let table = QTable::new(settings.choices, settings.initial);
         Self {
             tables: [table.clone(), table.clone()],
             mean: table,
@@ -34,7 +34,7 @@ impl<'a> DoubleQ<'a> {
 }
 
 impl Method for DoubleQ<'_> {
-    fn table(&self) -> &Table {
+    fn table(&self) -> &QTable {
         &self.mean
     }
 

@@ -1,13 +1,9 @@
 //! Whole episodes under a controller: a policy, a tree, or anything else that acts once a tick.
 
-use super::process::Key;
-use crate::ir::Id;
-use crate::ir::law::Behavior;
 use crate::world::{End, Simulation, Start};
 use rayon::prelude::*;
-use rustc_hash::FxHashMap;
 
-/// Decides what a robot does in a tick.
+/// What decides in each tick what a robot does.
 pub trait Controller {
     /// Forgets everything: an episode starts.
     fn reset(&mut self);
@@ -21,7 +17,7 @@ pub trait Controller {
     }
 }
 
-/// What an episode came to.
+/// The figures of an episode.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Episode {
     /// Its length.
@@ -32,7 +28,7 @@ pub struct Episode {
     pub events: Vec<u64>,
     /// Why it ended.
     pub end: End,
-    /// Ticks in minterms for which the controller was not made.
+    /// Ticks in minterms that the controller was not made for.
     pub outside: u64,
 }
 
@@ -84,39 +80,4 @@ pub fn play_all<'s, C: Controller>(
             play(simulation, controller, start, patience)
         })
         .collect()
-}
-
-/// A policy as a controller: what it does in each minterm, and elsewhere.
-#[derive(Clone, Debug)]
-pub struct Greedy<'p> {
-    choices: &'p FxHashMap<Key, Id<Behavior>>,
-    unseen: Id<Behavior>,
-    last: Option<(Key, Id<Behavior>)>,
-}
-
-impl<'p> Greedy<'p> {
-    /// The policy of these choices.
-    pub fn new(choices: &'p FxHashMap<Key, Id<Behavior>>, unseen: Id<Behavior>) -> Self {
-        Self {
-            choices,
-            unseen,
-            last: None,
-        }
-    }
-}
-
-impl Controller for Greedy<'_> {
-    fn reset(&mut self) {
-        self.last = None;
-    }
-
-    fn tick(&mut self, simulation: &mut Simulation) {
-        let key = simulation.key();
-        let behavior = match self.last {
-            Some((last, behavior)) if last == key => behavior,
-            _ => self.choices.get(&key).copied().unwrap_or(self.unseen),
-        };
-        self.last = Some((key, behavior));
-        simulation.act(behavior);
-    }
 }

@@ -1,28 +1,27 @@
 //! The policy of a table.
 
 use super::process::Key;
+use super::q_table::QTable;
 use super::rollout::RollOut;
-use super::table::Table;
 use crate::ir::task::Task;
 use crate::ir::tree::Atom;
 use crate::policy::{Minterm, Policy, Row, Transition, Value};
 use rustc_hash::FxHashMap;
 
-/// What is decided in a minterm.
+/// The decision in a minterm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Decided {
     /// The number of the behaviour among those of the task.
     pub choice: usize,
-    /// What it is worth, as far as is known.
+    /// Its value, as far as it is known.
     pub value: f64,
 }
 
 /// A policy by key.
 pub type Decisions = FxHashMap<Key, Decided>;
 
-/// What the greedy policy of a table does in each minterm in which at least so many decisions were completed, and one
-/// at least.
-pub fn greedy(table: &Table, evidence: u64) -> Decisions {
+/// The greedy policy of a table, on the minterms in which at least `evidence` decisions were completed, and at least one.
+pub fn greedy(table: &QTable, evidence: u64) -> Decisions {
     let decided = |(key, row): (Key, usize)| {
         let choice = table.greedy(row)?;
         let value = table.cells(row).get(choice)?.q;
@@ -31,19 +30,21 @@ pub fn greedy(table: &Table, evidence: u64) -> Decisions {
     table.sorted().into_iter().filter_map(decided).collect()
 }
 
-/// The minterms in which decisions were completed, but fewer than so many; with how many.
-pub fn thin(table: &Table, evidence: u64) -> Vec<(Key, u64)> {
+/// The minterms in which decisions were completed, but fewer than `evidence`, each with their number.
+pub fn thin(table: &QTable, evidence: u64, atoms: usize) -> Vec<(Minterm, u64)> {
     let rows = table.sorted().into_iter();
-    let visits = rows.map(|(key, row)| (key, table.visits(row)));
-    visits
+    let visits = rows.map(|(key, row)| (Minterm::of_key(key, atoms), table.visits(row)));
+    let mut thin: Vec<(Minterm, u64)> = visits
         .filter(|(_, visits)| (1..evidence).contains(visits))
-        .collect()
+        .collect();
+    thin.sort();
+    thin
 }
 
-/// A policy with the evidence of its table, and with what was met under it.
+/// A policy with the evidence of its table, and with what a roll-out of it met.
 pub fn policy(
     decisions: &Decisions,
-    table: &Table,
+    table: &QTable,
     met: &RollOut,
     task: &Task,
     atoms: Vec<Atom>,

@@ -4,20 +4,20 @@ use super::double_q::DoubleQ;
 use super::model::Model;
 use super::process::{End, Step};
 use super::q_learning::QLearning;
-use super::table::Table;
+use super::q_table::QTable;
 use crate::ir::task;
 
-/// A method of learning: it is told of every decision, and keeps a table of action values.
+/// A method of learning: it gets every decision, and keeps a table of action values.
 ///
 /// Rows are those of [`Method::table`]: a method that keeps more tables than one numbers their rows alike.
 pub trait Method {
-    /// The action values as they are known now, with their evidence.
-    fn table(&self) -> &Table;
+    /// The action values so far, with their evidence.
+    fn table(&self) -> &QTable;
 
-    /// The row of a minterm, made if there is none.
+    /// The row of a minterm, a new one if there is none.
     fn row(&mut self, key: super::process::Key) -> usize;
 
-    /// What is done in a row while learning, exploration aside; `None` where nothing is known yet.
+    /// The choice in a row while learning, exploration aside; `None` where nothing is known yet.
     fn greedy(&self, row: usize) -> Option<usize> {
         self.table().greedy(row)
     }
@@ -25,30 +25,30 @@ pub trait Method {
     /// Learns from one decision.
     fn learn(&mut self, decision: &Decision);
 
-    /// A round of episodes is over: what was only collected is learned from now.
+    /// Ends a round of episodes: a method that only collects while it plays learns now.
     fn refit(&mut self) {}
 
-    /// Whether the policy of each round is a proposal of its own, of which the best by validation is taken; else the
-    /// last is what was learned.
+    /// Whether the policy of each round is a proposal, of which the best by validation is taken. Otherwise the last
+    /// policy is the result.
     fn proposes(&self) -> bool {
         false
     }
 }
 
-/// A decision with what came of it.
+/// A decision with its outcome.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Decision {
     /// The row in which it was taken.
     pub row: usize,
-    /// What was chosen.
+    /// The choice.
     pub choice: usize,
-    /// What came of it.
+    /// Its outcome.
     pub step: Step,
-    /// The row that was found after it.
+    /// The row of the minterm found after it.
     pub next: usize,
     /// The factor on what follows. Zero if nothing does: the episode was ended by an event, not cut by the limit.
     pub factor: f64,
-    /// The share of the episodes that is over.
+    /// The share of the episodes that are over.
     pub progress: f64,
 }
 
@@ -63,10 +63,10 @@ impl Decision {
     }
 }
 
-/// What the methods are set by; each takes what it has a use for.
+/// The settings of the methods; each reads those that it uses.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings<'a> {
-    /// How many behaviours there are to choose from.
+    /// The number of behaviours to choose from.
     pub choices: usize,
     /// The value of a pair that was never tried.
     pub initial: f64,

@@ -1,14 +1,14 @@
 //! Learning a model: the transitions that were seen are counted, and the semi-Markov decision problem of their
 //! frequencies is solved exactly (certainty equivalence: Kumar and Varaiya 1986).
 //!
-//! A minterm stands for many states of the world, so what follows it depends on how it was come by. Counts are therefore
-//! collected under the policy of the round before, with exploration, and older ones fade: the model is of the process as
-//! the policy meets it.
+//! A minterm stands for many states of the world, so what follows it depends on the way there. Counts are therefore
+//! collected under the policy of the round before, with exploration, and older ones fade: the model describes the process
+//! as the policy meets it.
 
 use super::method::{Decision, Method, Settings};
 use super::process::Key;
+use super::q_table::QTable;
 use super::solve::{Outlook, Problem};
-use super::table::Table;
 
 /// The transitions seen of one choice in one minterm; the counts are real because they fade.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -23,12 +23,12 @@ struct Seen {
 /// A model with its solution.
 #[derive(Clone, Debug)]
 pub struct Model {
-    table: Table,
+    table: QTable,
     choices: usize,
     initial: f64,
     /// For each row and choice.
     seen: Vec<Seen>,
-    /// What the last solution does in each row.
+    /// The decision of the last solution in each row.
     policy: Vec<Option<usize>>,
 }
 
@@ -40,7 +40,7 @@ impl Model {
     /// One that knows nothing yet.
     pub fn new(settings: &Settings) -> Self {
         Self {
-            table: Table::new(settings.choices, settings.initial),
+            table: QTable::new(settings.choices, settings.initial),
             choices: settings.choices,
             initial: settings.initial,
             seen: Vec::new(),
@@ -73,7 +73,7 @@ impl Model {
 }
 
 impl Method for Model {
-    fn table(&self) -> &Table {
+    fn table(&self) -> &QTable {
         &self.table
     }
 

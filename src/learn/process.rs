@@ -5,12 +5,12 @@ use crate::ir::tree::Status;
 /// A minterm in a machine word: bit i is the i-th atom.
 pub type Key = u128;
 
-/// A process that is decided over.
+/// A process to decide over.
 pub trait Process {
     /// Starts an episode; the same number starts the same episode again.
     fn start(&mut self, episode: u64);
 
-    /// The minterm that is seen now.
+    /// The minterm that holds now.
     fn key(&self) -> Key;
 
     /// Carries a choice out until the next decision is due. `choice` counts the behaviours of the task, `dwell` is the

@@ -2,13 +2,13 @@
 
 use super::method::{Decision, Method, Settings};
 use super::process::Key;
+use super::q_table::QTable;
 use super::schedule::Schedule;
-use super::table::Table;
 
 /// Q(s, a) ← Q(s, a) + α [r + γ max Q(s′, ·) − Q(s, a)]
 #[derive(Clone, Debug)]
 pub struct QLearning<'a> {
-    table: Table,
+    table: QTable,
     rate: Schedule<'a>,
 }
 
@@ -16,14 +16,14 @@ impl<'a> QLearning<'a> {
     /// One that knows nothing yet.
     pub fn new(settings: &Settings<'a>) -> Self {
         Self {
-            table: Table::new(settings.choices, settings.initial),
+            table: QTable::new(settings.choices, settings.initial),
             rate: settings.rate,
         }
     }
 }
 
 impl Method for QLearning<'_> {
-    fn table(&self) -> &Table {
+    fn table(&self) -> &QTable {
         &self.table
     }
 

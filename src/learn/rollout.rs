@@ -1,4 +1,4 @@
-//! A frozen policy at work: where its episodes start, what its decisions lead to, and what they are worth.
+//! A frozen policy at work: where its episodes start, what its decisions lead to, and their value.
 
 use super::discount::Discounting;
 use super::episode::Episode;
@@ -9,12 +9,12 @@ use crate::world;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// A policy that is rolled out.
+/// A policy to roll out.
 #[derive(Clone, Copy, Debug)]
 pub struct Frozen<'p> {
-    /// What it does.
+    /// Its decisions.
     pub decisions: &'p Decisions,
-    /// What it does elsewhere, with the value of such minterms.
+    /// Its decision in all other minterms, with their value.
     pub unseen: Decided,
     /// How its future reward counts.
     pub discounting: Discounting,
@@ -23,25 +23,26 @@ pub struct Frozen<'p> {
 /// A decision with its outcome: minterm, choice, how the behaviour stood, the minterm found if the episode went on.
 pub type Taken = (Key, usize, Status, Option<Key>);
 
-/// What an episode was worth where it started.
+/// The value of an episode at its start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Worth {
-    /// What the policy's values said.
+    /// The value that the policy predicts there.
     pub predicted: f64,
-    /// The discounted sum of its rewards. What follows the limit, where that cut it, is taken as predicted.
+    /// The discounted sum of its rewards. Where the tick limit cut the episode, the prediction stands for what
+    /// would follow.
     pub simulated: f64,
 }
 
-/// What a policy met, with how often.
+/// What a policy met, with counts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RollOut {
     /// The minterms in which episodes started.
     pub starts: BTreeMap<Key, u64>,
-    /// The decisions. One that the tick limit cut short is not among them: nothing is known of its outcome.
+    /// The decisions. Those that the tick limit cut are left out: their outcome is unknown.
     pub taken: BTreeMap<Taken, u64>,
-    /// What the episodes came to, in their order.
+    /// The figures of the episodes, in their order.
     pub episodes: Vec<Episode>,
-    /// What they were worth, in the same order.
+    /// Their values, in the same order.
     pub worth: Vec<Worth>,
 }
 
@@ -68,7 +69,7 @@ impl RollOut {
     }
 }
 
-/// Episodes that one thread plays in a row; a fixed number, so that the work is cut alike on any number of threads.
+/// Episodes that one thread plays in a row. The number is fixed, so that any number of threads splits the work alike.
 const CHUNK: u64 = 10;
 
 /// Plays episodes on all threads.
@@ -92,7 +93,7 @@ pub fn roll_out<P: Process>(
     chunks.into_iter().fold(RollOut::default(), RollOut::merge)
 }
 
-/// Plays the episode that was started, and notes what it meets.
+/// Plays the episode that has started, and notes what it meets.
 fn play(process: &mut impl Process, policy: &Frozen, met: &mut RollOut) {
     let look = |key: &Key| match policy.decisions.get(key) {
         Some(decided) => (*decided, true),

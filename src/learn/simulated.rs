@@ -17,17 +17,35 @@ pub enum Purpose {
     Curve = 2,
     /// `btc run`.
     Run = 3,
-    /// Testing what is claimed of events.
+    /// Testing claims on events.
     Claim = 4,
-    /// Which of several runs of learning is the best.
+    /// Finding the best of several runs of learning.
     Validate = 5,
-    /// What the tree that was taken is worth, on episodes that nothing was chosen by.
+    /// Testing a learned tree, on episodes that nothing was chosen by.
     Test = 6,
-    /// Which of a run's proposals is the best.
+    /// Finding the best of a run's proposals.
     Propose = 7,
+    /// The search for a smaller tree.
+    Simplify = 16,
+    /// The second opinion on what that search found.
+    Confirm = 17,
+    /// The figures of a simplified tree.
+    Measure = 18,
 }
 
-/// A simulation that is decided over.
+impl Purpose {
+    /// The start of episode 0, from the first list of start lines, cut after `limit` ticks.
+    pub fn start(self, seed: u64, limit: u64) -> Start {
+        Start {
+            seed,
+            stream: self as u64,
+            limit,
+            ..Start::default()
+        }
+    }
+}
+
+/// A simulation to decide over.
 #[derive(Clone, Debug)]
 pub struct Simulated<'a> {
     simulation: Simulation<'a>,

@@ -30,13 +30,13 @@ pub struct Solution {
     pub values: Vec<f64>,
 }
 
-/// Above so many states a policy is evaluated by sweeps and not by elimination, whose cost is cubic.
+/// The most states for which a policy is evaluated by elimination, whose cost is cubic; above, by sweeps.
 const ELIMINATED: usize = 600;
 
 /// The most improvements of a policy; far fewer are ever needed.
 const IMPROVEMENTS: usize = 200;
 
-/// What counts as better: above the noise of the elimination.
+/// The least gain that counts as better, above the noise of the elimination.
 const BETTER: f64 = 1e-9;
 
 /// The most sweeps, and the change below which they end.

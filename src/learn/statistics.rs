@@ -1,13 +1,14 @@
-//! What a sample says of what it was drawn from.
+//! Figures of a sample.
 
 use super::episode::Episode;
 use crate::world::End;
+use serde::Serialize;
 
 /// The 97.5 % point of the standard normal distribution.
 const Z: f64 = 1.959_963_984_540_054;
 
 /// A mean with its 95 % interval (normal approximation: mean ± 1.96 s/√n).
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Mean {
     /// The mean.
     pub mean: f64,
@@ -16,7 +17,7 @@ pub struct Mean {
 }
 
 impl Mean {
-    /// Of a sample; without one, zero.
+    /// The mean of a sample; zero for an empty one.
     pub fn of(sample: &[f64]) -> Self {
         let n = sample.len() as f64;
         if sample.is_empty() {
@@ -36,27 +37,27 @@ impl Mean {
     }
 }
 
-/// What a number of episodes came to.
+/// The figures of several episodes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Summary {
-    /// How many episodes.
+    /// The number of episodes.
     pub episodes: u64,
-    /// Their ticks in all.
+    /// The sum of their ticks.
     pub ticks: u64,
     /// The return of an episode.
     pub total: Mean,
-    /// For each event, how often it fired in all, and how often in 1000 ticks of an episode.
+    /// For each event, how often it fired, and its rate in 1000 ticks of an episode.
     pub events: Vec<(u64, Mean)>,
-    /// How many episodes each line of `end on` ended.
+    /// The number of episodes that each line of `end on` ended.
     pub ended: Vec<u64>,
-    /// How many the tick limit cut.
+    /// The number that the tick limit cut.
     pub cut: u64,
-    /// Ticks outside the care set, in all.
+    /// Ticks outside the care set.
     pub outside: u64,
 }
 
 impl Summary {
-    /// Of episodes of a task with so many lines of `end on`.
+    /// The figures of episodes of a task with `ends` lines of `end on`.
     pub fn of(episodes: &[Episode], ends: usize) -> Self {
         let totals: Vec<f64> = episodes.iter().map(|episode| episode.total).collect();
         let events = episodes.first().map_or(0, |episode| episode.events.len());

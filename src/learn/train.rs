@@ -1,31 +1,31 @@
-//! Learning by doing: episodes under the method's own greedy choices, with exploration.
+//! Training: episodes under the method's own greedy choices, with exploration.
 
 use super::curve;
 use super::discount::Discounting;
 use super::method::{Decision, Method};
 use super::process::{End, Process};
+use super::q_table::QTable;
 use super::schedule::Schedule;
-use super::table::Table;
 use crate::random::Random;
 
-/// How it is gone about, whatever the method.
+/// The settings of training that hold for every method.
 #[derive(Clone, Copy, Debug)]
 pub struct Course<'a> {
-    /// How many behaviours there are to choose from.
+    /// The number of behaviours to choose from.
     pub choices: usize,
-    /// How many episodes.
+    /// The number of episodes.
     pub episodes: u64,
-    /// The probability of a random choice; of a minterm's visits and of progress.
+    /// The probability of a random choice, by a minterm's visits and the progress.
     pub explore: Schedule<'a>,
-    /// How future reward counts.
+    /// The discount of future reward.
     pub discounting: Discounting,
-    /// Ticks for which a choice is kept.
+    /// The least ticks for which a choice is kept.
     pub dwell: u64,
     /// The seed of the exploration.
     pub seed: u64,
 }
 
-/// What was gone through so far.
+/// How much was simulated so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
     /// Episodes begun.
@@ -39,13 +39,13 @@ pub struct Counts {
 /// The stream of the exploration's random numbers, apart from those of the world.
 const EXPLORATION: u64 = u64::MAX;
 
-/// Learns. The episodes are cut into rounds, see [`curve::due`]; after each the method refits, and `round` sees what it
-/// has come to. `progress` hears of every episode.
+/// Learns. [`curve::due`] cuts the episodes into rounds; after each the method refits, and `round` gets its table.
+/// `progress` is called after every episode.
 pub fn train(
     process: &mut impl Process,
     method: &mut dyn Method,
     course: &Course,
-    mut round: impl FnMut(&Table, &Counts),
+    mut round: impl FnMut(&QTable, &Counts),
     mut progress: impl FnMut(),
 ) -> Counts {
     let mut counts = Counts::default();
@@ -64,7 +64,7 @@ pub fn train(
     counts
 }
 
-/// Plays the episode that was started.
+/// Plays the episode that has started.
 fn play(
     process: &mut impl Process,
     method: &mut dyn Method,

@@ -12,14 +12,17 @@ use rayon::prelude::*;
 
 /// The order of a decision list.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Order {
+    /// As makes the result smallest.
+    ///
     /// Each time the class whose cover has the fewest literals, then the fewest cubes; neighbours change places where
     /// that saves literals.
     #[default]
     Learned,
-    /// As the classes are given.
+    /// As given.
     Given,
-    /// The class with the fewest rows first.
+    /// Those with the fewest rows first.
     Rarest,
 }
 

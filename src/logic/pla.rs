@@ -3,12 +3,14 @@
 mod conflict;
 mod error;
 mod functions;
+mod minimised;
 mod read;
 mod write;
 
 pub use conflict::Conflict;
 pub use error::{PlaError, PlaErrorKind};
 pub use functions::{Function, TooLarge};
+pub use minimised::Uncovered;
 pub use read::read;
 pub use write::{Line, write};
 

@@ -22,6 +22,7 @@ use crate::ir::tree::{Node, Status};
 use crate::policy::{Minterm, Policy, Row};
 use covers::{Covers, LARGE};
 use problem::Problem;
+use serde::Serialize;
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 
@@ -29,22 +30,28 @@ pub use crate::logic::Order;
 pub use slack::{Deviation, Loosened, loosen};
 
 /// How the tree is found.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Method {
-    /// Algorithm 1.
+    /// Algorithm 1 of the paper.
     Paper,
-    /// From what Algorithm 1 finds, the smallest tree that a search of fixed effort comes to.
+    /// The smallest tree that a search finds from there.
+    ///
+    /// Its effort is fixed.
     #[default]
     Search,
 }
 
 /// In which minterms the tree has to take the policy's decision; the others are free.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Care {
-    /// In all that were seen (the paper).
+    /// In all that were learned, as in the paper.
     #[default]
     Seen,
-    /// In those that the greedy policy reached.
+    /// In those that the greedy policy reaches.
     Reachable,
 }
 

@@ -4,6 +4,7 @@ pub mod atoms;
 pub mod canonicalise;
 mod circuit;
 pub mod decanonicalise;
+pub mod disagreement;
 
 pub mod drawing;
 pub mod equivalence;

@@ -3,11 +3,12 @@
 use super::drawing::{Drawing, Shape};
 use super::guard::Form;
 use crate::ir::tree::{Composite, Guard, Node};
+use serde::Serialize;
 use std::iter::Sum;
 use std::ops::Add;
 
 /// The size of a tree as it is drawn; smaller ones come first: by nodes, then literals, then depth.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 pub struct Size {
     /// Composites, decorators, behaviour leaves, literals in guards, and the composites that join literals.
     pub nodes: usize,

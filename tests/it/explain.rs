@@ -4,7 +4,7 @@ use crate::program::{self, NoFiles};
 use btc::diagnostic::{Code, Diagnostic};
 use btc::driver::export::Runtime;
 use btc::driver::load::{Loaded, Reader, load};
-use btc::driver::{compile, learn, minimize, run, target, verify};
+use btc::driver::{Refused, Text, compile, learn, minimize, run, verify};
 use btc::tree::decanonicalise::{Care, Method};
 
 /// The example of an explanation that follows a heading.
@@ -116,12 +116,14 @@ fn a_world_that_cannot_be_built() {
     let code = Code::E0409;
     let loaded = wrong(code);
     assert_eq!(program::shown(&loaded), "");
-    let subject = |loaded: &Loaded| run::Subject::Tree(target::tree(loaded, "back").unwrap());
-    let found = run::run(&loaded, subject(&loaded), 1, 1).unwrap_err();
-    assert_eq!(found.code, code);
-    assert_eq!(loaded.sources.text(found.span()), "yard");
-    let right = right(code);
-    assert!(run::run(&right, subject(&right), 1, 1).is_ok());
+    let ran = |loaded: &Loaded| {
+        let subject = run::Subject::tree(loaded, "back").unwrap();
+        run::run(loaded, &subject, 1, 1)
+    };
+    let found = ran(&loaded).unwrap_err().diagnostics;
+    assert_eq!(codes(&found), [code]);
+    assert_eq!(loaded.sources.text(found[0].span()), "yard");
+    assert!(ran(&right(code)).is_ok());
 }
 
 /// E0504: a tree by the wrong name.
@@ -131,7 +133,7 @@ fn a_tree_that_is_not_there() {
     let loaded = wrong(code);
     assert_eq!(program::shown(&loaded), "");
     let found = compile::emit(&loaded, compile::Form::Bt, Some("expert")).unwrap_err();
-    assert_eq!(found.code, code);
+    assert_eq!(codes(&found.diagnostics), [code]);
     assert!(compile::emit(&right(code), compile::Form::Bt, Some("expert")).is_ok());
 }
 
@@ -142,7 +144,7 @@ fn nothing_is_learned() {
     let loaded = wrong(code);
     assert_eq!(program::shown(&loaded), "");
     let found = learned(&loaded, Some(0)).unwrap_err();
-    assert_eq!(found.code, code);
+    assert_eq!(codes(&found.diagnostics), [code]);
     assert!(learned(&right(code), None).is_ok());
 }
 
@@ -160,7 +162,7 @@ fn a_table_of_another_task() {
     let loaded = load("wrong.bt", example(code, "Wrong").into(), &mut Table);
     assert_eq!(program::shown(&loaded), "");
     let found = verify::trees(&loaded, "a", "b").unwrap_err();
-    assert_eq!(codes(&found), [code]);
+    assert_eq!(codes(&found.diagnostics), [code]);
     let proved = verify::trees(&right(code), "a", "b").unwrap();
     assert!(!proved.holds);
 }
@@ -180,9 +182,9 @@ fn what_a_robot_cannot_run() {
         for runtime in runtimes {
             let loaded = wrong(code);
             assert_eq!(program::shown(&loaded), "");
-            let form = compile::Form::Robot(runtime);
+            let form = compile::Form::from(runtime);
             let found = compile::emit(&loaded, form, Some(tree)).unwrap_err();
-            assert_eq!(found.code, code);
+            assert_eq!(codes(&found.diagnostics), [code]);
             assert!(compile::emit(&right(code), form, Some(tree)).is_ok());
         }
     }
@@ -198,15 +200,19 @@ fn wrong_plas() {
         };
         let minimized = |heading| {
             let text = example(code, heading);
-            minimize::minimize("example.pla", text.into(), &options)
+            let text = Text {
+                name: "example.pla",
+                bytes: text.as_bytes(),
+            };
+            minimize::minimize(text, &options)
         };
-        let (_, found) = minimized("Wrong").unwrap_err();
-        assert_eq!(codes(&found), [code]);
+        let found = minimized("Wrong").unwrap_err();
+        assert_eq!(codes(&found.diagnostics), [code]);
         assert!(minimized("Right").is_ok(), "{code}");
     }
 }
 
-fn learned(loaded: &Loaded, episodes: Option<u64>) -> Result<learn::Learned, Diagnostic> {
+fn learned(loaded: &Loaded, episodes: Option<u64>) -> Result<learn::Learned, Refused> {
     let options = learn::Options {
         learner: None,
         seed: None,

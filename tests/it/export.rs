@@ -46,7 +46,7 @@ const RUNTIMES: [(Runtime, &str); 2] = [(Runtime::BtCpp, "xml"), (Runtime::PyTre
 fn as_robots_get_them() {
     let check = |name: &str, loaded: &Loaded, tree: &str| {
         for (runtime, ending) in RUNTIMES {
-            let text = compile::emit(loaded, Form::Robot(runtime), Some(tree)).unwrap();
+            let text = compile::emit(loaded, Form::from(runtime), Some(tree)).unwrap();
             snapshot::check(&format!("{name}.{tree}.{ending}"), &text);
         }
     };
@@ -65,9 +65,10 @@ fn what_has_no_counterpart_has_a_place() {
     assert_eq!(program::shown(&loaded), "");
     for (runtime, _) in RUNTIMES {
         for (tree, place) in [("a", "parallel"), ("b", "a")] {
-            let refused = compile::emit(&loaded, Form::Robot(runtime), Some(tree)).unwrap_err();
-            assert_eq!(refused.code, Code::E0821);
-            assert_eq!(loaded.sources.text(refused.span()), place);
+            let refused = compile::emit(&loaded, Form::from(runtime), Some(tree)).unwrap_err();
+            let found = &refused.diagnostics[0];
+            assert_eq!(found.code, Code::E0821);
+            assert_eq!(loaded.sources.text(found.span()), place);
         }
     }
 }

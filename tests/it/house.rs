@@ -21,6 +21,12 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("learn", &["ir", "world", "policy", "math", "random"]),
     ("tree", &["ir", "policy", "logic"]),
     ("emit", &["ir", "tree", "source", "syntax", "math"]),
+    ("trial", &["ir", "world", "policy", "learn", "tree"]),
+    ("simplify", &["ir", "learn", "tree", "trial"]),
+    (
+        "report",
+        &["ir", "policy", "learn", "tree", "simplify", "emit"],
+    ),
     (
         "driver",
         &[
@@ -29,17 +35,18 @@ const ROOMS: &[(&str, &[&str])] = &[
             "syntax",
             "check",
             "ir",
-            "math",
-            "random",
             "world",
             "policy",
             "learn",
             "logic",
             "tree",
             "emit",
+            "trial",
+            "simplify",
+            "report",
         ],
     ),
-    ("cli", &["source", "diagnostic", "policy", "tree", "driver"]),
+    ("cli", &["source", "diagnostic", "tree", "driver"]),
 ];
 
 /// The Rust files of the crate, each with the room that it stands in.

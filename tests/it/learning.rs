@@ -5,7 +5,7 @@ use crate::snapshot;
 use btc::driver::learn::{Learned, Options, learn};
 use btc::driver::load::{Loaded, Reader, load};
 use btc::driver::run::{self, Subject};
-use btc::driver::{table, target, verify};
+use btc::driver::{Text, verify};
 use btc::policy::Policy;
 use btc::tree::decanonicalise::{Care, Method};
 
@@ -115,31 +115,35 @@ fn a_changed_guard_is_found_by_a_shortest_trace() {
 fn tree_and_policy_run_alike() {
     let learned = learned(&example("delivery_small"), 1, Method::Search);
     let mut folder = Folder::of(&learned);
-    let mut loaded = folder.load();
-    let task = target::task_of(&loaded, None).unwrap();
-    let text = folder.read("policy.csv").unwrap();
-    let (file, mistake) = btc::driver::load::decode(&mut loaded.sources, "policy.csv", text);
-    assert!(mistake.is_none());
-    let policy = table::policy(&loaded, file, task).unwrap();
+    let loaded = folder.load();
+    let bytes = folder.read("policy.csv").unwrap();
+    let text = Text {
+        name: "policy.csv",
+        bytes: &bytes,
+    };
+    let subject = Subject::policy(&loaded, text).unwrap();
+    let Subject::Policy(policy, _) = &subject else {
+        panic!("a table is a policy");
+    };
     let decisions = |policy: &Policy| -> Vec<_> {
         let rows = policy.rows.iter();
         rows.map(|row| (row.minterm.clone(), row.behavior))
             .collect()
     };
-    assert_eq!(decisions(&policy), decisions(&learned.policy));
-    let tree = target::tree(&loaded, "learned").unwrap();
-    let by_tree = run::run(&loaded, Subject::Tree(tree), 20, 5).unwrap();
-    let by_policy = run::run(&loaded, Subject::Policy(&policy, task), 20, 5).unwrap();
+    assert_eq!(decisions(policy), decisions(&learned.policy));
+    let tree = Subject::tree(&loaded, "learned").unwrap();
+    let by_tree = run::run(&loaded, &tree, 20, 5).unwrap();
+    let by_policy = run::run(&loaded, &subject, 20, 5).unwrap();
     assert_eq!(by_tree, by_policy);
-    assert_eq!(by_tree.json().to_string(), by_policy.json().to_string());
+    assert_eq!(by_tree.json(), by_policy.json());
 }
 
 #[test]
 fn figures_have_their_form() {
     let loaded = example("delivery_small");
-    let tree = target::tree(&loaded, "expert").unwrap();
-    let ran = run::run(&loaded, Subject::Tree(tree), 4, 1).unwrap();
-    snapshot::check("delivery_small.run.json", &format!("{:#}", ran.json()));
+    let tree = Subject::tree(&loaded, "expert").unwrap();
+    let ran = run::run(&loaded, &tree, 4, 1).unwrap();
+    snapshot::check("delivery_small.run.json", ran.json().trim_end());
     snapshot::check("delivery_small.run", &ran.human());
 }
 
@@ -158,6 +162,6 @@ fn rewards_that_are_no_numbers_teach_nothing() {
     };
     let loaded = load("void.bt", void.into_bytes(), &mut folder);
     assert!(loaded.diagnostics.is_empty(), "{:?}", loaded.diagnostics);
-    let mistake = learn(&loaded, &options(1, Method::Search), &|_| {}).unwrap_err();
-    assert_eq!(mistake.code, btc::diagnostic::Code::E0505);
+    let refused = learn(&loaded, &options(1, Method::Search), &|_| {}).unwrap_err();
+    assert_eq!(refused.diagnostics[0].code, btc::diagnostic::Code::E0505);
 }

@@ -6,6 +6,7 @@
 
 use crate::program::{NoFiles, shown};
 use btc::diagnostic::Code;
+use btc::driver::Text;
 use btc::driver::format::format;
 use btc::driver::load::{Loaded, load};
 
@@ -108,7 +109,11 @@ fn the_examples_are_right() {
 fn the_examples_are_laid_out() {
     for example in examples() {
         if matches!(example.kind.split(' ').next(), Some("" | "items" | "wrong")) {
-            let text = format("example.bt", example.text.clone().into()).expect("it parses");
+            let text = format(Text {
+                name: "example.bt",
+                bytes: example.text.as_bytes(),
+            })
+            .expect("it parses");
             assert_eq!(example.text, text, "line {}", example.line);
         }
     }

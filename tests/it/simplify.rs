@@ -1,12 +1,13 @@
 //! Smaller trees: the moves, and the search that simulation judges.
 
 use btc::driver::load::{self, Loaded, Reader};
-use btc::driver::simplify::{Simplified, simplify};
 use btc::driver::target;
 use btc::emit;
 use btc::ir::Id;
 use btc::ir::task::Task;
 use btc::ir::tree::{Atom, Guard, Node, Tree};
+use btc::report;
+use btc::simplify::{Simplified, simplify};
 use btc::tree::Size;
 use btc::tree::prune::{Change, Cost, Decided, candidates, flat, negated_literals, plainer, tidy};
 
@@ -34,7 +35,7 @@ fn small(tree: &str) -> (Loaded, Id<Task>, Node) {
 
 fn simplified(tree: &str, loss: f64) -> (Loaded, Id<Task>, Simplified) {
     let (loaded, task, root) = small(tree);
-    let found = simplify(&loaded, task, &root, loss, 1, &|_| {}).unwrap();
+    let found = simplify(&loaded.program, task, &root, loss, 1, &|_| {}).unwrap();
     (loaded, task, found)
 }
 
@@ -180,7 +181,8 @@ fn a_clumsy_tree_becomes_figure_8() {
     assert_eq!(found.after.size.nodes, 10);
     assert_eq!(found.root, wanted, "{}", printed(&loaded, &found.root));
     assert_eq!(found.before.size, Size::of(&small(CLUMSY).2));
-    let doc = found.doc(&loaded.program, task);
+    let task = &loaded.program.tasks[task];
+    let doc = report::simplified::doc(&found, &loaded.program, task);
     assert!(doc.contains("tested, not proved"), "{doc}");
     assert!(doc.contains("ended by dead"), "{doc}");
 }

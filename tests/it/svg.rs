@@ -34,7 +34,7 @@ fn tree(loaded: &Loaded) -> String {
 
 fn world(loaded: &Loaded, ticks: u64) -> String {
     let expert = target::tree(loaded, "expert").unwrap();
-    picture::draw(loaded, Subject::Tree(expert), 1, ticks).unwrap()
+    picture::draw(loaded, &Subject::Tree(expert), 1, ticks).unwrap()
 }
 
 /// A curve that rises and settles.

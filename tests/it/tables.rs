@@ -8,10 +8,11 @@ mod slack;
 
 use btc::diagnostic::render;
 use btc::driver::compile::Form;
-use btc::driver::decanonicalize::{self, Made, Options, Recorded};
+use btc::driver::decanonicalize::{self, Made, Options};
 use btc::driver::load::{Loaded, load};
-use btc::driver::table::{Refused, Text};
+use btc::driver::table::Recorded;
 use btc::driver::verify::{self, Proved};
+use btc::driver::{Refused, Text};
 use btc::tree::decanonicalise::{Method, Order};
 
 use crate::program::{self, NoFiles};

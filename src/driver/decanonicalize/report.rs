@@ -1,19 +1,18 @@
-//! What a person wants to know of a tree that was made from a table.
+//! The report on a tree that was made from a table.
 
-use crate::driver::compile::counted;
-use crate::driver::learn::minterm_text;
 use crate::ir::Program;
 use crate::policy::Policy;
+use crate::report::words::{self, counted, rows};
 use crate::tree::Size;
 use crate::tree::decanonicalise::{Decanonicalised, Loosened};
 
-/// What is reported.
+/// The subject of the report.
 pub(super) struct Subject<'a> {
     pub(super) program: &'a Program,
     pub(super) policy: &'a Policy,
     pub(super) exact: &'a Decanonicalised,
     pub(super) slack: Option<&'a Loosened>,
-    /// The slack that was given; 0 for none.
+    /// The slack; 0 for none.
     pub(super) allowed: f64,
 }
 
@@ -32,11 +31,11 @@ impl Subject<'_> {
         lines.extend(slack.deviations.iter().filter_map(|change| {
             let row = self.policy.rows.get(change.row)?;
             Some(format!(
-                "  {} in the place of {}, worth {:.4} less, in {}",
+                "  {} instead of {}, worth {:.4} less, in {}",
                 name(change.behavior),
                 name(row.behavior),
                 change.loss,
-                minterm_text(self.program, self.policy, &row.minterm)
+                words::minterm(self.program, &self.policy.atoms, &row.minterm)
             ))
         }));
         lines
@@ -46,7 +45,7 @@ impl Subject<'_> {
     pub(super) fn lines(&self) -> Vec<String> {
         let policy = self.policy;
         let mut lines = Vec::new();
-        let mut line = |title: &str, text: String| lines.push(format!("{title:<12} {text}"));
+        let mut line = |title: &str, text: String| lines.push(words::line(title, &text));
         line(
             "table",
             format!(
@@ -80,35 +79,9 @@ impl Subject<'_> {
             None => {}
         }
         for failing in &self.exact.failing {
-            let then = failing.then.iter().map(|next| match next {
-                Some(id) => self.program.behaviors[*id].name.to_string(),
-                None => "nothing".to_owned(),
-            });
-            line(
-                "fails",
-                format!(
-                    "{} failed outright {} times ({} with no change) in {}; the tree goes on to {}",
-                    self.program.behaviors[failing.behavior].name,
-                    failing.count,
-                    failing.repeated,
-                    minterm_text(self.program, policy, &failing.minterm),
-                    then.collect::<Vec<_>>().join(" or "),
-                ),
-            );
+            line("fails", words::failing(self.program, policy, failing));
         }
         lines
-    }
-}
-
-/// How much of a table there is, in words.
-pub(in crate::driver) fn rows(policy: &Policy) -> String {
-    let cubes = policy.rows.iter().filter(|row| row.free.is_some()).count();
-    match cubes {
-        0 => counted(policy.rows.len(), "minterm"),
-        _ => format!(
-            "{} ({cubes} of them cubes)",
-            counted(policy.rows.len(), "row")
-        ),
     }
 }
 

@@ -1,21 +1,20 @@
 //! A tree against a policy table of any origin.
 
-use super::{Proved, trace};
+use super::Proved;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::driver::compile::counted;
-use crate::driver::decanonicalize::rows;
-use crate::driver::learn::minterm_text;
 use crate::driver::load::Loaded;
-use crate::driver::table::{self, Refused, Text};
-use crate::driver::target;
+use crate::driver::table::Recorded;
+use crate::driver::{Refused, Text, table, target};
 use crate::ir::Program;
 use crate::policy::table::Table;
 use crate::policy::{Minterm, Policy, decisions};
+use crate::report::difference;
+use crate::report::words::{self, counted, rows};
 use crate::source::Span;
-use crate::tree::atoms::atoms;
-use crate::tree::prove::{Refuted, prove};
+use crate::tree::disagreement::{Compared, compare};
+use crate::tree::prove::Refuted;
 
-/// How many rows are listed that a tree decides otherwise.
+/// The most rows to list that a tree decides otherwise.
 const LISTED: usize = 10;
 
 /// Proves that a tree takes the decisions of a table: in each row, with memory read from the history, and along the
@@ -27,23 +26,19 @@ pub fn table(
     loaded: &Loaded,
     name: &str,
     text: Text,
-    recorded: Option<(Text, Option<Text>)>,
+    recorded: Option<Recorded>,
 ) -> Result<Proved, Refused> {
-    let of_program = |mistake| Refused {
-        sources: loaded.sources.clone(),
-        diagnostics: vec![mistake],
-    };
-    let id = target::tree(loaded, name).map_err(of_program)?;
+    let id = target::tree(loaded, name)?;
     let read = table::read(text)?;
     let mut program = loaded.program.clone();
     let mut policy = decisions::joined(&read, &mut program);
     if let Some(task) = loaded.program.trees[id].task {
-        // The longest memory that either side knows.
+        // The longer memory of the two sides.
         let history = loaded.program.tasks[task].history;
         policy.history.window = policy.history.window.max(history.window);
     }
-    if let Some((transitions, starts)) = recorded {
-        table::record(&mut policy, &program, transitions, starts)?;
+    if let Some(recorded) = recorded {
+        table::record(&mut policy, &program, recorded)?;
     }
     let sides = Sides {
         program: &program,
@@ -67,75 +62,51 @@ struct Sides<'a> {
 }
 
 impl Sides<'_> {
-    fn prove(mut self) -> Result<Proved, Refused> {
-        let asked = atoms(self.root);
-        let untold = asked.iter().find(|atom| !self.policy.atoms.contains(atom));
-        if let Some(atom) = untold {
-            return self.apart(Refuted::Unknown(*atom));
-        }
+    fn prove(&self) -> Result<Proved, Refused> {
         let (tree, table) = (self.tree, self.text.name);
         let rows = rows(&self.policy);
-        let mut otherwise = Vec::new();
-        loop {
-            let refuted = match prove(self.root, &self.policy) {
-                Ok(proof) if otherwise.is_empty() => {
-                    let taken = match proof.transitions {
-                        0 => String::new(),
-                        n => format!(" and {}", counted(n, "transition")),
-                    };
-                    return Ok(Proved {
-                        holds: true,
-                        text: format!(
-                            "equal: `{tree}` takes the decisions of {table} in {}{taken}",
-                            rows
-                        ),
-                    });
-                }
-                Ok(_) | Err(Refuted::Empty) => break,
-                Err(refuted) => refuted,
-            };
-            match refuted {
-                Refuted::Decides {
-                    minterm,
-                    policy,
-                    tree: selected,
-                } => {
-                    let does = |id| self.program.behaviors[id].name.to_string();
-                    otherwise.push(format!(
-                        "  {}:{}: {}: the table says {}, `{tree}` selects {}",
-                        table,
-                        self.line(&minterm),
-                        minterm_text(self.program, &self.policy, &minterm),
-                        does(policy),
-                        selected.map_or_else(|| "nothing".to_owned(), does),
-                    ));
-                    self.policy.rows.retain(|row| !row.speaks_of(&minterm));
-                    if otherwise.len() >= LISTED {
-                        break;
-                    }
-                }
-                Refuted::Parts(_) | Refuted::Undecided if !otherwise.is_empty() => break,
-                other => return self.apart(other),
+        let found = match compare(self.root, &self.policy, LISTED) {
+            Ok(Compared::Equal(proof)) => {
+                let taken = match proof.transitions {
+                    0 => String::new(),
+                    n => format!(" and {}", counted(n, "transition")),
+                };
+                return Ok(Proved {
+                    holds: true,
+                    text: format!(
+                        "equal: `{tree}` takes the decisions of {table} in {rows}{taken}"
+                    ),
+                });
             }
-        }
-        let more = match otherwise.len() {
+            Ok(Compared::Differs(found)) => found,
+            Err(refuted) => return self.parted(refuted),
+        };
+        let more = match found.len() {
             LISTED => "at least ",
             _ => "",
         };
         let mut lines = vec![format!(
-            "different: `{tree}` decides {more}{} of {} of {table} otherwise",
-            otherwise.len(),
-            rows
+            "different: `{tree}` decides {more}{} of {rows} of {table} otherwise",
+            found.len()
         )];
-        lines.append(&mut otherwise);
+        let does = |id| self.program.behaviors[id].name.to_string();
+        lines.extend(found.iter().map(|found| {
+            format!(
+                "  {table}:{}: {}: the table says {}, `{tree}` selects {}",
+                self.line(&found.minterm),
+                words::minterm(self.program, &self.policy.atoms, &found.minterm),
+                does(found.table),
+                found.tree.map_or_else(|| "nothing".to_owned(), does),
+            )
+        }));
         Ok(Proved {
             holds: false,
             text: lines.join("\n"),
         })
     }
 
-    /// Where the two part, but not in one row alone.
-    fn apart(&self, refuted: Refuted) -> Result<Proved, Refused> {
+    /// The tree and the table part along a path, or cannot be compared.
+    fn parted(&self, refuted: Refuted) -> Result<Proved, Refused> {
         let (tree, table) = (self.tree, self.text.name);
         let text = match refuted {
             Refuted::Parts(found) => {
@@ -143,7 +114,7 @@ impl Sides<'_> {
                     true => "in an environment consistent with the history window",
                     false => "along the transitions",
                 };
-                trace::text(self.program, (tree, table), along, &found)
+                difference::text(self.program, (tree, table), along, &found)
             }
             Refuted::Undecided => {
                 format!("undecided: there is too much to explore of `{tree}` and {table}")
@@ -170,7 +141,7 @@ impl Sides<'_> {
 
     fn refused(&self, code: Code, message: String, label: &str) -> Refused {
         let header = self.table.header.clone();
-        Refused::new(self.text, |file| {
+        Refused::text(self.text, |file| {
             let span = Span::new(file, header.start, header.end);
             vec![Diagnostic::new(code, span, message).label(label)]
         })

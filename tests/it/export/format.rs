@@ -117,7 +117,7 @@ fn of_examples() {
     for name in examples::names() {
         let loaded = examples::example(&name);
         for tree in loaded.program.trees.values() {
-            let form = Form::Robot(Runtime::BtCpp);
+            let form = Form::BtCpp;
             check(&compile::emit(&loaded, form, Some(&tree.name.to_string())).unwrap());
         }
     }
@@ -127,7 +127,7 @@ fn of_examples() {
 fn of_random_trees() {
     let loaded = names();
     let program = &loaded.program;
-    let form = Form::Robot(Runtime::BtCpp);
+    let form = Form::BtCpp;
     check(&compile::emit(&loaded, form, Some("everything")).unwrap());
     for seed in 0..500 {
         let mut grower = Grower {

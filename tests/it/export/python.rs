@@ -183,7 +183,7 @@ fn a_timeout_fails_in_the_same_tick() {
 fn modules_draw_themselves() {
     let python = python();
     let loaded = names();
-    let form = Form::Robot(Runtime::PyTrees);
+    let form = Form::PyTrees;
     let text = compile::emit(&loaded, form, Some("everything")).unwrap();
     let (_, drawn) = run(&python, &loaded.program, &[], &[text]);
     crate::snapshot::check("names.everything.py.drawn", &drawn[0]);

@@ -7,8 +7,8 @@ use btc::ir::{Expr, Pool};
 use btc::learn::discount::Discounting;
 use btc::learn::method::{self, Settings};
 use btc::learn::process::{End, Key, Process};
+use btc::learn::q_table::QTable;
 use btc::learn::schedule::Schedule;
-use btc::learn::table::Table;
 use btc::learn::train::{Course, train};
 
 const ALL: [Kind; 3] = [Kind::QLearning, Kind::DoubleQ, Kind::Model];
@@ -22,7 +22,7 @@ fn learned(
     choices: usize,
     discount: Discount,
     (episodes, power): (u64, f64),
-) -> Table {
+) -> QTable {
     let mut pool = Pool::default();
     let visits = pool.leaf(Expr::Visits);
     let power = pool.num(-power);
@@ -52,7 +52,7 @@ fn learned(
     method.table().clone()
 }
 
-fn q(table: &Table, key: Key, choice: usize) -> f64 {
+fn q(table: &QTable, key: Key, choice: usize) -> f64 {
     table.cells(table.find(key).unwrap())[choice].q
 }
 
@@ -133,7 +133,7 @@ fn two_tables_do_not_take_noise_for_value() {
 
 #[test]
 fn greedy_is_over_what_was_tried() {
-    let mut table = Table::new(3, 100.0);
+    let mut table = QTable::new(3, 100.0);
     let row = table.row(5);
     assert_eq!(table.greedy(row), None);
     for (choice, q) in [(1, -2.0), (2, -2.0)] {

@@ -180,9 +180,9 @@ fn nothing_learned_is_said_to_be_nothing() {
         evidence: 1_000_000,
         ..OPTIONS
     };
-    let message = learn(&loaded, &options, &|_| {}).unwrap_err().message;
+    let refused = learn(&loaded, &options, &|_| {}).unwrap_err();
     assert_eq!(
-        message,
+        refused.diagnostics[0].message,
         "nothing was learned: no minterm has 1000000 completed decisions"
     );
 }

@@ -2,9 +2,10 @@
 
 use btc::learn::binomial::{lower95, upper95};
 use btc::learn::bootstrap::{interquartile_mean, interval95, quantile};
-use btc::learn::curve::{self, Point};
+use btc::learn::curve::Point;
 use btc::learn::statistics::Mean;
 use btc::random::Random;
+use btc::report::curve;
 use statrs::distribution::{Beta, ContinuousCDF};
 
 #[test]

@@ -3,6 +3,7 @@
 use crate::planted::{below, planted};
 use crate::snapshot::check;
 use btc::diagnostic::render;
+use btc::driver::Text;
 use btc::driver::minimize::{Minimized, Options, Order, minimize};
 use btc::logic::pla::{Part, Pla, read};
 use rand_core::SeedableRng;
@@ -14,8 +15,12 @@ fn run(text: &str, order: Option<Order>) -> Result<Minimized, String> {
         order,
         limit: 1_000,
     };
-    minimize("test.pla", text.into(), &options)
-        .map_err(|(sources, mistakes)| render::human(&sources, &mistakes, false))
+    let text = Text {
+        name: "test.pla",
+        bytes: text.as_bytes(),
+    };
+    minimize(text, &options)
+        .map_err(|refused| render::human(&refused.sources, &refused.diagnostics, false))
 }
 
 #[test]

@@ -54,7 +54,7 @@ fn what_hinders_a_canonical_form_has_a_place() {
     let program = program();
     let place = |name| {
         let found = canonicalize(&program, name, Form::Csv).unwrap_err();
-        program.sources.text(found.span()).to_owned()
+        program.sources.text(found.diagnostics[0].span()).to_owned()
     };
     assert_eq!(place("counted"), "retry");
     assert_eq!(place("parallel_in"), "parallel");
@@ -133,5 +133,5 @@ fn sizes_are_a_row_a_tree() {
     assert_eq!(one.lines().count(), 3);
     assert!(one.lines().nth(1).unwrap().starts_with("both"));
     let wrong = size::sizes(&program, &["bth".to_owned(), "hel".to_owned()]).unwrap_err();
-    assert_eq!(wrong.len(), 2);
+    assert_eq!(wrong.diagnostics.len(), 2);
 }

@@ -5,8 +5,9 @@ use crate::program::{self, NoFiles};
 use crate::snapshot;
 use btc::diagnostic::Code;
 use btc::driver::canonicalize::{self, Form};
-use btc::driver::decanonicalize::{Options, Recorded};
+use btc::driver::decanonicalize::Options;
 use btc::driver::load::load;
+use btc::driver::table::Recorded;
 use btc::driver::verify;
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -57,7 +58,7 @@ fn good_tables_become_trees_that_are_equal_to_them() {
         let proved = compared(&made, table);
         assert!(proved.holds, "{}", proved.text);
         // The program is laid out as the formatter does it.
-        let formatted = btc::driver::format::format(name, made.text.clone().into());
+        let formatted = btc::driver::format::format(text(name, made.text.as_bytes()));
         assert_eq!(formatted.unwrap(), made.text);
         assert_eq!(made.warnings, Vec::<String>::new());
         format!("{}\n{}\n{}", made.text, made.report.join("\n"), proved.text)
@@ -119,8 +120,7 @@ fn transitions_allow_memory() {
     assert_eq!(refused.diagnostics[0].code, Code::E0818);
     // The tree remembers what the table tells by its history: they are equal along the transitions.
     let program = loaded(&tree);
-    let proved =
-        verify::table(&program, "learned", table, Some((whole.transitions, None))).unwrap();
+    let proved = verify::table(&program, "learned", table, Some(whole)).unwrap();
     snapshot::check("table_recorded_verified", &proved.text);
     assert!(proved.holds);
 }
@@ -232,7 +232,8 @@ fn the_explanation_of_trees_without_canonical_form_is_true() {
         loaded
     };
     let wrong = program("Wrong");
-    let found = canonicalize::canonicalize(&wrong, "hasty", Form::Csv).unwrap_err();
+    let refused = canonicalize::canonicalize(&wrong, "hasty", Form::Csv).unwrap_err();
+    let found = &refused.diagnostics[0];
     assert_eq!(
         (found.code, wrong.sources.text(found.span())),
         (code, "open")

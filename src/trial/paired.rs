@@ -1,24 +1,24 @@
-//! Trees against each other on the same seeds.
+//! Trees compared on the same seeds.
 
+use super::play;
 use super::trace::{Paths, Recorded, Trace};
-use crate::diagnostic::Diagnostic;
-use crate::driver::load::Loaded;
-use crate::driver::run;
-use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::task::Task;
 use crate::ir::tree::{Atom, Node};
-use crate::learn::episode::{Episode, play};
+use crate::ir::{Id, Program};
+use crate::learn::episode::{Episode, play as play_episode};
+use crate::learn::simulated::Purpose;
 use crate::learn::statistics::Mean;
 use crate::tree::Runner;
 use crate::tree::prune::Decided;
-use crate::world::{End, Simulator, Start};
+use crate::world::{BuildError, End, Simulator, Start};
 use rayon::prelude::*;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// The world in which trees are held against each other.
-pub(super) struct Bench {
+/// The world and the seeds on which trees are compared.
+#[derive(Clone, Debug)]
+pub struct Trials {
     simulator: Simulator,
     patience: Option<u64>,
     start: Start,
@@ -33,24 +33,24 @@ struct Played {
 
 /// A tree with the episodes that it has played, from number 0.
 #[derive(Clone, Debug)]
-pub(super) struct Player {
+pub struct Contender {
     runner: Runner,
     played: Vec<Arc<Played>>,
 }
 
-impl Player {
-    /// How many episodes were played.
-    pub(super) fn episodes(&self) -> usize {
+impl Contender {
+    /// The number of episodes played.
+    pub fn episodes(&self) -> usize {
         self.played.len()
     }
 
-    /// All that its episodes came through.
-    pub(super) fn paths(&self) -> Paths {
+    /// The paths of its episodes.
+    pub fn paths(&self) -> Paths {
         Paths::of(self.played.iter().map(|played| &played.trace))
     }
 
-    /// What drove, in which valuation, for how many ticks.
-    pub(super) fn decided(&self) -> Vec<Decided> {
+    /// The behaviours that drove the robot, each with a valuation and the ticks that it drove there.
+    pub fn decided(&self) -> Vec<Decided> {
         let mut ticks: BTreeMap<(Id<Behavior>, u128), u64> = BTreeMap::new();
         for (behavior, values, times) in self.played.iter().flat_map(|p| p.trace.decided()) {
             *ticks.entry((behavior, values)).or_default() += times;
@@ -61,30 +61,30 @@ impl Player {
             .collect()
     }
 
-    /// What the episodes came to.
-    pub(super) fn results(&self) -> Vec<Episode> {
+    /// The figures of the episodes.
+    pub fn results(&self) -> Vec<Episode> {
         let episodes = self.played.iter().map(|played| &played.episode);
         episodes.cloned().collect()
     }
 
     /// The mean return.
-    pub(super) fn returns(&self) -> Mean {
+    pub fn returns(&self) -> Mean {
         let totals: Vec<f64> = self.played.iter().map(|p| p.episode.total).collect();
         Mean::of(&totals)
     }
 
     /// The standard deviation of a return.
-    pub(super) fn spread(&self) -> f64 {
+    pub fn spread(&self) -> f64 {
         error(&self.returns()) * (self.episodes() as f64).sqrt()
     }
 
-    /// Whether the tree plays every path alike.
-    pub(super) fn agrees(&mut self, paths: &Paths) -> bool {
+    /// Whether the tree does the same on every path.
+    pub fn agrees(&mut self, paths: &Paths) -> bool {
         paths.replay(&mut self.runner)
     }
 
-    /// The tree in the place of another that plays alike.
-    pub(super) fn standing_for(self, other: &Self) -> Self {
+    /// The tree with the episodes of another that plays alike.
+    pub fn standing_for(self, other: &Self) -> Self {
         Self {
             played: other.played.clone(),
             ..self
@@ -92,7 +92,7 @@ impl Player {
     }
 
     /// What it loses against another tree, episode by episode, over those that both have played.
-    pub(super) fn loss(&self, against: &Self) -> Mean {
+    pub fn loss(&self, against: &Self) -> Mean {
         let pairs = self.played.iter().zip(&against.played);
         let lost: Vec<f64> = pairs
             .map(|(own, other)| other.episode.total - own.episode.total)
@@ -102,7 +102,7 @@ impl Player {
 
     /// Episodes that a line of `end on` ended to this tree's loss and the other's did not, less those the other way
     /// round.
-    pub(super) fn ended_more(&self, against: &Self) -> i64 {
+    pub fn ended_more(&self, against: &Self) -> i64 {
         let pairs = self.played.iter().zip(&against.played);
         pairs
             .map(|(own, other)| {
@@ -114,77 +114,76 @@ impl Player {
 }
 
 /// The standard error of a mean.
-pub(super) fn error(mean: &Mean) -> f64 {
+pub fn error(mean: &Mean) -> f64 {
     (mean.ci95[1] - mean.mean) / 1.96
 }
 
-/// Whether a tree loses at most so much with 95 % confidence, and has no more episodes ended to its loss.
-pub(super) fn within(player: &Player, other: &Player, limit: f64) -> bool {
-    player.loss(other).ci95[1] <= limit && player.ended_more(other) <= 0
+/// Whether a tree loses at most `limit` with 95 % confidence, and `end on` ends no more of its episodes to its loss.
+pub fn within(tree: &Contender, other: &Contender, limit: f64) -> bool {
+    tree.loss(other).ci95[1] <= limit && tree.ended_more(other) <= 0
 }
 
 fn ended_worse(own: &Episode, other: &Episode) -> bool {
     matches!(own.end, End::On(_)) && own.end != other.end && own.total < other.total
 }
 
-impl Bench {
-    /// The world of a task, for a tree and what may be made of it.
-    pub(super) fn new(
-        loaded: &Loaded,
+impl Trials {
+    /// The world of a task, which knows the atoms that a tree asks.
+    ///
+    /// # Errors
+    /// The world cannot be built.
+    pub fn new(
+        program: &Program,
         task: Id<Task>,
         root: &Node,
-        start: Start,
-    ) -> Result<Self, Diagnostic> {
-        let mut asked = BTreeSet::new();
-        root.visit_atoms(&mut |atom| {
-            asked.insert(atom);
-        });
-        let asked: Vec<Atom> = asked.into_iter().collect();
+        (purpose, seed): (Purpose, u64),
+    ) -> Result<Self, BuildError> {
+        let simulator = play::world(program, task, root)?;
+        let task = &program.tasks[task];
         Ok(Self {
-            simulator: run::simulator(loaded, task, &asked)?,
-            patience: loaded.program.tasks[task].patience,
-            start,
+            simulator,
+            patience: task.patience,
+            start: purpose.start(seed, task.end_after),
         })
     }
 
-    /// What the bits of a valuation mean.
-    pub(super) fn atoms(&self) -> &[Atom] {
+    /// The atoms of a valuation, bit by bit.
+    pub fn atoms(&self) -> &[Atom] {
         self.simulator.atoms()
     }
 
-    /// The same world with the seeds of another stream.
-    pub(super) fn on(self, stream: u64) -> Self {
-        let start = Start {
-            stream,
-            ..self.start
-        };
+    /// The same world with the seeds of another purpose.
+    pub fn with(self, purpose: Purpose) -> Self {
+        let start = purpose.start(self.start.seed, self.start.limit);
         Self { start, ..self }
     }
 
-    /// A tree that has not played; `None` if it asks what the world does not say.
-    pub(super) fn player(&self, root: &Node) -> Option<Player> {
-        let runner = Runner::new(root, self.simulator.atoms()).ok()?;
-        Some(Player {
-            runner,
+    /// A tree that has not played.
+    ///
+    /// # Errors
+    /// An atom that the world does not know.
+    pub fn contender(&self, root: &Node) -> Result<Contender, Atom> {
+        Ok(Contender {
+            runner: Runner::new(root, self.simulator.atoms())?,
             played: Vec::new(),
         })
     }
 
-    /// Has every player play the episodes up to number `episodes`, on all threads; says how many ticks it took.
-    ///
-    /// Episodes in which a player does what `known` did are not played again.
-    pub(super) fn play(
+    /// Lets every contender play the episodes below `episodes` that it has not played yet, on all threads, and counts
+    /// the ticks. Episodes in which a contender does what `known` did are not played again.
+    pub fn play(
         &self,
-        players: &mut [&mut Player],
+        contenders: &mut [&mut Contender],
         episodes: usize,
-        known: Option<&Player>,
+        known: Option<&Contender>,
     ) -> u64 {
-        let due: Vec<(usize, usize)> = players
+        let due: Vec<(usize, usize)> = contenders
             .iter()
             .enumerate()
-            .flat_map(|(i, player)| (player.episodes()..episodes).map(move |n| (i, n)))
+            .flat_map(|(i, contender)| (contender.episodes()..episodes).map(move |n| (i, n)))
             .collect();
-        let runners: Vec<&Runner> = players.iter().map(|player| &player.runner).collect();
+        let runners = contenders.iter().map(|contender| &contender.runner);
+        let runners: Vec<&Runner> = runners.collect();
         let make = || self.simulator.simulation();
         let played: Vec<(Arc<Played>, u64)> = due
             .par_iter()
@@ -200,7 +199,7 @@ impl Bench {
                     ..self.start
                 };
                 let mut recorded = Recorded::new(runner);
-                let episode = play(simulation, &mut recorded, start, self.patience);
+                let episode = play_episode(simulation, &mut recorded, start, self.patience);
                 let ticks = episode.ticks;
                 let trace = recorded.into_trace();
                 Some((Arc::new(Played { episode, trace }), ticks))
@@ -210,8 +209,8 @@ impl Bench {
         let mut ticks = 0;
         for ((i, _), (played, took)) in due.into_iter().zip(played) {
             ticks += took;
-            if let Some(player) = players.get_mut(i) {
-                player.played.push(played);
+            if let Some(contender) = contenders.get_mut(i) {
+                contender.played.push(played);
             }
         }
         ticks

@@ -1,14 +1,14 @@
 //! The shortest way to where two sides part, in words.
 
-use crate::driver::learn::minterm_text;
+use super::words;
+use crate::ir::Id;
+use crate::ir::Program;
 use crate::ir::law::Behavior;
-use crate::ir::{Id, Program};
-use crate::policy::Policy;
 use crate::tree::equivalence::Trace;
 use std::fmt::Display;
 
 /// The ticks in which two sides agree, and the one in which they part.
-pub(super) fn text(
+pub fn text(
     program: &Program,
     (left, right): (impl Display, impl Display),
     along: &str,
@@ -20,11 +20,7 @@ pub(super) fn text(
             |id| program.behaviors[id].name.to_string(),
         )
     };
-    let policy = Policy {
-        atoms: trace.atoms.clone(),
-        ..Policy::default()
-    };
-    let held = |minterm| minterm_text(program, &policy, minterm);
+    let held = |minterm| words::minterm(program, &trace.atoms, minterm);
     let mut lines = vec![format!(
         "different: `{left}` and `{right}` part after {} ticks {along}",
         trace.steps.len()

@@ -16,7 +16,7 @@ pub struct Cell {
 
 /// Q(minterm, choice).
 #[derive(Clone, Debug)]
-pub struct Table {
+pub struct QTable {
     choices: usize,
     initial: f64,
     rows: FxHashMap<Key, usize>,
@@ -24,8 +24,8 @@ pub struct Table {
     cells: Vec<Cell>,
 }
 
-impl Table {
-    /// An empty table over so many choices, whose cells start at `initial`.
+impl QTable {
+    /// An empty table over `choices` choices, whose cells start at `initial`.
     pub fn new(choices: usize, initial: f64) -> Self {
         Self {
             choices,
@@ -36,7 +36,7 @@ impl Table {
         }
     }
 
-    /// The row of a minterm, made if there is none.
+    /// The row of a minterm, a new one if there is none.
     pub fn row(&mut self, key: Key) -> usize {
         let next = self.keys.len();
         let row = *self.rows.entry(key).or_insert(next);
@@ -65,7 +65,7 @@ impl Table {
         self.cells.get(start..start + self.choices).unwrap_or(&[])
     }
 
-    /// A cell to be changed.
+    /// A cell to change.
     pub fn cell_mut(&mut self, row: usize, choice: usize) -> Option<&mut Cell> {
         if choice < self.choices {
             self.cells.get_mut(row * self.choices + choice)
@@ -74,7 +74,7 @@ impl Table {
         }
     }
 
-    /// The greatest value of a row over all choices, tried or not: what a choice that leads here is worth.
+    /// The greatest value of a row over all choices, tried or not: the value of arriving here.
     pub fn best_value(&self, row: usize) -> f64 {
         self.cells(row)
             .iter()
@@ -97,7 +97,7 @@ impl Table {
         cells.fold(first, better).0
     }
 
-    /// How many decisions were completed in a row.
+    /// The number of decisions completed in a row.
     pub fn visits(&self, row: usize) -> u64 {
         self.cells(row).iter().map(|cell| cell.visits).sum()
     }

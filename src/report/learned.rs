@@ -1,24 +1,21 @@
-//! What a person wants to know of what was learned.
+//! The report of `btc learn`.
 
-use super::agreed::Agreement;
-use super::bench::Bench;
-use super::minterm_text;
 use super::results::Results;
-use crate::driver::run;
+use super::words::{self, end_names};
 use crate::learn::binomial::upper95;
-use crate::learn::bootstrap::{interquartile_mean, interval95, quantile};
+use crate::learn::bootstrap::quantile;
+use crate::learn::curve::pooled;
 use crate::learn::statistics::Summary;
 use crate::policy::Minterm;
 use crate::tree::Size;
 use crate::tree::decanonicalise::{Care, Decanonicalised};
 
-/// How many minterms a line lists at most.
+/// The most minterms to list.
 const LISTED: usize = 10;
 
 /// The report in lines.
-pub(super) fn lines(bench: &Bench, results: &Results) -> Vec<String> {
+pub fn lines(results: &Results) -> Vec<String> {
     let mut report = Report {
-        bench,
         results,
         lines: Vec::new(),
     };
@@ -30,9 +27,9 @@ pub(super) fn lines(bench: &Bench, results: &Results) -> Vec<String> {
     report.figures(&results.summary, "greedy episodes");
     report.outside(&results.summary, "in minterms never learned");
     if let Some(simplified) = &results.simplified {
-        report
-            .lines
-            .extend(simplified.lines(bench.program, bench.learner.task));
+        let experiment = results.experiment;
+        let lines = super::simplified::lines(simplified, experiment.program, experiment.task);
+        report.lines.extend(lines);
     }
     if let Some(tested) = &results.tested {
         report.line(
@@ -47,18 +44,18 @@ pub(super) fn lines(bench: &Bench, results: &Results) -> Vec<String> {
 }
 
 struct Report<'a> {
-    bench: &'a Bench<'a>,
-    results: &'a Results,
+    results: &'a Results<'a>,
     lines: Vec<String>,
 }
 
 impl Report<'_> {
     fn line(&mut self, title: &str, text: String) {
-        self.lines.push(format!("{title:<12} {text}"));
+        self.lines.push(words::line(title, &text));
     }
 
     fn minterm(&self, minterm: &Minterm) -> String {
-        minterm_text(self.bench.program, &self.results.policy, minterm)
+        let results = self.results;
+        words::minterm(results.experiment.program, &results.policy.atoms, minterm)
     }
 
     /// How the runs compare; nothing for a single one.
@@ -67,22 +64,15 @@ impl Report<'_> {
         if results.runs.len() < 2 {
             return;
         }
-        let points = results.runs.iter().map(|run| run.points.len()).min();
-        let points = points.unwrap_or(0);
-        let quarters = (1..=4).filter_map(|i| (points * i / 4).checked_sub(1));
-        for at in quarters {
-            let of: Vec<_> = results
-                .runs
-                .iter()
-                .filter_map(|run| run.points.get(at))
-                .collect();
-            let totals: Vec<f64> = of.iter().map(|point| point.total.mean).collect();
-            let [low, high] = interval95(&totals);
-            let episodes = of.first().map_or(0, |point| point.episodes);
+        let points = pooled(&results.curves());
+        let quarters = (1..=4).filter_map(|i| points.get((points.len() * i / 4).checked_sub(1)?));
+        for point in quarters {
+            let [low, high] = point.total.ci95;
             let text = format!(
-                "{:.3}, 95 % [{low:.3}, {high:.3}], after {episodes} episodes: interquartile mean of {} seeds",
-                interquartile_mean(&totals),
-                of.len()
+                "{:.3}, 95 % [{low:.3}, {high:.3}], after {} episodes: interquartile mean of {} seeds",
+                point.total.mean,
+                point.episodes,
+                point.totals.len()
             );
             self.line("curve", text);
         }
@@ -103,7 +93,7 @@ impl Report<'_> {
     }
 
     fn agreement(&mut self) {
-        let Some(agreement) = Agreement::of(self.bench, self.results) else {
+        let Some(agreement) = self.results.agreement() else {
             return;
         };
         let text = format!(
@@ -113,13 +103,15 @@ impl Report<'_> {
             agreement.reached
         );
         self.line("agreement", text);
+        let experiment = self.results.experiment;
+        let atoms = self.results.policy.atoms.len();
         for disputed in agreement.disputed.iter().take(LISTED) {
             let votes = disputed.votes.iter();
-            let votes: Vec<String> = votes.map(|(name, n)| format!("{name} {n}")).collect();
+            let votes = votes.map(|(choice, n)| format!("{} {n}", experiment.choice_name(*choice)));
             let text = format!(
                 "{} in {}",
-                votes.join(", "),
-                self.minterm(&disputed.minterm)
+                votes.collect::<Vec<_>>().join(", "),
+                self.minterm(&Minterm::of_key(disputed.key, atoms))
             );
             self.line("disputed", text);
         }
@@ -139,7 +131,7 @@ impl Report<'_> {
         self.line("learned", text);
     }
 
-    /// What stands behind the policy.
+    /// The evidence for the policy.
     fn evidence(&mut self) {
         let rows = &self.results.policy.rows;
         let of = |mut values: Vec<f64>| {
@@ -157,7 +149,7 @@ impl Report<'_> {
         for (minterm, visits) in thin.iter().take(LISTED) {
             let text = format!(
                 "{visits} of {} decisions in {}: a don't-care",
-                self.bench.evidence,
+                self.results.experiment.evidence,
                 self.minterm(minterm)
             );
             self.line("thin", text);
@@ -197,7 +189,7 @@ impl Report<'_> {
         self.line("proved", format!("on {}", self.results.proved()));
     }
 
-    /// What the values say against what came.
+    /// The predicted value of the episodes and the simulated one.
     fn worth(&mut self) {
         let [predicted, simulated] = self.results.worth();
         let [low, high] = simulated.ci95;
@@ -215,7 +207,7 @@ impl Report<'_> {
             summary.total.mean, summary.episodes
         );
         self.line("return", text);
-        let program = self.bench.program;
+        let program = self.results.experiment.program;
         for (event, (_, rate)) in program.events.values().zip(&summary.events) {
             let [low, high] = rate.ci95;
             let text = format!(
@@ -224,7 +216,7 @@ impl Report<'_> {
             );
             self.line(&event.name.to_string(), text);
         }
-        let ends = run::end_names(program, self.bench.task);
+        let ends = end_names(program, self.results.experiment.task);
         for (end, count) in ends.iter().zip(&summary.ended) {
             let upper = 100.0 * upper95(*count, summary.episodes);
             let text = format!(
@@ -248,21 +240,9 @@ impl Report<'_> {
 
     /// Where the policy was seen to fail outright.
     fn failing(&mut self) {
-        let program = self.bench.program;
+        let program = self.results.experiment.program;
         for failing in &self.results.trees.chosen().failing {
-            let then = failing.then.iter().map(|next| match next {
-                Some(id) => program.behaviors[*id].name.to_string(),
-                None => "nothing".to_owned(),
-            });
-            let then: Vec<String> = then.collect();
-            let text = format!(
-                "{} failed outright {} times ({} with no change) in {}; the tree goes on to {}",
-                program.behaviors[failing.behavior].name,
-                failing.count,
-                failing.repeated,
-                self.minterm(&failing.minterm),
-                then.join(" or "),
-            );
+            let text = words::failing(program, &self.results.policy, failing);
             self.line("fails", text);
         }
     }

@@ -1,9 +1,9 @@
-//! What a tree met and did in an episode, so that another tree can be held against it without simulation.
+//! What a tree met and did in an episode, so that another tree can be compared with it without simulation.
 //!
 //! A simulation depends on the tree through the behaviours that it ticks and on nothing else. A tree that ticks the same
 //! behaviours all along a trace therefore plays the same episode.
 
-use crate::driver::run::Ticked;
+use super::play::Ticked;
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::Status;
@@ -26,19 +26,21 @@ struct Met {
 
 /// An episode as a tree met it.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Trace {
+pub struct Trace {
     met: Vec<(Met, u64)>,
 }
 
 /// A tree that is recorded.
-pub(super) struct Recorded {
+#[derive(Clone, Debug)]
+pub struct Recorded {
     runner: Ticked,
     trace: Trace,
     now: Calls,
 }
 
 impl Recorded {
-    pub(super) fn new(runner: Runner) -> Self {
+    /// A tree that has not been ticked.
+    pub fn new(runner: Runner) -> Self {
         Self {
             runner: Ticked(runner),
             trace: Trace::default(),
@@ -47,7 +49,7 @@ impl Recorded {
     }
 
     /// What was met since the last reset.
-    pub(super) fn into_trace(self) -> Trace {
+    pub fn into_trace(self) -> Trace {
         self.trace
     }
 }
@@ -62,11 +64,8 @@ impl Controller for Recorded {
         let atoms = simulation.atoms();
         self.now.clear();
         let now = &mut self.now;
-        self.runner.0.tick_key(atoms, |behavior| {
-            let status = simulation.act(behavior);
-            now.push((behavior, status));
-            status
-        });
+        self.runner
+            .tick_noting(simulation, |behavior, status| now.push((behavior, status)));
         match self.trace.met.last_mut() {
             Some((met, times)) if met.atoms == atoms && met.calls == *now => *times += 1,
             _ => {
@@ -92,8 +91,8 @@ fn agrees(runner: &mut Runner, met: &Met) -> bool {
 }
 
 impl Trace {
-    /// What drove in each tick: the behaviour that was ticked last, those before it have failed.
-    pub(super) fn decided(&self) -> impl Iterator<Item = Decided> {
+    /// The behaviour that drove the robot in each tick: the one that was ticked last, as those before it have failed.
+    pub fn decided(&self) -> impl Iterator<Item = Decided> {
         self.met.iter().filter_map(|(met, times)| {
             let (behavior, _) = met.calls.last()?;
             Some((*behavior, met.atoms, *times))
@@ -101,7 +100,7 @@ impl Trace {
     }
 
     /// Whether a tree, its memory fresh, ticks the same behaviours all along.
-    pub(super) fn replays(&self, runner: &mut Runner) -> bool {
+    pub fn replays(&self, runner: &mut Runner) -> bool {
         runner.reset();
         self.met.iter().all(|(met, times)| {
             for _ in 0..*times {
@@ -122,18 +121,18 @@ impl Trace {
 ///
 /// A tree that agrees on every path through it agrees with every episode; one that does not may still do so.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Paths {
+pub struct Paths {
     met: Vec<Met>,
     next: Vec<BTreeSet<usize>>,
     starts: BTreeSet<usize>,
 }
 
-/// Ticks of a tree after which a comparison gives up.
+/// The most ticks of a comparison.
 const EFFORT: usize = 20_000;
 
 impl Paths {
     /// The paths of these episodes.
-    pub(super) fn of<'t>(traces: impl Iterator<Item = &'t Trace>) -> Self {
+    pub fn of<'t>(traces: impl Iterator<Item = &'t Trace>) -> Self {
         let mut paths = Self::default();
         let mut known: FxHashMap<Met, usize> = FxHashMap::default();
         for trace in traces {
@@ -161,7 +160,7 @@ impl Paths {
     }
 
     /// Whether a tree ticks the same behaviours on every path.
-    pub(super) fn replay(&self, runner: &mut Runner) -> bool {
+    pub fn replay(&self, runner: &mut Runner) -> bool {
         runner.reset();
         let fresh = runner.memory().to_vec();
         let mut open: Vec<(usize, Vec<u64>)> =

@@ -1,54 +1,55 @@
-//! A learner in its world: what learns, rolls out, validates and tests.
+//! A learner with the world that it learns in: what trains policies and measures them.
 
-use super::super::run::{self, Ticked};
-use crate::ir::law::Behavior;
+use super::curve::{self, Point};
+use super::discount::Discounting;
+use super::extract::{self, Decided, Decisions};
+use super::greedy;
+use super::method::{self, Settings};
+use super::q_table::QTable;
+use super::rollout::{Frozen, RollOut, roll_out};
+use super::schedule::Schedule;
+use super::simulated::{Purpose, Simulated};
+use super::statistics::{Mean, Summary};
+use super::train::{Counts, Course, train};
 use crate::ir::program::Event;
-use crate::ir::task::{Learner, Task};
-use crate::ir::tree::{Atom, Node};
+use crate::ir::task::{ClaimKind, Learner, Task, TreeRef};
 use crate::ir::{Id, Program};
-use crate::learn::curve::{self, Point};
-use crate::learn::discount::Discounting;
-use crate::learn::episode::{Controller, play_all};
-use crate::learn::extract::{self, Decided, Decisions};
-use crate::learn::method::{self, Settings};
-use crate::learn::process::Key;
-use crate::learn::rollout::{Frozen, RollOut, roll_out};
-use crate::learn::schedule::Schedule;
-use crate::learn::simulated::{Purpose, Simulated};
-use crate::learn::statistics::{Mean, Summary};
-use crate::learn::table::Table;
-use crate::learn::train::{Counts, Course, train};
-use crate::tree::Runner;
-use crate::world::{End, Simulation, Simulator, Start};
-use rustc_hash::FxHashSet;
+use crate::world::{BuildError, End, Simulator, Start};
+use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
 
 /// One run of learning.
 #[derive(Clone, Debug)]
-pub(super) struct Run {
+pub struct Run {
     /// Its seed.
     pub seed: u64,
-    /// The values, with their evidence.
-    pub table: Table,
+    /// The action values, with their evidence.
+    pub table: QTable,
     /// The policy.
     pub decisions: Decisions,
-    /// What was gone through.
+    /// How much was simulated.
     pub counts: Counts,
     /// The learning curve.
     pub points: Vec<Point>,
 }
 
-/// A learner in its world.
-pub(super) struct Bench<'a> {
+/// A learner with the world that it learns in.
+#[derive(Clone, Debug)]
+pub struct Experiment<'a> {
+    /// The program.
     pub program: &'a Program,
+    /// The learner.
     pub learner: &'a Learner,
+    /// The task of the learner.
     pub task: &'a Task,
-    pub simulator: &'a Simulator,
+    /// The world.
+    pub simulator: Simulator,
+    /// Episodes of a run.
     pub episodes: u64,
     /// The fewest decisions by which a minterm counts as learned.
     pub evidence: u64,
-    /// What the program claims that the learned tree never does.
-    pub never: Vec<Id<Event>>,
+    /// The events that the program claims never to happen under the learned tree.
+    pub(super) never: Vec<Id<Event>>,
 }
 
 /// The learner's start lines, in the simulator's lists.
@@ -57,15 +58,44 @@ const EXPLORING: usize = 0;
 /// The task's start lines.
 const OWN: usize = 1;
 
-impl Bench<'_> {
-    /// The start of episodes of the task as it is evaluated.
-    fn evaluated(&self, purpose: Purpose, seed: u64) -> Start {
+impl<'a> Experiment<'a> {
+    /// The experiment of a learner, with its own number of episodes if `episodes` is `None`.
+    ///
+    /// # Errors
+    /// The world cannot be built.
+    pub fn new(
+        program: &'a Program,
+        id: Id<Learner>,
+        episodes: Option<u64>,
+        evidence: u64,
+    ) -> Result<Self, BuildError> {
+        let learner = &program.learners[id];
+        let task = &program.tasks[learner.task];
+        let starts: [&[_]; 2] = [&learner.start, &task.start];
+        Ok(Self {
+            program,
+            learner,
+            task,
+            simulator: Simulator::build(program, learner.task, &starts, &[])?,
+            episodes: episodes.unwrap_or(learner.episodes),
+            evidence,
+            never: never(program, id),
+        })
+    }
+
+    /// The name of one of the behaviours that there are to choose from.
+    pub fn choice_name(&self, choice: usize) -> String {
+        let behavior = self.task.choose.get(choice);
+        behavior.map_or_else(String::new, |id| {
+            self.program.behaviors[*id].name.to_string()
+        })
+    }
+
+    /// The start of the episodes that measure a policy or a tree: those of the task.
+    pub fn measured(&self, purpose: Purpose, seed: u64) -> Start {
         Start {
-            seed,
-            stream: purpose as u64,
-            episode: 0,
             lines: OWN,
-            limit: self.task.end_after,
+            ..purpose.start(seed, self.task.end_after)
         }
     }
 
@@ -80,28 +110,30 @@ impl Bench<'_> {
         }
     }
 
-    /// The number of a behaviour among those of the task.
-    pub fn number(&self, behavior: Id<Behavior>) -> Option<usize> {
-        self.task
-            .choose
-            .iter()
-            .position(|&choice| choice == behavior)
-    }
-
     fn frozen<'p>(&self, decisions: &'p Decisions) -> Frozen<'p> {
-        let unseen = run::unseen(self.program, self.learner.task);
+        let unseen = greedy::unseen(self.program, self.learner.task);
+        let choice = self.task.choose.iter().position(|&choice| choice == unseen);
         Frozen {
             decisions,
             unseen: Decided {
-                choice: self.number(unseen).unwrap_or(0),
+                choice: choice.unwrap_or(0),
                 value: self.learner.initial,
             },
             discounting: self.discounting(),
         }
     }
 
-    /// Learns with one seed. Of a method that proposes a policy a round, the best by validation is taken.
-    pub fn learn(&self, seed: u64, progress: impl FnMut()) -> Run {
+    /// Learns with `count` seeds from `seed` on, on all threads. `episode` is called after each episode of any run.
+    pub fn learn_all(&self, seed: u64, count: u64, episode: impl Fn() + Sync) -> Vec<Run> {
+        let seeds = seed..seed.saturating_add(count);
+        seeds
+            .into_par_iter()
+            .map(|seed| self.learn(seed, &episode))
+            .collect()
+    }
+
+    /// Learns with one seed. Of a method that proposes a policy in each round, the best by validation is taken.
+    pub fn learn(&self, seed: u64, episode: impl FnMut()) -> Run {
         let pool = &self.program.pool;
         let learner = self.learner;
         let choices = self.task.choose.len();
@@ -123,18 +155,15 @@ impl Bench<'_> {
             seed,
         };
         let mut process = self.process(Start {
-            seed,
-            stream: Purpose::Learn as u64,
-            episode: 0,
             lines: EXPLORING,
-            limit: learner.episode_ticks,
+            ..Purpose::Learn.start(seed, learner.episode_ticks)
         });
         let proposes = method.proposes();
         // Rounds are measured on other threads while learning goes on.
-        let measured: Mutex<Vec<(Point, Option<Table>)>> = Mutex::default();
+        let measured: Mutex<Vec<(Point, Option<QTable>)>> = Mutex::default();
         let counts = rayon::in_place_scope(|scope| {
             let measured = &measured;
-            let round = |table: &Table, counts: &Counts| {
+            let round = |table: &QTable, counts: &Counts| {
                 let (table, counts) = (table.clone(), *counts);
                 scope.spawn(move |_| {
                     let point = self.point(&table, &counts, seed);
@@ -142,18 +171,18 @@ impl Bench<'_> {
                     measured.push((point, proposes.then_some(table)));
                 });
             };
-            train(&mut process, method.as_mut(), &course, round, progress)
+            train(&mut process, method.as_mut(), &course, round, episode)
         });
         let mut measured = measured
             .into_inner()
             .unwrap_or_else(PoisonError::into_inner);
         measured.sort_by_key(|(point, _)| point.episodes);
-        let proposed = |(point, table): &mut (Point, Option<Table>)| {
+        let proposed = |(point, table): &mut (Point, Option<QTable>)| {
             table.take().map(|table| (point.total.mean, table))
         };
         let proposals = measured.iter_mut().filter_map(proposed).collect();
         let points = measured.into_iter().map(|(point, _)| point).collect();
-        let elected = self.elect(proposals, seed);
+        let elected = self.elect_proposal(proposals, seed);
         let (decisions, table) = elected.unwrap_or_else(|| {
             let table = method.table();
             (extract::greedy(table, self.evidence), table.clone())
@@ -168,9 +197,9 @@ impl Bench<'_> {
     }
 
     /// A point of the curve, measured on episodes of its own.
-    fn point(&self, table: &Table, counts: &Counts, seed: u64) -> Point {
+    fn point(&self, table: &QTable, counts: &Counts, seed: u64) -> Point {
         let decisions = extract::greedy(table, self.evidence);
-        let start = self.evaluated(Purpose::Curve, seed);
+        let start = self.measured(Purpose::Curve, seed);
         let policy = self.frozen(&decisions);
         let met = roll_out(curve::EPISODES, &policy, || self.process(start));
         let ended = met.episodes.iter().filter(|e| e.end != End::Cut);
@@ -185,66 +214,30 @@ impl Bench<'_> {
         }
     }
 
-    /// A policy from the task's own starts: its transitions, and what it is worth.
+    /// Plays a policy from the task's own starts: what it met, and the figures of its episodes.
     pub fn roll_out(
         &self,
         decisions: &Decisions,
         episodes: u64,
         (purpose, seed): (Purpose, u64),
     ) -> (RollOut, Summary) {
-        let start = self.evaluated(purpose, seed);
+        let start = self.measured(purpose, seed);
         let policy = self.frozen(decisions);
         let met = roll_out(episodes, &policy, || self.process(start));
         let summary = Summary::of(&met.episodes, self.task.end_on.len());
         (met, summary)
     }
-
-    /// A tree on episodes that nothing was chosen by. Ticks outside of the care set are counted.
-    ///
-    /// # Errors
-    /// An atom that the world does not know.
-    pub fn test(
-        &self,
-        root: &Node,
-        care: &FxHashSet<Key>,
-        episodes: u64,
-        seed: u64,
-    ) -> Result<Summary, Atom> {
-        let runner = Runner::new(root, self.simulator.atoms())?;
-        let start = self.evaluated(Purpose::Test, seed);
-        let played = play_all(episodes, start, self.task.patience, || {
-            let watched = Watched {
-                tree: Ticked(runner.clone()),
-                care,
-                outside: 0,
-            };
-            (self.simulator.simulation(), watched)
-        });
-        Ok(Summary::of(&played, self.task.end_on.len()))
-    }
 }
 
-/// A tree whose ticks outside of its care set are counted.
-struct Watched<'c> {
-    tree: Ticked,
-    care: &'c FxHashSet<Key>,
-    outside: u64,
-}
-
-impl Controller for Watched<'_> {
-    fn reset(&mut self) {
-        self.tree.reset();
-        self.outside = 0;
-    }
-
-    fn tick(&mut self, simulation: &mut Simulation) {
-        if !self.care.contains(&simulation.key()) {
-            self.outside += 1;
-        }
-        self.tree.tick(simulation);
-    }
-
-    fn outside(&self) -> u64 {
-        self.outside
-    }
+/// The events that the program claims never to happen under what a learner learns.
+fn never(program: &Program, learner: Id<Learner>) -> Vec<Id<Event>> {
+    let claims = program.claims.iter();
+    claims
+        .filter_map(|claim| match &claim.kind {
+            ClaimKind::Never(occurrence) if claim.tree == TreeRef::Learned(learner) => {
+                Some(occurrence.event)
+            }
+            _ => None,
+        })
+        .collect()
 }

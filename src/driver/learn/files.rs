@@ -1,0 +1,107 @@
+//! The files that `btc learn` writes.
+
+use super::{Learned, Options};
+use crate::driver::Refused;
+use crate::driver::export::{self, Runtime};
+use crate::driver::load::Loaded;
+use crate::driver::target;
+use crate::emit;
+use crate::ir::task::Learner;
+use crate::ir::tree::{Node, Tree};
+use crate::ir::{Id, Name};
+use crate::policy::{decisions, evidence, transitions};
+use crate::report::results::Results;
+use crate::report::{self, curve, metrics, simplified};
+use sha2::{Digest, Sha256};
+
+/// The tree as an item, the files, and the report.
+///
+/// # Errors
+/// A robot's library has no counterpart for a node of the tree.
+pub(super) fn written(
+    loaded: &Loaded,
+    options: &Options,
+    id: Id<Learner>,
+    results: Results,
+) -> Result<Learned, Refused> {
+    let program = &loaded.program;
+    let experiment = results.experiment;
+    let (learner, task) = (experiment.learner, experiment.task);
+    let file = options.source.rsplit('/').next().unwrap_or_default();
+    let exact = &results.trees.chosen().root;
+    let named = |name: &Name, docs: &[String], root: &Node| Tree {
+        name: name.clone(),
+        docs: docs.to_vec(),
+        task: Some(learner.task),
+        root: root.clone(),
+    };
+    let mut text = format!(
+        "//! Written by `btc learn`. The table is what the greedy policy met; proofs go along its paths.\n\
+         use \"{}\"\nuse \"transitions.csv\"\n\n",
+        options.source
+    );
+    let mut docs = vec![results.origin(file)];
+    let mut root = exact;
+    if let Some(simplified) = &results.simplified {
+        let exact_name = Name::word(format!("{}_exact", learner.name.family));
+        let exact = named(&exact_name, &docs, exact);
+        text.push_str(&emit::bt::tree(program, &exact));
+        text.push('\n');
+        docs.push(simplified::doc(simplified, program, task));
+        root = &simplified.root;
+    }
+    let learned = named(&learner.name, &docs, root);
+    let tree = emit::bt::tree(program, &learned);
+    text.push_str(&tree);
+    let curves = results.curves();
+    let policy = &results.policy;
+    let exported = |runtime| {
+        let place = |_: &[usize]| target::end_of_file(loaded);
+        export::tree(program, &learned, runtime, place)
+            .map_err(|mistake| Refused::program(loaded, [mistake]))
+    };
+    let request = metrics::Request {
+        source: options.source,
+        sha256: &hashes(loaded),
+        roll_outs: options.roll_outs,
+        method: options.method,
+        care: options.care,
+    };
+    let files = vec![
+        ("learned.bt", text),
+        ("learned.dot", emit::dot::tree(program, &learned)),
+        ("learned.svg", emit::svg::tree::tree(program, &learned)),
+        ("learned.xml", exported(Runtime::BtCpp)?),
+        ("learned.py", exported(Runtime::PyTrees)?),
+        ("policy.csv", decisions::write(policy, program)),
+        ("transitions.csv", transitions::write(policy, program)),
+        ("q.csv", evidence::write(policy, program)),
+        ("curve.csv", curve::csv(&curves)),
+        (
+            "curve.svg",
+            curve::picture(&learner.name.to_string(), &curves),
+        ),
+        ("metrics.json", metrics::json(&results, &request)),
+    ];
+    Ok(Learned {
+        tree,
+        files,
+        report: report::learned::lines(&results),
+        root: learned.root,
+        learner: id,
+        curves,
+        policy: results.policy,
+    })
+}
+
+/// The SHA-256 of every file of the program, by its name without folders.
+fn hashes(loaded: &Loaded) -> Vec<(String, String)> {
+    let files = loaded.files.iter().filter_map(|id| loaded.sources.get(*id));
+    let hashes = files.map(|source| {
+        let name = source.name.rsplit('/').next().unwrap_or_default();
+        let digest = Sha256::digest(source.text.as_bytes());
+        let hex = digest.iter().map(|byte| format!("{byte:02x}")).collect();
+        (name.to_owned(), hex)
+    });
+    hashes.collect()
+}

@@ -1,0 +1,12 @@
+//! Results in words, and the same figures as JSON documents.
+
+pub mod curve;
+pub mod difference;
+pub mod episodes;
+mod json;
+pub mod learned;
+pub mod metrics;
+pub mod program;
+pub mod results;
+pub mod simplified;
+pub mod words;

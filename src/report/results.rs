@@ -1,0 +1,116 @@
+//! Everything that learning found.
+
+use crate::learn::agreement::Agreement;
+use crate::learn::curve::Point;
+use crate::learn::experiment::{Experiment, Run};
+use crate::learn::rollout::{RollOut, Worth};
+use crate::learn::statistics::{Mean, Summary};
+use crate::policy::{Minterm, Policy};
+use crate::simplify::Simplified;
+use crate::tree::decanonicalise::{Care, Decanonicalised};
+
+/// Everything that learning found.
+#[derive(Clone, Debug)]
+pub struct Results<'a> {
+    /// The learner in its world.
+    pub experiment: &'a Experiment<'a>,
+    /// The runs, in the order of their seeds.
+    pub runs: Vec<Run>,
+    /// The figures of each on the episodes by which the best was taken; empty for a single one.
+    pub validated: Vec<Summary>,
+    /// The place of the run that was taken.
+    pub best: usize,
+    /// The minterms with too little evidence, with their decisions.
+    pub thin: Vec<(Minterm, u64)>,
+    /// What the greedy policy met.
+    pub met: RollOut,
+    /// The figures of its episodes.
+    pub summary: Summary,
+    /// The policy.
+    pub policy: Policy,
+    /// The tree on either care set; that of the chosen one is what was learned.
+    pub trees: Trees,
+    /// The smaller tree that is printed instead of the exact one, if one was asked for.
+    pub simplified: Option<Simplified>,
+    /// The figures of the exact tree on test episodes, if there were any.
+    pub tested: Option<Summary>,
+}
+
+/// The policy as a tree, once for each care set.
+#[derive(Clone, Debug)]
+pub struct Trees {
+    /// The set that the learned tree was made for.
+    pub care: Care,
+    /// The tree for every minterm that was learned.
+    pub seen: Decanonicalised,
+    /// The tree for those that the greedy policy reached.
+    pub reachable: Decanonicalised,
+}
+
+impl Trees {
+    /// The learned tree.
+    pub fn chosen(&self) -> &Decanonicalised {
+        match self.care {
+            Care::Seen => &self.seen,
+            Care::Reachable => &self.reachable,
+        }
+    }
+}
+
+impl Results<'_> {
+    /// The run that was taken.
+    pub fn run(&self) -> Option<&Run> {
+        self.runs.get(self.best)
+    }
+
+    /// Predicted and simulated value of the greedy episodes.
+    pub fn worth(&self) -> [Mean; 2] {
+        let worth = &self.met.worth;
+        let of = |value: fn(&Worth) -> f64| Mean::of(&worth.iter().map(value).collect::<Vec<_>>());
+        [of(|w| w.predicted), of(|w| w.simulated)]
+    }
+
+    /// The learning curve of each run, by its seed.
+    pub fn curves(&self) -> Vec<(u64, Vec<Point>)> {
+        let runs = self.runs.iter();
+        runs.map(|run| (run.seed, run.points.clone())).collect()
+    }
+
+    /// How far several runs agree with the one that was taken.
+    pub fn agreement(&self) -> Option<Agreement> {
+        let taken = self.run().filter(|_| self.runs.len() > 1)?;
+        let runs: Vec<_> = self.runs.iter().map(|run| &run.decisions).collect();
+        let choices = self.experiment.task.choose.len();
+        Some(Agreement::of(&taken.decisions, &runs, choices, &self.met))
+    }
+
+    /// What was proved, in words.
+    pub fn proved(&self) -> String {
+        let proof = &self.trees.chosen().proof;
+        let closed = if proof.closed {
+            "closed under them"
+        } else {
+            "not closed under them"
+        };
+        let seen = self.policy.rows.len();
+        let minterms = if proof.minterms == seen {
+            format!("{seen} observed minterms")
+        } else {
+            format!("{} of {seen} observed minterms", proof.minterms)
+        };
+        format!("{minterms} and {} transitions, {closed}", proof.transitions)
+    }
+
+    /// Where the learned tree comes from, as a doc comment.
+    pub fn origin(&self, file: &str) -> String {
+        let seed = self.run().map_or(0, |run| run.seed);
+        let among = match self.runs.as_slice() {
+            [first, .., last] => format!(", the best of {} to {}", first.seed, last.seed),
+            _ => String::new(),
+        };
+        format!(
+            "Learned from {file}, seed {seed}{among}: proved on {}.",
+            self.proved()
+        )
+    }
+}

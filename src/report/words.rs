@@ -1,0 +1,68 @@
+//! Words that several reports use.
+
+use crate::ir::task::Task;
+use crate::ir::tree::Atom;
+use crate::ir::{Expr, ExprId, Program};
+use crate::policy::{Minterm, Policy};
+use crate::tree::decanonicalise::Failing;
+
+/// A line of a report.
+pub fn line(title: &str, text: &str) -> String {
+    format!("{title:<12} {text}")
+}
+
+/// A number of things.
+pub fn counted(n: usize, what: &str) -> String {
+    match n {
+        0 => format!("no {what}s"),
+        1 => format!("1 {what}"),
+        n => format!("{n} {what}s"),
+    }
+}
+
+/// The atoms that hold in a minterm, in braces.
+pub fn minterm(program: &Program, atoms: &[Atom], minterm: &Minterm) -> String {
+    let atoms = atoms.iter().zip(minterm.values());
+    let held = atoms.filter(|(_, holds)| *holds);
+    let held: Vec<String> = held
+        .map(|(atom, _)| program.atom_name(*atom).to_string())
+        .collect();
+    format!("{{{}}}", held.join(", "))
+}
+
+/// The number of rows of a table.
+pub fn rows(policy: &Policy) -> String {
+    let cubes = policy.rows.iter().filter(|row| row.free.is_some()).count();
+    match cubes {
+        0 => counted(policy.rows.len(), "minterm"),
+        _ => format!(
+            "{} ({cubes} of them cubes)",
+            counted(policy.rows.len(), "row")
+        ),
+    }
+}
+
+/// Where a policy was seen to fail outright, and what its tree does then.
+pub fn failing(program: &Program, policy: &Policy, failing: &Failing) -> String {
+    let then = failing.then.iter().map(|next| match next {
+        Some(id) => program.behaviors[*id].name.to_string(),
+        None => "nothing".to_owned(),
+    });
+    format!(
+        "{} failed outright {} times ({} with no change) in {}; the tree goes on to {}",
+        program.behaviors[failing.behavior].name,
+        failing.count,
+        failing.repeated,
+        minterm(program, &policy.atoms, &failing.minterm),
+        then.collect::<Vec<_>>().join(" or "),
+    )
+}
+
+/// The names of what ends the episodes of a task: of the event, or `end N` for any other condition.
+pub fn end_names(program: &Program, task: &Task) -> Vec<String> {
+    let name = |(i, id): (usize, &ExprId)| match program.pool.get(*id) {
+        Expr::Event(event) => program.events[event].name.to_string(),
+        _ => format!("end {}", i + 1),
+    };
+    task.end_on.iter().enumerate().map(name).collect()
+}
