@@ -5,12 +5,33 @@ use super::context::{Binding, Context, Region};
 use crate::diagnostic::{Code, Diagnostic, Label};
 use crate::source::Span;
 use crate::syntax::ast::{Ident, Ref};
+use std::collections::BTreeMap;
 
 /// How many bodies may be checked within one another.
 const DEEP: usize = 48;
 
 /// How many bodies a program may unroll altogether.
 const MANY: usize = 200_000;
+
+/// The bodies that have been checked or are being checked.
+#[derive(Debug, Default)]
+pub struct Bodies<'a> {
+    /// Whether the body that starts at this place was free of mistakes when it was checked for itself.
+    pub clean: BTreeMap<Span, bool>,
+    /// The bodies that are being checked within one another, to find circles.
+    pub open: Vec<Open<'a>>,
+    /// How many bodies have been unrolled so far.
+    unrolled: usize,
+    /// Whether it was reported that definitions grow too large.
+    gave_up: bool,
+}
+
+impl Bodies<'_> {
+    /// Whether the body that starts at this place is being checked.
+    pub fn is_open(&self, at: Span) -> bool {
+        self.open.iter().any(|open| open.at == at)
+    }
+}
 
 /// A body that is being checked.
 #[derive(Clone, Copy, Debug)]
@@ -29,14 +50,14 @@ impl<'a> Checker<'a> {
         &mut self,
         body: &'a Ident,
         region: Region,
-        scope: Vec<Binding>,
+        scope: Vec<Binding<'a>>,
         pass: impl FnOnce(&mut Self),
     ) {
         // What is deeper is reported where it is unrolled.
-        if self.open_bodies.len() > DEEP {
+        if self.bodies.open.len() > DEEP {
             return;
         }
-        self.clean_bodies.insert(body.span, true);
+        self.bodies.clean.insert(body.span, true);
         let context = Context {
             region,
             library: false,
@@ -44,7 +65,7 @@ impl<'a> Checker<'a> {
         };
         let ((), found) = self.within(body.span, &body.name, context, pass);
         let clean = !found.iter().any(Diagnostic::is_error);
-        self.clean_bodies.insert(body.span, clean);
+        self.bodies.clean.insert(body.span, clean);
         self.diagnostics.extend(found);
     }
 
@@ -56,27 +77,26 @@ impl<'a> Checker<'a> {
         reference: &'a Ref,
         library: bool,
         region: Region,
-        scope: Vec<Binding>,
+        scope: Vec<Binding<'a>>,
         pass: impl FnOnce(&mut Self) -> T,
     ) -> Option<T> {
         let name = reference.name.name.as_str();
-        if self.open_bodies.iter().any(|open| open.at == body) {
-            self.report(
-                Diagnostic::new(
+        if self.bodies.is_open(body) {
+            return self
+                .error(
                     Code::E0205,
                     reference.name.span,
                     format!("`{name}` is defined by itself"),
                 )
                 .label("this use closes the circle")
-                .also(body, "its definition starts here"),
-            );
+                .also(body, "its definition starts here")
+                .none();
+        }
+        if self.bodies.clean.get(&body) == Some(&false) {
             return None;
         }
-        if self.clean_bodies.get(&body) == Some(&false) {
-            return None;
-        }
-        self.bodies_unrolled += 1;
-        if self.open_bodies.len() > DEEP || self.bodies_unrolled > MANY {
+        self.bodies.unrolled += 1;
+        if self.bodies.open.len() > DEEP || self.bodies.unrolled > MANY {
             self.too_much(reference.name.span, "this use goes too far");
             return None;
         }
@@ -86,50 +106,55 @@ impl<'a> Checker<'a> {
             scope,
         };
         let (result, found) = self.within(body, name, context, pass);
-        let mut told: Vec<(Code, String)> = Vec::new();
+        let mut seen: Vec<(Code, String)> = Vec::new();
         for inner in found.into_iter().filter(Diagnostic::is_error) {
             let what = (inner.code, inner.message.clone());
-            if !told.contains(&what) {
-                told.push(what);
+            if !seen.contains(&what) {
+                seen.push(what);
                 self.report(used_so(inner, reference, library));
             }
         }
-        told.is_empty().then_some(result)
+        seen.is_empty().then_some(result)
     }
 
-    /// Runs a pass over a body in a context of its own, and takes back what it reported.
+    /// Runs a pass over a body in its own context. What it reports is handed back.
     fn within<T>(
         &mut self,
         at: Span,
         name: &'a str,
-        context: Context,
+        context: Context<'a>,
         pass: impl FnOnce(&mut Self) -> T,
     ) -> (T, Vec<Diagnostic>) {
         let library = context.library;
         let outer = std::mem::replace(&mut self.context, context);
-        self.open_bodies.push(Open { at, name, library });
+        self.bodies.open.push(Open { at, name, library });
         let result = self.captured(pass);
-        self.open_bodies.pop();
+        self.bodies.open.pop();
         self.context = outer;
         result
     }
 
+    /// Runs a pass. What it reports is handed back.
+    pub fn captured<T>(&mut self, pass: impl FnOnce(&mut Self) -> T) -> (T, Vec<Diagnostic>) {
+        let before = std::mem::take(&mut self.diagnostics);
+        let result = pass(self);
+        (result, std::mem::replace(&mut self.diagnostics, before))
+    }
+
     /// Reports, once, that definitions within definitions do not come to an end.
     pub fn too_much(&mut self, span: Span, label: &str) {
-        if std::mem::replace(&mut self.gave_up, true) {
+        if std::mem::replace(&mut self.bodies.gave_up, true) {
             return;
         }
-        self.report(
-            Diagnostic::new(
-                Code::E0209,
-                span,
-                "the definitions within definitions grow too large",
-            )
-            .label(label)
-            .note(format!(
-                "at most {DEEP} may stand within one another, and {MANY} uses in all"
-            )),
-        );
+        self.error(
+            Code::E0209,
+            span,
+            "the definitions within definitions grow too large",
+        )
+        .label(label)
+        .note(format!(
+            "at most {DEEP} may stand within one another, and {MANY} uses in all"
+        ));
     }
 }
 

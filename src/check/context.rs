@@ -1,9 +1,12 @@
-//! Where an expression stands: what is in scope there and what is allowed.
+//! Where an expression stands: what is in scope there, and what is allowed.
 
+use super::Checker;
 use super::types::{Type, Value};
+use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::Id;
 use crate::ir::expr::Local;
 use crate::source::Span;
+use crate::syntax::ast::Ident;
 
 /// The part of a program that an expression stands in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -84,33 +87,46 @@ impl Region {
 
 /// A name that is bound in a body.
 #[derive(Clone, Debug)]
-pub struct Binding {
-    /// The name.
-    pub name: String,
+pub struct Binding<'a> {
+    /// The name, where it is bound.
+    pub name: &'a Ident,
     /// Its type.
     pub ty: Type,
     /// Its value.
     pub value: Value,
-    /// The variables behind a local; two for a point, none where they are not known.
-    pub locals: Vec<Id<Local>>,
-    /// Whether it is a local, which may be assigned to.
-    pub settable: bool,
-    /// Where it is bound.
-    pub span: Span,
+    /// The variables behind a local, which can be set: two for a point, none where they are not known.
+    pub locals: Option<Vec<Id<Local>>>,
+}
+
+impl<'a> Binding<'a> {
+    /// A name that keeps its value.
+    pub fn new(name: &'a Ident, ty: Type, value: Value) -> Self {
+        Self {
+            name,
+            ty,
+            value,
+            locals: None,
+        }
+    }
+
+    /// A name that is known by its type only.
+    pub fn unknown(name: &'a Ident, ty: Type) -> Self {
+        Self::new(name, ty, Value::Unknown)
+    }
 }
 
 /// Where an expression stands.
 #[derive(Clone, Debug)]
-pub struct Context {
+pub struct Context<'a> {
     /// The part of the program.
     pub region: Region,
     /// Whether the text is the library's.
     pub library: bool,
     /// The names bound so far, the innermost last.
-    pub scope: Vec<Binding>,
+    pub scope: Vec<Binding<'a>>,
 }
 
-impl Context {
+impl<'a> Context<'a> {
     /// The user's text, nothing bound.
     pub fn new(region: Region) -> Self {
         Self {
@@ -121,7 +137,75 @@ impl Context {
     }
 
     /// The innermost binding of a name.
-    pub fn lookup(&self, name: &str) -> Option<&Binding> {
-        self.scope.iter().rev().find(|binding| binding.name == name)
+    pub fn lookup(&self, name: &str) -> Option<&Binding<'a>> {
+        let mut inner = self.scope.iter().rev();
+        inner.find(|binding| binding.name.name == name)
+    }
+}
+
+/// Whether anything reads a name that a body binds.
+#[derive(Clone, Copy, Debug)]
+pub struct Bound<'a> {
+    name: &'a str,
+    what: &'static str,
+    read: bool,
+}
+
+impl<'a> Checker<'a> {
+    /// Notes a name that a body of the user binds, with what it is.
+    pub fn binds(&mut self, name: &'a Ident, what: &'static str) {
+        if !self.context.library {
+            self.bound.entry(name.span).or_insert(Bound {
+                name: &name.name,
+                what,
+                read: false,
+            });
+        }
+    }
+
+    /// Binds a name in a block whose own names start at `depth` of the scope; none of them may have it already.
+    pub fn bind(&mut self, binding: Binding<'a>, what: &'static str, depth: usize) {
+        let name = binding.name;
+        self.binds(name, what);
+        let mut beside = self.context.scope.iter().skip(depth);
+        if let Some(first) = beside.find(|bound| bound.name.name == name.name) {
+            let first = first.name.span;
+            self.error(
+                Code::E0201,
+                name.span,
+                format!("`{}` is declared twice", name.name),
+            )
+            .label("declared again here")
+            .also(first, "first declared here");
+        }
+        self.context.scope.push(binding);
+    }
+
+    /// Notes that a binding is read.
+    pub fn reads(&mut self, binding: Span) {
+        if let Some(bound) = self.bound.get_mut(&binding) {
+            bound.read = true;
+        }
+    }
+
+    /// Warns of names that are bound and never read; a program with errors has other troubles.
+    pub fn unread_names(&mut self) {
+        if self.diagnostics.iter().any(Diagnostic::is_error) {
+            return;
+        }
+        for (span, Bound { name, what, read }) in std::mem::take(&mut self.bound) {
+            if read || name.starts_with('_') {
+                continue;
+            }
+            self.warning(
+                Code::W0201,
+                span,
+                format!("nothing reads the {what} `{name}`"),
+            )
+            .label("bound here, and never read")
+            .help(format!(
+                "take it away, or call it `_{name}` if it is to stay"
+            ));
+        }
     }
 }

@@ -1,7 +1,11 @@
 //! What a program declares: states, events with their effects, predicates, behaviours.
 
 pub mod behavior;
-pub mod dynamics;
-pub mod instance;
+mod drive;
+pub mod event;
+mod instance;
+mod law;
 pub mod predicate;
-pub mod statement;
+mod shared;
+pub mod state;
+mod statement;

@@ -1,19 +1,22 @@
 //! Tasks: what is observed, chosen, remembered and rewarded; how episodes start and end.
 
-pub mod learner;
+pub mod history;
+mod learner;
+mod start;
 
 use super::Checker;
 use super::context::{Context, Region};
-use super::names::{Decl, START_WORDS, unknown};
-use super::types::units::Dim;
-use super::types::{Type, Typed, Value};
-use crate::diagnostic::{Code, Diagnostic};
+use super::expr::plain_ref;
+use super::names::Decl;
+use super::types::Type;
+use crate::diagnostic::Code;
+use crate::ir::expr::ExprId;
 use crate::ir::law::Behavior;
 use crate::ir::program::Predicate;
-use crate::ir::task::{History, RewardLine, StartLine, Task};
+use crate::ir::task::{History, RewardLine, Task};
 use crate::ir::{Id, Name};
 use crate::source::Span;
-use crate::syntax::ast::{self, AspectKind, Expr, ExprKind, Outcome, Ref, Spanned};
+use crate::syntax::ast::{self, AspectKind, Expr};
 use crate::syntax::print;
 use std::collections::BTreeMap;
 
@@ -40,18 +43,11 @@ impl<'a> Checker<'a> {
             self.context = Context::new(Region::Tree);
             let word = aspect_word(&aspect.kind);
             let repeats = matches!(aspect.kind, AspectKind::EndOn(_) | AspectKind::Error);
-            if let Some(first) = seen.get(word)
-                && !repeats
-            {
-                let first = *first;
-                self.report(
-                    Diagnostic::new(Code::E0503, aspect.span, format!("`{word}` is there twice"))
-                        .label("said again here")
-                        .also(first, "first said here"),
-                );
+            let first = *seen.entry(word).or_insert(aspect.span);
+            if first != aspect.span && !repeats {
+                self.said_twice(word, aspect.span, first);
                 continue;
             }
-            seen.insert(word, aspect.span);
             match &aspect.kind {
                 AspectKind::Observe(list) => built.observe = self.observed(list),
                 AspectKind::Choose(list) => built.choose = self.chosen(list),
@@ -83,26 +79,12 @@ impl<'a> Checker<'a> {
             ("reward", "reward { on EVENT: +1 otherwise: -0.1 }"),
         ] {
             if !seen.contains_key(word) {
-                self.report(
-                    Diagnostic::new(
-                        Code::E0502,
-                        task.name.span,
-                        format!("the task `{}` does not say its `{word}`", task.name.name),
-                    )
-                    .label(format!("`{word}` is missing"))
-                    .help(format!("for example: `{example}`")),
-                );
+                let owner = format!("the task `{}`", task.name.name);
+                self.missing(Code::E0502, task.name.span, &owner, word, example);
             }
         }
         if !self.has_world {
-            self.report(
-                Diagnostic::new(
-                    Code::E0407,
-                    task.name.span,
-                    "a task needs a world, and there is none",
-                )
-                .label("where is this to be done?"),
-            );
+            self.no_world(task.name.span, "a task", "where is this to be done?");
         }
         // A task with a mistake in it is known by name, so that what refers to it is not reported as well.
         self.program.tasks.push(built);
@@ -116,19 +98,14 @@ impl<'a> Checker<'a> {
                 self.not_named(expr, "a predicate", &declaration);
                 continue;
             };
-            let name = reference.name.name.as_str();
-            match self.names.value(name, false) {
-                Some((Decl::Predicate(predicate), library)) => {
-                    if let Some(id) = self.predicate_instance(predicate, library, reference) {
-                        self.once(&mut observed, id, reference.span);
-                    }
-                }
-                Some((decl, _)) => self.wrong_kind(reference, "a predicate", decl.what()),
-                None => {
-                    let predicates = self.names.values(|decl| matches!(decl, Decl::Predicate(_)));
-                    let diagnostic = unknown(&reference.name, "predicate", predicates);
-                    self.report(diagnostic);
-                }
+            let predicate = self.declared_as(reference, "a predicate", |decl| match decl {
+                Decl::Predicate(predicate) => Some(predicate),
+                _ => None,
+            });
+            if let Some((predicate, library)) = predicate
+                && let Some(id) = self.predicate_instance(predicate, library, reference)
+            {
+                self.once(&mut observed, id, reference.span);
             }
         }
         observed
@@ -148,104 +125,18 @@ impl<'a> Checker<'a> {
         chosen
     }
 
-    /// The behaviour that a reference names; anything else is reported.
-    pub fn behavior_ref(&mut self, reference: &'a Ref) -> Option<Id<Behavior>> {
-        match self.names.value(&reference.name.name, false) {
-            Some((Decl::Behavior(behavior), library)) => {
-                match self.behavior_instance(behavior, library, reference)? {
-                    Value::Behavior(id) => Some(id),
-                    _ => None,
-                }
-            }
-            Some((decl, _)) => {
-                self.wrong_kind(reference, "a behaviour", decl.what());
-                None
-            }
-            None => {
-                let behaviors = self.names.values(|decl| matches!(decl, Decl::Behavior(_)));
-                let diagnostic = unknown(&reference.name, "behaviour", behaviors);
-                let diagnostic = self.perhaps_of_library(diagnostic, &reference.name.name);
-                self.report(diagnostic);
-                None
-            }
-        }
-    }
-
-    /// Offers the library where it would bring the missing name.
-    pub fn perhaps_of_library(&self, diagnostic: Diagnostic, name: &str) -> Diagnostic {
-        let used = self
-            .names
-            .value("idle", true)
-            .is_some_and(|(_, library)| library);
-        if !used && ["goto", "dock", "follow_wall", "wander", "idle"].contains(&name) {
-            diagnostic.help(format!("`use std` brings `{name}`"))
-        } else {
-            diagnostic
-        }
-    }
-
     fn once<T: PartialEq>(&mut self, list: &mut Vec<T>, item: T, span: Span) {
         if list.contains(&item) {
-            self.report(
-                Diagnostic::new(Code::E0503, span, "this is in the list already")
-                    .label("listed a second time"),
-            );
+            self.error(Code::E0503, span, "this is in the list already")
+                .label("listed a second time");
         } else {
             list.push(item);
         }
     }
 
-    /// Reports a name of the wrong kind.
-    pub fn wrong_kind(&mut self, reference: &Ref, wanted: &str, found: &str) {
-        self.report(
-            Diagnostic::new(
-                Code::E0203,
-                reference.span,
-                format!("{wanted} is needed here"),
-            )
-            .label(format!("`{}` is {found}", reference.name.name)),
-        );
-    }
-
-    pub fn not_named(&mut self, expr: &Expr, wanted: &str, declaration: &str) {
-        if !matches!(expr.kind, ExprKind::Error) {
-            self.report(
-                Diagnostic::new(Code::E0203, expr.span, format!("{wanted} is needed here"))
-                    .label("this is an expression without a name")
-                    .help(format!("declare one: `{declaration}`")),
-            );
-        }
-    }
-
-    fn history(&mut self, window: &'a Expr, outcomes: &[Spanned<Outcome>]) -> History {
-        let length = self.constant(window, &Type::NUMBER, "the length of the history");
-        let window_length = match length {
-            Some(n) if n.fract() == 0.0 && (1.0..=64.0).contains(&n) => n as usize,
-            Some(n) => {
-                let label = if n.fract() != 0.0 {
-                    "this is no whole number"
-                } else if n < 1.0 {
-                    "nothing would be remembered"
-                } else {
-                    "these are too many"
-                };
-                self.out_of_range(window.span, "a history holds 1 to 64 terminations", label);
-                0
-            }
-            None => 0,
-        };
-        let keeps = |outcome| outcomes.iter().any(|kept| kept.node == outcome);
-        History {
-            window: window_length,
-            success: keeps(Outcome::Success),
-            failure: keeps(Outcome::Failure),
-        }
-    }
-
     /// A time as a whole number of ticks, at least one.
     pub fn ticks(&mut self, expr: &'a Expr, role: &str) -> Option<u64> {
-        let time = Type::Quantity(Dim::TIME);
-        let seconds = self.constant(expr, &time, role)?;
+        let seconds = self.constant(expr, &Type::TIME, role)?;
         let ticks = (seconds / self.tick?).round();
         if (1.0..=1e15).contains(&ticks) {
             return Some(ticks as u64);
@@ -257,125 +148,15 @@ impl<'a> Checker<'a> {
         } else {
             "this is beyond all counting"
         };
-        self.out_of_range(expr.span, &format!("{role} is at least one tick"), label);
-        None
-    }
-
-    /// `start { … }`
-    pub fn start(&mut self, start: &'a ast::Start, history: Option<History>) -> Vec<StartLine> {
-        self.context = Context::new(Region::Start);
-        self.kept = history;
-        let mut lines: Vec<StartLine> = Vec::new();
-        let mut set: Vec<&ast::Ident> = Vec::new();
-        for line in &start.lines {
-            let built = self.start_line(line);
-            let name = &line.target.name;
-            match set.iter().find(|first| first.name == name.name) {
-                Some(first) => self.report(
-                    Diagnostic::new(
-                        Code::E0503,
-                        name.span,
-                        format!("`{}` is set twice", name.name),
-                    )
-                    .label("this line would undo the first")
-                    .also(first.span, "first set here"),
-                ),
-                None => set.push(name),
-            }
-            lines.extend(built.into_iter().flatten());
-        }
-        self.kept = None;
-        lines
-    }
-
-    fn start_line(&mut self, line: &'a ast::StartLine) -> Option<Vec<StartLine>> {
-        self.context.region = Region::Start;
-        let name = line.target.name.name.as_str();
-        match name {
-            "pose" => {
-                let value = self.expr(&line.value);
-                if !value.ty.fits(&Type::Anywhere) {
-                    self.report(
-                        Diagnostic::new(Code::E0302, value.span, "`pose` is `anywhere`")
-                            .label(format!("this is {}", value.ty))
-                            .help(
-                                "a pose of your own: `position = (1 m, 2 m)`, `heading = 90 deg`",
-                            ),
-                    );
-                }
-                return Some(vec![StartLine::Anywhere]);
-            }
-            "position" => {
-                let value = self.expect(&line.value, &Type::Point, "`position`");
-                return match value.value {
-                    Value::Point(x, y) => Some(vec![StartLine::Position(x, y)]),
-                    _ => None,
-                };
-            }
-            "heading" => {
-                let angle = Type::Quantity(Dim::ANGLE);
-                let value = self.expect(&line.value, &angle, "`heading`");
-                return value.scalar().map(|id| vec![StartLine::Heading(id)]);
-            }
-            "history" => {
-                self.context.region = Region::StartHistory;
-                let value = self.expr(&line.value);
-                if !value.ty.fits(&Type::Termination) {
-                    self.report(
-                        Diagnostic::new(
-                            Code::E0302,
-                            value.span,
-                            "`history` starts with the end of a behaviour",
-                        )
-                        .label(format!("this is {}", value.ty))
-                        .help("for example: `history = success(goto(A))`"),
-                    );
-                    return None;
-                }
-                return value.scalar().map(|id| vec![StartLine::History(id)]);
-            }
-            _ => {}
-        }
-        let Some((Decl::State(state), _)) = self.names.value(name, false) else {
-            let diagnostic = match self.names.value(name, false) {
-                Some((decl, _)) => Diagnostic::new(
-                    Code::E0203,
-                    line.target.span,
-                    format!("a start cannot set `{name}`"),
-                )
-                .label(format!("this is {}", decl.what())),
-                None => {
-                    let states = self.names.values(|decl| matches!(decl, Decl::State(_)));
-                    unknown(&line.target.name, "state", states.chain(START_WORDS))
-                }
-            };
-            self.report(diagnostic);
-            return None;
-        };
-        let slot: Typed = self.state_value(state, &line.target);
-        if slot.ty == Type::Error {
-            return None;
-        }
-        let value = self.expect(&line.value, &slot.ty, &format!("`{name}`"));
-        let ids = self.states.get(name).map(|slot| slot.ids.clone());
-        let parts = match value.value {
-            Value::Scalar(id) => vec![id],
-            Value::Point(x, y) => vec![x, y],
-            _ => return None,
-        };
-        let ids = ids.unwrap_or_default().into_iter();
-        Some(
-            ids.zip(parts)
-                .map(|(id, part)| StartLine::State(id, part))
-                .collect(),
-        )
+        self.out_of_range(expr.span, format!("{role} is at least one tick"), label)
+            .none()
     }
 
     fn reward(
         &mut self,
         lines: &'a [ast::RewardLine],
         otherwise: Option<&'a Expr>,
-    ) -> (Vec<RewardLine>, crate::ir::ExprId) {
+    ) -> (Vec<RewardLine>, ExprId) {
         let mut built = Vec::new();
         for line in lines {
             self.context = Context::new(Region::Reward);
@@ -408,14 +189,5 @@ fn aspect_word(kind: &AspectKind) -> &'static str {
         AspectKind::EndAfter(_) => "end after",
         AspectKind::Reward { .. } => "reward",
         AspectKind::Error => "",
-    }
-}
-
-/// The reference that an expression is.
-fn plain_ref(expr: &Expr) -> Option<&Ref> {
-    match &expr.kind {
-        ExprKind::Ref(reference) => Some(reference),
-        ExprKind::Paren(inner) => plain_ref(inner),
-        _ => None,
     }
 }

@@ -47,6 +47,18 @@ pub enum Type {
 impl Type {
     /// A plain number.
     pub const NUMBER: Type = Type::Quantity(Dim::NONE);
+    /// A length.
+    pub const LENGTH: Type = Type::Quantity(Dim::LENGTH);
+    /// A time.
+    pub const TIME: Type = Type::Quantity(Dim::TIME);
+    /// An angle.
+    pub const ANGLE: Type = Type::Quantity(Dim::ANGLE);
+    /// A speed.
+    pub const SPEED: Type = Type::Quantity(Dim::SPEED);
+    /// A turn rate.
+    pub const TURN_RATE: Type = Type::Quantity(Dim::TURN_RATE);
+    /// A frequency.
+    pub const FREQUENCY: Type = Type::Quantity(Dim::FREQUENCY);
 
     /// The dimension of a number of any kind.
     pub fn dim(&self) -> Option<Dim> {
@@ -140,14 +152,66 @@ pub struct Typed {
     pub span: Span,
 }
 
+impl Value {
+    /// The numbers that it is made of: one of a scalar, two of a point, none of anything else.
+    pub fn parts(&self) -> Vec<ExprId> {
+        match *self {
+            Value::Scalar(id) => vec![id],
+            Value::Point(x, y) => vec![x, y],
+            _ => Vec::new(),
+        }
+    }
+
+    /// The scalar or the point that is made of these numbers.
+    pub fn of_parts(parts: &[ExprId]) -> Self {
+        match *parts {
+            [id] => Value::Scalar(id),
+            [x, y] => Value::Point(x, y),
+            _ => Value::Unknown,
+        }
+    }
+
+    /// The value with each of its numbers replaced.
+    #[must_use]
+    pub fn map(self, mut replaced: impl FnMut(ExprId) -> ExprId) -> Self {
+        match self {
+            Value::Scalar(id) => Value::Scalar(replaced(id)),
+            Value::Point(x, y) => Value::Point(replaced(x), replaced(y)),
+            other => other,
+        }
+    }
+}
+
+impl From<Option<Value>> for Value {
+    fn from(known: Option<Value>) -> Self {
+        known.unwrap_or(Value::Unknown)
+    }
+}
+
+impl From<Option<ExprId>> for Value {
+    fn from(known: Option<ExprId>) -> Self {
+        known.map_or(Value::Unknown, Value::Scalar)
+    }
+}
+
 impl Typed {
-    /// An expression that has been reported.
-    pub fn error(span: Span) -> Self {
+    /// An expression at `span`.
+    pub fn new(ty: Type, value: impl Into<Value>, span: Span) -> Self {
         Self {
-            ty: Type::Error,
-            value: Value::Unknown,
+            ty,
+            value: value.into(),
             span,
         }
+    }
+
+    /// An expression that is known by its type only.
+    pub fn unknown(ty: Type, span: Span) -> Self {
+        Self::new(ty, Value::Unknown, span)
+    }
+
+    /// An expression that has been reported.
+    pub fn error(span: Span) -> Self {
+        Self::unknown(Type::Error, span)
     }
 
     /// The scalar that it is, if it is one and known.

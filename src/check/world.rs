@@ -6,16 +6,14 @@ pub mod setting;
 pub mod shape;
 
 use super::Checker;
-use super::builtin::{Constant, Function};
 use super::context::{Context, Region};
 use super::types::Type;
-use super::types::units::Dim;
-use super::world::robot::no_robot;
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::Code;
 use crate::ir::Name;
 use crate::ir::table::Table;
 use crate::ir::world::{Place, Point, Shape, Wall, World};
-use crate::syntax::ast::{self, Expr, Field, Item, ItemKind, WorldEntryKind};
+use crate::syntax::ast::{self, Expr, Item, ItemKind, WorldEntryKind};
+use robot::no_robot;
 
 impl<'a> Checker<'a> {
     /// The one world of a program.
@@ -27,11 +25,11 @@ impl<'a> Checker<'a> {
             };
             match first {
                 None => first = Some(world),
-                Some(first) => self.report(
-                    Diagnostic::new(Code::E0401, world.name.span, "a program has one world")
-                        .label("a second world")
-                        .also(first.name.span, "the first is declared here"),
-                ),
+                Some(first) => self
+                    .error(Code::E0401, world.name.span, "a program has one world")
+                    .label("a second world")
+                    .also(first.name.span, "the first is declared here")
+                    .emit(),
             }
         }
         if let Some(world) = first {
@@ -44,49 +42,21 @@ impl<'a> Checker<'a> {
     /// The tick comes first, since everything may be counted in it; places may be referred to by sensors, so the robot
     /// comes last.
     fn world(&mut self, world: &'a ast::World) {
-        let fields: Vec<&'a Field> = world
-            .entries
-            .iter()
-            .filter_map(|entry| match &entry.kind {
-                WorldEntryKind::Field(field) => Some(field),
-                _ => None,
-            })
-            .collect();
-        let known = ["tick", "arena"];
-        self.fields(&fields, &known, "a world");
-        let find = |name: &str| fields.iter().copied().find(|field| field.name.name == name);
-        for missing in known.into_iter().filter(|name| find(name).is_none()) {
-            let example = match missing {
-                "tick" => "tick = 100 ms",
-                _ => "arena = rect((0 m, 0 m), (6 m, 4 m))",
-            };
-            self.missing(world.name.span, "the world", missing, example);
-        }
-        if let Some(field) = find("tick") {
-            let time = Type::Quantity(Dim::TIME);
-            if let Some(tick) = self.constant(&field.value, &time, "the length of a tick") {
-                if tick > 0.0 {
-                    self.tick = Some(tick);
-                } else {
-                    self.out_of_range(
-                        field.value.span,
-                        "a tick takes time",
-                        "the world would stand still",
-                    );
-                }
-            }
-        }
-        let arena = find("arena").and_then(|field| {
-            let shape = self.shape_of(&field.value, "the arena")?;
-            if matches!(shape, Shape::Polyline(_)) {
-                self.report(
-                    Diagnostic::new(Code::E0404, field.value.span, "an arena encloses an area")
-                        .label("a line has none"),
-                );
-                return None;
-            }
-            Some(shape)
+        let fields = world.entries.iter().filter_map(|entry| match &entry.kind {
+            WorldEntryKind::Field(field) => Some(field),
+            _ => None,
         });
+        let [tick, arena] = self.fields(fields, ["tick", "arena"], "a world");
+        for (field, name, example) in [
+            (tick, "tick", "tick = 100 ms"),
+            (arena, "arena", "arena = rect((0 m, 0 m), (6 m, 4 m))"),
+        ] {
+            if field.is_none() {
+                self.missing(Code::E0402, world.name.span, "the world", name, example);
+            }
+        }
+        self.tick = tick.and_then(|field| self.tick(&field.value));
+        let arena = arena.and_then(|field| self.arena(&field.value));
         self.program.world = Some(World {
             name: Name::word(&world.name.name),
             tick: self.tick.unwrap_or(0.1),
@@ -111,6 +81,31 @@ impl<'a> Checker<'a> {
             }
         }
         self.robots(world);
+    }
+
+    /// The length of a tick in seconds.
+    fn tick(&mut self, value: &'a Expr) -> Option<f64> {
+        let tick = self.constant(value, &Type::TIME, "the length of a tick")?;
+        if tick > 0.0 {
+            return Some(tick);
+        }
+        self.out_of_range(
+            value.span,
+            "a tick takes time",
+            "the world would stand still",
+        )
+        .none()
+    }
+
+    fn arena(&mut self, value: &'a Expr) -> Option<Shape> {
+        let shape = self.shape_of(value, "the arena")?;
+        if matches!(shape, Shape::Polyline(_)) {
+            return self
+                .error(Code::E0404, value.span, "an arena encloses an area")
+                .label("a line has none")
+                .none();
+        }
+        Some(shape)
     }
 
     /// `wall … when condition`: checked once the states are known.
@@ -138,18 +133,16 @@ impl<'a> Checker<'a> {
     ) {
         let span = shape.span;
         let shape = self.shape_of(shape, "a place");
-        let angle = Type::Quantity(Dim::ANGLE);
+        let angle = Type::ANGLE;
         let facing = facing.and_then(|facing| self.constant(facing, &angle, "`facing`"));
         let Some(shape) = shape else { return };
         if arena.is_some_and(|arena| !contains(arena, shape.center())) {
-            self.report(
-                Diagnostic::new(
-                    Code::E0404,
-                    span,
-                    format!("the place `{}` lies outside the arena", name.name),
-                )
-                .label("its centre is out of every robot's reach"),
-            );
+            self.error(
+                Code::E0404,
+                span,
+                format!("the place `{}` lies outside the arena", name.name),
+            )
+            .label("its centre is out of every robot's reach");
         }
         if let Some(world) = &mut self.program.world {
             world.places.push(Place {
@@ -191,9 +184,4 @@ fn contains(shape: &Shape, [x, y]: Point) -> bool {
         }
         Shape::Polyline(_) => false,
     }
-}
-
-/// Whether a name is one that the compiler knows.
-pub fn is_built_in(name: &str) -> bool {
-    Constant::named(name).is_some() || Function::named(name).is_some()
 }

@@ -3,7 +3,7 @@
 use crate::check::Checker;
 use crate::check::context::{Binding, Region};
 use crate::check::types::{Type, Typed, Value};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::Code;
 use crate::ir::Id;
 use crate::ir::expr::ExprId;
 use crate::ir::program::Predicate;
@@ -15,7 +15,7 @@ pub type PredicateId = Id<Predicate>;
 impl<'a> Checker<'a> {
     /// Checks a predicate for itself.
     pub fn predicate(&mut self, predicate: &'a ast::Predicate) {
-        if self.clean_bodies.contains_key(&predicate.name.span) {
+        if self.bodies.clean.contains_key(&predicate.name.span) {
             return;
         }
         let scope = self.unknown_parameters(predicate.params.as_ref());
@@ -35,12 +35,12 @@ impl<'a> Checker<'a> {
         predicate: &'a ast::Predicate,
         library: bool,
         reference: &'a Ref,
-    ) -> Option<Vec<Binding>> {
+    ) -> Option<Vec<Binding<'a>>> {
         if !library {
             self.predicate(predicate);
         }
         let params = predicate.params.as_ref();
-        self.bind_arguments(params, library, reference, Region::Let)
+        self.bind_arguments(params, library, reference)
     }
 
     /// A predicate as a truth value in an expression.
@@ -49,22 +49,19 @@ impl<'a> Checker<'a> {
         predicate: &'a ast::Predicate,
         library: bool,
         reference: &'a Ref,
-    ) -> Typed {
+    ) -> Option<Typed> {
         let span = reference.span;
-        let Some(scope) = self.bound(predicate, library, reference) else {
-            return Typed::error(span);
-        };
+        let scope = self.bound(predicate, library, reference)?;
         if predicate.value.is_none() {
-            self.report(
-                Diagnostic::new(
+            return self
+                .error(
                     Code::E0207,
                     span,
                     format!("the predicate `{}` is declared only", reference.name.name),
                 )
                 .label("it has no definition to evaluate")
-                .also(predicate.name.span, "declared here, without `= …`"),
-            );
-            return Typed::error(span);
+                .also(predicate.name.span, "declared here, without `= …`")
+                .none();
         }
         let body = predicate.name.span;
         let value = self
@@ -77,11 +74,7 @@ impl<'a> Checker<'a> {
                 |checker| checker.predicate_body(predicate),
             )
             .flatten();
-        Typed {
-            ty: Type::Bool,
-            value: value.map_or(Value::Unknown, Value::Scalar),
-            span,
-        }
+        Some(Typed::new(Type::Bool, value, span))
     }
 
     /// The predicate with the given arguments, as an atom of tables and trees.

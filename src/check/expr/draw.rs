@@ -3,7 +3,7 @@
 use crate::check::Checker;
 use crate::check::builtin::Function;
 use crate::check::types::{Type, Typed, Value};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::Code;
 use crate::ir::expr::{Binary, Draw};
 use crate::syntax::ast::Ref;
 
@@ -12,8 +12,8 @@ impl<'a> Checker<'a> {
     pub fn random(&mut self, function: Function, reference: &'a Ref) -> Typed {
         let span = reference.span;
         if !self.context.region.draws() {
-            self.report(
-                Diagnostic::new(
+            return self
+                .error(
                     Code::E0306,
                     span,
                     format!(
@@ -22,9 +22,8 @@ impl<'a> Checker<'a> {
                     ),
                 )
                 .label("its value would change from one look to the next")
-                .help("draw it in a `local`, an effect or a `start` line, and read that"),
-            );
-            return Typed::error(span);
+                .help("draw it in a `local`, an effect or a `start` line, and read that")
+                .typed();
         }
         match function {
             Function::Uniform | Function::Normal => {
@@ -50,15 +49,13 @@ impl<'a> Checker<'a> {
                     _ => None,
                 })
             }
-            _ => self.one_of(reference),
+            _ => self.one_of(reference).unwrap_or_else(|| Typed::error(span)),
         }
     }
 
-    fn one_of(&mut self, reference: &'a Ref) -> Typed {
+    fn one_of(&mut self, reference: &'a Ref) -> Option<Typed> {
         let span = reference.span;
-        let Some(values) = self.positional(reference, 1, usize::MAX) else {
-            return Typed::error(span);
-        };
+        let values = self.positional(reference, 1, usize::MAX)?;
         let mut choices: Vec<Typed> = Vec::new();
         for value in values {
             let next = match choices.first() {
@@ -66,28 +63,21 @@ impl<'a> Checker<'a> {
                 Some(first) => self.expect_like(value, first, "every choice of `one_of`"),
             };
             if next.ty == Type::Error {
-                return Typed::error(span);
+                return None;
             }
             choices.push(next);
         }
         let count = u32::try_from(choices.len()).unwrap_or(u32::MAX);
         let index = self.program.pool.draw(Draw::Pick(count));
         let mut choices = choices.into_iter().enumerate().rev();
-        let Some((_, mut result)) = choices.next() else {
-            return Typed::error(span);
-        };
+        let (_, mut result) = choices.next()?;
         for (i, choice) in choices {
             let i = self.program.pool.num(i as f64);
             let is = self.program.pool.binary(Binary::Eq, index, i);
-            let condition = Typed {
-                ty: Type::Bool,
-                value: Value::Scalar(is),
-                span,
-            };
+            let condition = Typed::new(Type::Bool, Value::Scalar(is), span);
             let ty = result.ty.clone();
-            result = self.select(&condition, &choice, &result, ty, span);
+            result = self.select(&condition, &choice, &result, ty, span)?;
         }
-        result.span = span;
-        result
+        Some(result)
     }
 }

@@ -4,39 +4,11 @@ use crate::check::Checker;
 use crate::check::builtin::Function;
 use crate::check::context::Region;
 use crate::check::types::{Type, Typed, Value};
-use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::expr::Expr;
-use crate::ir::task::History;
 use crate::ir::tree::Status;
 use crate::syntax::ast::Ref;
 
 impl<'a> Checker<'a> {
-    /// A history that starts with what it does not keep would be forgotten at once.
-    fn kept_in_history(&mut self, function: Function, reference: &Ref) {
-        let Some(history) = self
-            .kept
-            .filter(|_| self.context.region == Region::StartHistory)
-        else {
-            return;
-        };
-        let kept = match function {
-            Function::Failure => history.failure,
-            _ => history.success,
-        };
-        if !kept {
-            let outcome = function.name();
-            self.report(
-                Diagnostic::new(
-                    Code::E0607,
-                    reference.name.span,
-                    format!("the history of the task keeps no {outcome}"),
-                )
-                .label("so it cannot start with one")
-                .help(format!("let the task say `{}`", keeping(history, outcome))),
-            );
-        }
-    }
-
     /// `success(b)`, `failure(b)`: the behaviour ended so in this tick; in a `history` line, that it did.
     pub fn ended(&mut self, function: Function, reference: &'a Ref) -> Typed {
         let span = reference.span;
@@ -67,24 +39,19 @@ impl<'a> Checker<'a> {
             Type::Bool
         };
         let Value::Behavior(id) = behavior.value else {
-            return Typed {
-                ty: if behavior.ty == Type::Error {
+            return Typed::unknown(
+                if behavior.ty == Type::Error {
                     Type::Error
                 } else {
                     ty
                 },
-                value: Value::Unknown,
                 span,
-            };
+            );
         };
         if region == Region::StartHistory {
             let code = id.index() * 2 + usize::from(failed);
             let code = self.program.pool.num(code as f64);
-            return Typed {
-                ty,
-                value: Value::Scalar(code),
-                span,
-            };
+            return Typed::new(ty, Value::Scalar(code), span);
         }
         let status = if failed {
             Status::Failure
@@ -92,15 +59,5 @@ impl<'a> Checker<'a> {
             Status::Success
         };
         self.leaf(Expr::Ended(id, status), ty, span)
-    }
-}
-
-/// The `history` line that keeps an outcome besides what is kept already.
-pub fn keeping(history: History, outcome: &str) -> String {
-    let window = history.window.max(1);
-    if history.success || history.failure {
-        format!("history last {window} success, failure")
-    } else {
-        format!("history last {window} {outcome}")
     }
 }

@@ -3,8 +3,8 @@
 use crate::check::Checker;
 use crate::check::builtin::Function;
 use crate::check::context::Binding;
-use crate::check::types::{Type, Typed, Value};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::check::types::{Type, Typed};
+use crate::diagnostic::Code;
 use crate::syntax::ast::{ArgKind, Ident, Ref};
 
 impl<'a> Checker<'a> {
@@ -12,14 +12,12 @@ impl<'a> Checker<'a> {
     pub fn has_members(&mut self, ty: &Type, domain: &Ident) -> bool {
         let has = matches!(ty, Type::Place(_) | Type::Wall(_) | Type::Enum(_));
         if !has {
-            self.report(
-                Diagnostic::new(
-                    Code::E0302,
-                    domain.span,
-                    format!("`{}` has no members to range over", domain.name),
-                )
-                .label("a kind of places or walls, or an enum, is needed"),
-            );
+            self.error(
+                Code::E0302,
+                domain.span,
+                format!("`{}` has no members to range over", domain.name),
+            )
+            .label("a kind of places or walls, or an enum, is needed");
         }
         has
     }
@@ -35,15 +33,14 @@ impl<'a> Checker<'a> {
             _ => None,
         };
         let Some((name, domain, body)) = binder else {
-            self.report(
-                Diagnostic::new(
+            return self
+                .error(
                     Code::E0305,
                     span,
                     format!("`{}` ranges over a kind", reference.name.name),
                 )
-                .label(format!("write `{}(x in KIND: …)`", reference.name.name)),
-            );
-            return Typed::error(span);
+                .label(format!("write `{}(x in KIND: …)`", reference.name.name))
+                .typed();
         };
         let ty = self.named_type(domain);
         if ty == Type::Error {
@@ -52,26 +49,17 @@ impl<'a> Checker<'a> {
         if !self.has_members(&ty, domain) {
             return Typed::error(span);
         }
-        self.context.scope.push(Binding {
-            name: name.name.clone(),
-            ty: ty.clone(),
-            value: Value::Unknown,
-            locals: Vec::new(),
-            settable: false,
-            span: name.span,
-        });
+        self.context.scope.push(Binding::unknown(name, ty.clone()));
         if let Some(body) = body {
             let role = format!("what `{}` says of each", reference.name.name);
             self.expect(body, &Type::Bool, &role);
         } else if matches!(function, Function::Any | Function::All) {
-            self.report(
-                Diagnostic::new(
-                    Code::E0305,
-                    domain.span,
-                    format!("`{}` says nothing of its members", reference.name.name),
-                )
-                .label("a condition is missing after this: `: condition`"),
-            );
+            self.error(
+                Code::E0305,
+                domain.span,
+                format!("`{}` says nothing of its members", reference.name.name),
+            )
+            .label("a condition is missing after this: `: condition`");
             self.context.scope.pop();
             return Typed::error(span);
         }
@@ -82,10 +70,6 @@ impl<'a> Checker<'a> {
             Function::Nearest => ty,
             _ => Type::Bool,
         };
-        Typed {
-            ty,
-            value: Value::Unknown,
-            span,
-        }
+        Typed::unknown(ty, span)
     }
 }

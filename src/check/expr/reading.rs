@@ -2,9 +2,8 @@
 
 use crate::check::Checker;
 use crate::check::builtin::Function;
-use crate::check::types::units::Dim;
 use crate::check::types::{Type, Typed, Value};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::Code;
 use crate::ir::expr::{Binary, Echo, Expr, ExprId, Pose, Unary};
 use crate::ir::world::Shape;
 use crate::syntax::ast::Ref;
@@ -18,15 +17,14 @@ impl<'a> Checker<'a> {
             return Typed::error(span);
         };
         if !self.has_world {
-            self.report(
-                Diagnostic::new(
+            return self
+                .error(
                     Code::E0407,
                     reference.name.span,
                     format!("`{}` needs a world, and there is none", reference.name.name),
                 )
-                .label("read by a robot in its world"),
-            );
-            return Typed::error(span);
+                .label("read by a robot in its world")
+                .typed();
         }
         let mut targets = Vec::new();
         for value in values {
@@ -41,33 +39,28 @@ impl<'a> Checker<'a> {
                 } else {
                     "a place, a wall, a point or a sensor"
                 };
-                self.report(
-                    Diagnostic::new(
+                return self
+                    .error(
                         Code::E0302,
                         target.span,
                         format!("`{}` is read of {wanted}", reference.name.name),
                     )
-                    .label(format!("this is {}", target.ty)),
-                );
-                return Typed::error(span);
+                    .this_is(&target.ty)
+                    .typed();
             }
             targets.push(target);
         }
         let ty = match function {
-            Function::Distance => Type::Quantity(Dim::LENGTH),
+            Function::Distance => Type::LENGTH,
             Function::Visible | Function::Inside => Type::Bool,
-            _ => Type::Quantity(Dim::ANGLE),
+            _ => Type::ANGLE,
         };
         let id = match targets.as_slice() {
             [target] => self.read_one(function, target),
             [from, to] => self.distance_between(from, to),
             _ => None,
         };
-        Typed {
-            ty,
-            value: id.map_or(Value::Unknown, Value::Scalar),
-            span,
-        }
+        Typed::new(ty, id.map_or(Value::Unknown, Value::Scalar), span)
     }
 
     fn read_one(&mut self, function: Function, target: &Typed) -> Option<ExprId> {
@@ -202,18 +195,15 @@ impl<'a> Checker<'a> {
         let (name, facing) = (place.name.clone(), place.facing);
         match facing {
             Some(angle) => Some(self.program.pool.num(angle)),
-            None => {
-                self.report(
-                    Diagnostic::new(
-                        Code::E0405,
-                        target.span,
-                        format!("the place `{name}` faces nowhere"),
-                    )
-                    .label("it has no `facing`")
-                    .help(format!("declare it: `place {name} = … facing 0 deg`")),
-                );
-                None
-            }
+            None => self
+                .error(
+                    Code::E0405,
+                    target.span,
+                    format!("the place `{name}` faces nowhere"),
+                )
+                .label("it has no `facing`")
+                .help(format!("declare it: `place {name} = … facing 0 deg`"))
+                .none(),
         }
     }
 }

@@ -2,13 +2,13 @@
 
 use crate::check::Checker;
 use crate::check::context::{Context, Region};
-use crate::check::names::{learned_name, stranger, unknown};
+use crate::check::names::learned_name;
 use crate::check::types::Type;
-use crate::check::types::units::Dim;
-use crate::diagnostic::{Code, Diagnostic};
-use crate::ir::Name;
+use crate::diagnostic::Code;
 use crate::ir::expr::{Binary, Expr, ExprId};
+use crate::ir::law::Behavior;
 use crate::ir::task::{Discount, Learner, Method};
+use crate::ir::{Id, Name};
 use crate::source::Span;
 use crate::syntax::ast::{self, ExprKind, LearnEntry, Link, Ref, Setting};
 use std::collections::BTreeMap;
@@ -29,13 +29,7 @@ impl<'a> Checker<'a> {
     /// `learn name for task { … }`
     pub fn learn(&mut self, learn: &'a ast::Learn) {
         self.context = Context::new(Region::Schedule);
-        let task = self.names.tasks.get(learn.task.name.as_str()).copied();
-        if task.is_none() {
-            let diagnostic = unknown(&learn.task, "task", self.names.tasks.keys().copied());
-            self.report(diagnostic);
-        }
-        let called = Name::word(&learn.task.name);
-        let task = self.program.tasks.find(|task| task.name == called);
+        let task = self.task_of(&learn.task);
         let pool = &mut self.program.pool;
         // The defaults: steps of visits^-0.7, exploration from 30 % to 5 %.
         let visits = pool.leaf(Expr::Visits);
@@ -45,7 +39,7 @@ impl<'a> Checker<'a> {
         let explore = self.ramp(from, to);
         let mut built = Learner {
             name: Name::word(learned_name(learn)),
-            task: task.unwrap_or(crate::ir::Id::new(0)),
+            task: task.unwrap_or(Id::new(0)),
             method: Method::QLearning,
             episodes: 0,
             episode_ticks: task.map_or(0, |task| self.program.tasks[task].end_after),
@@ -71,17 +65,10 @@ impl<'a> Checker<'a> {
                     }
                 }
                 LearnEntry::Setting(setting) => {
-                    let name = setting.name.name.as_str();
-                    if let Some(first) = seen.insert(name, setting.name.span) {
-                        self.report(
-                            Diagnostic::new(
-                                Code::E0503,
-                                setting.name.span,
-                                format!("`{name}` is there twice"),
-                            )
-                            .label("said again here")
-                            .also(first, "first said here"),
-                        );
+                    let name = &setting.name;
+                    let first = *seen.entry(&name.name).or_insert(name.span);
+                    if first != name.span {
+                        self.said_twice(&name.name, name.span, first);
                         continue;
                     }
                     self.context = Context::new(Region::Schedule);
@@ -91,20 +78,17 @@ impl<'a> Checker<'a> {
             }
         }
         if let (Method::Model, Some(rate)) = (built.method, seen.get("rate")) {
-            self.report(
-                Diagnostic::new(Code::W0501, *rate, "the method `model` takes no steps")
-                    .label("this says nothing here"),
-            );
+            self.warning(Code::W0501, *rate, "the method `model` takes no steps")
+                .label("this says nothing here");
         }
         if !seen.contains_key("episodes") {
-            self.report(
-                Diagnostic::new(
-                    Code::E0502,
-                    learn.task.span,
-                    "the learner does not say its `episodes`",
-                )
-                .label("`episodes` is missing")
-                .help("for example: `episodes = 4_000`"),
+            let example = "episodes = 4_000";
+            self.missing(
+                Code::E0502,
+                learn.task.span,
+                "the learner",
+                "episodes",
+                example,
             );
         }
         if task.is_some() {
@@ -129,87 +113,48 @@ impl<'a> Checker<'a> {
                 Link::Per => "per",
                 Link::Arrow => "->",
             };
-            self.report(
-                Diagnostic::new(
-                    Code::E0501,
-                    link.span.to(tail.span),
-                    format!("`{name}` takes no `{word}`"),
-                )
-                .label("this says nothing here"),
-            );
+            self.error(
+                Code::E0501,
+                link.span.to(tail.span),
+                format!("`{name}` takes no `{word}`"),
+            )
+            .label("this says nothing here");
             return;
         }
         let tail = setting.tail.as_ref().map(|(_, tail)| tail);
+        let value = &setting.value;
         match name {
-            "method" => {
-                if let Some(method) = self.method(&setting.value) {
-                    learner.method = method;
-                }
-            }
+            "method" => learner.method = self.method(value).unwrap_or(learner.method),
             "episodes" => {
-                if let Some(n) = self.whole(&setting.value, "`episodes`", 1.0) {
-                    learner.episodes = n;
-                }
-                if let Some(tail) = tail
-                    && let Some(ticks) = self.ticks(tail, "the length of an episode")
-                {
-                    learner.episode_ticks = ticks;
-                }
+                let episodes = self.whole(value, "`episodes`", 1.0);
+                learner.episodes = episodes.unwrap_or(learner.episodes);
+                let ticks = tail.and_then(|tail| self.ticks(tail, "the length of an episode"));
+                learner.episode_ticks = ticks.unwrap_or(learner.episode_ticks);
             }
             "rate" => {
-                if let Some(id) = self.schedule(&setting.value, tail, "`rate`") {
-                    learner.rate = id;
-                }
+                let rate = self.schedule(value, tail, "`rate`");
+                learner.rate = rate.unwrap_or(learner.rate);
             }
             "explore" => {
-                if let Some(id) = self.schedule(&setting.value, tail, "`explore`") {
-                    learner.explore = id;
-                }
+                let explore = self.schedule(value, tail, "`explore`");
+                learner.explore = explore.unwrap_or(learner.explore);
             }
             "initial" => {
-                if let Some(value) = self.constant(&setting.value, &Type::NUMBER, "`initial`") {
-                    learner.initial = value;
-                }
+                let initial = self.constant(value, &Type::NUMBER, "`initial`");
+                learner.initial = initial.unwrap_or(learner.initial);
             }
-            "discount" => self.discount(setting, tail, learner),
-            "unseen" => match &setting.value.kind {
-                ExprKind::Ref(reference) => {
-                    self.context.region = Region::Tree;
-                    learner.unseen = self.behavior_ref(reference);
-                }
-                ExprKind::Error => {}
-                _ => self.report(
-                    Diagnostic::new(
-                        Code::E0203,
-                        setting.value.span,
-                        "`unseen` names a behaviour",
-                    )
-                    .label("this is an expression"),
-                ),
-            },
-            "dwell" => {
-                if let Some(ticks) = self.ticks(&setting.value, "`dwell`") {
-                    learner.dwell = ticks;
-                }
+            "discount" => {
+                let discount = self.discount(value, tail);
+                learner.discount = discount.unwrap_or(learner.discount);
             }
-            "seed" => {
-                if let Some(seed) = self.whole(&setting.value, "`seed`", 0.0) {
-                    learner.seed = seed;
-                }
+            "unseen" => learner.unseen = self.unseen(value),
+            "dwell" => learner.dwell = self.ticks(value, "`dwell`").unwrap_or(learner.dwell),
+            "seed" => learner.seed = self.whole(value, "`seed`", 0.0).unwrap_or(learner.seed),
+            _ => {
+                let (owner, name) = ("a learner", &setting.name);
+                self.unknown_to(owner, Code::E0501, name, "setting", &SETTINGS);
             }
-            _ => self.unknown_setting(setting),
         }
-    }
-
-    fn unknown_setting(&mut self, setting: &Setting) {
-        let name = &setting.name;
-        self.report(stranger(
-            Code::E0501,
-            name,
-            "a learner",
-            "setting",
-            &SETTINGS,
-        ));
     }
 
     fn method(&mut self, value: &'a ast::Expr) -> Option<Method> {
@@ -222,17 +167,30 @@ impl<'a> Checker<'a> {
         };
         let found = METHODS.iter().find(|(name, _)| *name == word);
         if found.is_none() {
-            self.report(
-                Diagnostic::new(
-                    Code::E0501,
-                    value.span,
-                    "no method of learning has this name",
-                )
-                .label("unknown")
-                .help("there are: q_learning, double_q, model"),
-            );
+            self.error(
+                Code::E0501,
+                value.span,
+                "no method of learning has this name",
+            )
+            .label("unknown")
+            .help("there are: q_learning, double_q, model");
         }
         found.map(|(_, method)| *method)
+    }
+
+    /// The behaviour that is chosen where nothing has been learned.
+    fn unseen(&mut self, value: &'a ast::Expr) -> Option<Id<Behavior>> {
+        match &value.kind {
+            ExprKind::Ref(reference) => {
+                self.context.region = Region::Tree;
+                self.behavior_ref(reference)
+            }
+            ExprKind::Error => None,
+            _ => self
+                .error(Code::E0203, value.span, "`unseen` names a behaviour")
+                .label("this is an expression")
+                .none(),
+        }
     }
 
     /// A whole number that is not less than `least`.
@@ -250,10 +208,10 @@ impl<'a> Checker<'a> {
         };
         self.out_of_range(
             value.span,
-            &format!("{role} is a whole number from {least} up"),
+            format!("{role} is a whole number from {least} up"),
             label,
-        );
-        None
+        )
+        .none()
     }
 
     /// `a`, or `a -> b`, which goes from one to the other in step with `progress`.
@@ -283,15 +241,14 @@ impl<'a> Checker<'a> {
             )
         });
         if strange {
-            self.report(
-                Diagnostic::new(
+            return self
+                .error(
                     Code::E0307,
                     value.span,
                     format!("{role} depends on `visits` and `progress` only"),
                 )
-                .label("this reads the world"),
-            );
-            return None;
+                .label("this reads the world")
+                .none();
         }
         Some(id)
     }
@@ -306,46 +263,35 @@ impl<'a> Checker<'a> {
     }
 
     /// `d per decision`, `d per 1 s`
-    fn discount(
-        &mut self,
-        setting: &'a Setting,
-        tail: Option<&'a ast::Expr>,
-        learner: &mut Learner,
-    ) {
-        let Some(factor) = self.constant(&setting.value, &Type::NUMBER, "`discount`") else {
-            return;
-        };
+    fn discount(&mut self, value: &'a ast::Expr, tail: Option<&'a ast::Expr>) -> Option<Discount> {
+        let factor = self.constant(value, &Type::NUMBER, "`discount`")?;
         if !(0.0..=1.0).contains(&factor) {
-            self.out_of_range(
-                setting.value.span,
-                "a discount goes from 0 to 1",
-                if factor > 1.0 {
-                    "later rewards would count for more than earlier ones"
-                } else {
-                    "later rewards would count against themselves"
-                },
-            );
-            return;
+            let label = if factor > 1.0 {
+                "later rewards would count for more than earlier ones"
+            } else {
+                "later rewards would count against themselves"
+            };
+            return self
+                .out_of_range(value.span, "a discount goes from 0 to 1", label)
+                .none();
         }
-        let per_decision = |tail: &ast::Expr| matches!(&tail.kind, ExprKind::Ref(Ref { name, args: None, .. }) if name.name == "decision");
-        learner.discount = match tail {
-            None => Discount::PerDecision(factor),
-            Some(tail) if per_decision(tail) => Discount::PerDecision(factor),
-            Some(tail) => {
-                let time = Type::Quantity(Dim::TIME);
-                match self.constant(tail, &time, "the time of a discount") {
-                    Some(span) if span > 0.0 => Discount::PerTime(factor, span),
-                    Some(_) => {
-                        self.out_of_range(
-                            tail.span,
-                            "the time of a discount is above zero",
-                            "no time passes in this",
-                        );
-                        return;
-                    }
-                    None => return,
-                }
-            }
+        let Some(tail) = tail.filter(|tail| !is_decision(tail)) else {
+            return Some(Discount::PerDecision(factor));
         };
+        let seconds = self.constant(tail, &Type::TIME, "the time of a discount")?;
+        if seconds > 0.0 {
+            return Some(Discount::PerTime(factor, seconds));
+        }
+        self.out_of_range(
+            tail.span,
+            "the time of a discount is above zero",
+            "no time passes in this",
+        )
+        .none()
     }
+}
+
+/// Whether an expression is the word `decision`.
+fn is_decision(expr: &ast::Expr) -> bool {
+    matches!(&expr.kind, ExprKind::Ref(Ref { name, args: None, .. }) if name.name == "decision")
 }

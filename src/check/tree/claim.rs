@@ -2,9 +2,9 @@
 
 use crate::check::Checker;
 use crate::check::context::{Context, Region};
-use crate::check::names::{Decl, unknown};
+use crate::check::names::Decl;
 use crate::check::types::Type;
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Code, suggest};
 use crate::ir::program::Event;
 use crate::ir::task::{Claim, ClaimKind, Occurrence, TreeRef};
 use crate::ir::{Id, Name};
@@ -48,21 +48,19 @@ impl<'a> Checker<'a> {
             // Declared, with mistakes that were reported.
             Some((Decl::Tree(tree), _)) if tree.params.is_none() => {}
             _ if known => {}
-            Some((Decl::Tree(_), _)) => self.report(
-                Diagnostic::new(
+            Some((Decl::Tree(_), _)) => self
+                .error(
                     Code::E0203,
                     name.span,
                     format!("the tree `{}` has parameters", name.name),
                 )
-                .label("a claim is about a whole tree"),
-            ),
+                .label("a claim is about a whole tree")
+                .emit(),
             _ => {
-                let trees = self
-                    .names
-                    .values(|decl| matches!(decl, Decl::Tree(_)))
-                    .chain(self.names.learners.keys().copied());
-                let diagnostic = unknown(name, "tree", trees);
-                self.report(diagnostic);
+                let trees = self.names.values(|decl| matches!(decl, Decl::Tree(_)));
+                let trees = trees.chain(self.names.learners.keys().copied());
+                let likely = suggest::nearest(&name.name, trees);
+                self.undeclared(name, "tree", likely);
             }
         }
         None
@@ -74,14 +72,12 @@ impl<'a> Checker<'a> {
             .as_ref()
             .or(claim.probability.as_ref().map(|(_, p)| p));
         if let Some(term) = term {
-            self.report(
-                Diagnostic::new(
-                    Code::E0608,
-                    term.span,
-                    "that two trees are equal is proved, not estimated",
-                )
-                .label("neither `within` nor `with probability` belongs here"),
-            );
+            self.error(
+                Code::E0608,
+                term.span,
+                "that two trees are equal is proved, not estimated",
+            )
+            .label("neither `within` nor `with probability` belongs here");
         }
     }
 
@@ -103,8 +99,8 @@ impl<'a> Checker<'a> {
                     p.span,
                     "a probability goes from 0% to 100%",
                     &format!("this is {} %", value * 100.0),
-                );
-                None
+                )
+                .none()
             }
         });
         Some(Occurrence {
@@ -121,34 +117,16 @@ impl<'a> Checker<'a> {
     }
 
     fn claimed_event(&mut self, event: &'a Expr) -> Option<Id<Event>> {
-        let reference = match &event.kind {
-            ExprKind::Ref(reference) => reference,
-            ExprKind::Error => return None,
-            _ => {
-                self.report(
-                    Diagnostic::new(Code::E0203, event.span, "an event is needed here")
-                        .label("this is an expression without a name")
-                        .help(format!(
-                            "declare one: `event NAME = {}`",
-                            print::expr(event)
-                        )),
-                );
-                return None;
-            }
+        let ExprKind::Ref(reference) = &event.kind else {
+            let declaration = format!("event NAME = {}", print::expr(event));
+            self.not_named(event, "an event", &declaration);
+            return None;
         };
-        match self.names.value(&reference.name.name, false) {
-            Some((Decl::Event(decl), _)) => self.events.get(decl.name.name.as_str()).copied(),
-            Some((decl, _)) => {
-                self.wrong_kind(reference, "an event", decl.what());
-                None
-            }
-            None => {
-                let events = self.names.values(|decl| matches!(decl, Decl::Event(_)));
-                let diagnostic = unknown(&reference.name, "event", events);
-                self.report(diagnostic);
-                None
-            }
-        }
+        let (decl, _) = self.declared_as(reference, "an event", |decl| match decl {
+            Decl::Event(decl) => Some(decl),
+            _ => None,
+        })?;
+        self.events.get(decl.name.name.as_str()).copied()
     }
 }
 

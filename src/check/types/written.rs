@@ -1,10 +1,10 @@
 //! Types as they are written.
 
 use crate::check::Checker;
-use crate::check::names::{TypeDecl, unknown};
+use crate::check::names::TypeDecl;
 use crate::check::types::Type;
 use crate::check::types::units::Dim;
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Code, suggest};
 use crate::syntax::ast::{Ident, TypeExpr};
 
 /// The names of built-in types.
@@ -12,12 +12,12 @@ const BUILT_IN: &[(&str, Type)] = &[
     ("bool", Type::Bool),
     ("number", Type::NUMBER),
     ("ratio", Type::Ratio),
-    ("length", Type::Quantity(Dim::LENGTH)),
-    ("time", Type::Quantity(Dim::TIME)),
-    ("angle", Type::Quantity(Dim::ANGLE)),
-    ("speed", Type::Quantity(Dim::SPEED)),
-    ("turn_rate", Type::Quantity(Dim::TURN_RATE)),
-    ("frequency", Type::Quantity(Dim::FREQUENCY)),
+    ("length", Type::LENGTH),
+    ("time", Type::TIME),
+    ("angle", Type::ANGLE),
+    ("speed", Type::SPEED),
+    ("turn_rate", Type::TURN_RATE),
+    ("frequency", Type::FREQUENCY),
     ("point", Type::Point),
     ("place", Type::Place(None)),
     ("wall", Type::Wall(None)),
@@ -38,17 +38,15 @@ impl<'a> Checker<'a> {
                 Some(factor) => dim = dim.times(factor, if *divides { -1 } else { 1 }),
                 None if ty == Type::Error => return Type::Error,
                 None => {
-                    self.report(
-                        Diagnostic::new(
-                            Code::E0304,
-                            name.span,
-                            format!(
-                                "`{}` has no unit, so it makes no product or quotient",
-                                name.name
-                            ),
-                        )
-                        .label(format!("this is {ty}")),
-                    );
+                    self.error(
+                        Code::E0304,
+                        name.span,
+                        format!(
+                            "`{}` has no unit, so it makes no product or quotient",
+                            name.name
+                        ),
+                    )
+                    .label(format!("this is {ty}"));
                     return Type::Error;
                 }
             }
@@ -66,12 +64,10 @@ impl<'a> Checker<'a> {
             Some(TypeDecl::PlaceKind(_)) => Type::Place(Some(name.name.clone())),
             Some(TypeDecl::WallKind(_)) => Type::Wall(Some(name.name.clone())),
             None => {
-                let known = BUILT_IN
-                    .iter()
-                    .map(|(name, _)| *name)
-                    .chain(self.names.types.keys().copied());
-                let diagnostic = unknown(name, "type", known);
-                self.report(diagnostic);
+                let built_in = BUILT_IN.iter().map(|(name, _)| *name);
+                let known = built_in.chain(self.names.types.keys().copied());
+                let likely = suggest::nearest(&name.name, known);
+                self.undeclared(name, "type", likely);
                 Type::Error
             }
         }

@@ -2,16 +2,13 @@
 
 use crate::check::Checker;
 use crate::check::builtin::Function;
-use crate::check::names::{Decl, unknown};
+use crate::check::names::Decl;
 use crate::check::types::Type;
-use crate::check::types::units::Dim;
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::Code;
 use crate::ir::Name;
 use crate::ir::table::Table;
 use crate::ir::world::{Contact, Drive, DriveKind, Robot};
-use crate::syntax::ast::{
-    self, Expr, ExprKind, Field, Ref, RobotEntry, RobotEntryKind, WorldEntryKind,
-};
+use crate::syntax::ast::{self, Expr, ExprKind, Ref, RobotEntry, RobotEntryKind, WorldEntryKind};
 
 impl<'a> Checker<'a> {
     /// The robot that learns; others are checked, and not built yet.
@@ -36,11 +33,9 @@ impl<'a> Checker<'a> {
                 continue;
             }
             if let Some(first) = acting {
-                self.report(
-                    Diagnostic::new(Code::E0408, name.span, "one robot learns")
-                        .label("a second robot without `runs`")
-                        .also(first.span, "the first is declared here"),
-                );
+                self.error(Code::E0408, name.span, "one robot learns")
+                    .label("a second robot without `runs`")
+                    .also(first.span, "the first is declared here");
                 continue;
             }
             acting = Some(name);
@@ -48,6 +43,7 @@ impl<'a> Checker<'a> {
         }
         if acting.is_none() {
             self.missing(
+                Code::E0402,
                 world.name.span,
                 "the world",
                 "robot",
@@ -62,60 +58,41 @@ impl<'a> Checker<'a> {
             self.not_named(value, "a tree", "tree NAME = …");
             return;
         };
-        match self.names.value(&reference.name.name, false) {
-            Some((Decl::Tree(_), _)) => {}
-            Some((decl, _)) => self.wrong_kind(reference, "a tree", decl.what()),
-            None => {
-                let trees = self.names.values(|decl| matches!(decl, Decl::Tree(_)));
-                let diagnostic = unknown(&reference.name, "tree", trees);
-                self.report(diagnostic);
-            }
-        }
+        let tree = |decl| matches!(decl, Decl::Tree(_)).then_some(());
+        self.declared_as(reference, "a tree", tree);
     }
 
     fn robot(&mut self, name: &'a ast::Ident, entries: &'a [RobotEntry]) {
-        let fields: Vec<&'a Field> = entries
-            .iter()
-            .filter_map(|entry| match &entry.kind {
-                RobotEntryKind::Field(field) => Some(field),
-                _ => None,
-            })
-            .collect();
-        self.fields(&fields, &["body", "drive", "contact", "runs"], "a robot");
-        let find = |name: &str| fields.iter().copied().find(|field| field.name.name == name);
+        let fields = entries.iter().filter_map(|entry| match &entry.kind {
+            RobotEntryKind::Field(field) => Some(field),
+            _ => None,
+        });
+        let known = ["body", "drive", "contact", "runs"];
+        let [body, drive, contact, _] = self.fields(fields, known, "a robot");
         let mut robot = Robot {
             name: Name::word(&name.name),
             ..no_robot()
         };
-        match find("body") {
-            Some(field) => {
-                if let Some(radius) = self.body(&field.value) {
-                    robot.radius = radius;
-                }
-            }
-            None => self.missing(name.span, "the robot", "body", "body = disc(17 cm)"),
-        }
-        match find("drive") {
-            Some(field) => {
-                if let Some(drive) = self.drive(&field.value) {
-                    robot.drive = drive;
-                }
-            }
-            None => self.missing(
-                name.span,
-                "the robot",
+        for (field, name_of, example) in [
+            (body, "body", "body = disc(17 cm)"),
+            (
+                drive,
                 "drive",
                 "drive = differential(max_speed = 0.4 m/s, max_turn = 2 rad/s)",
             ),
+        ] {
+            if field.is_none() {
+                self.missing(Code::E0402, name.span, "the robot", name_of, example);
+            }
         }
-        if let Some(field) = find("contact") {
-            let word = match &field.value.kind {
-                ExprKind::Ref(Ref {
-                    name, args: None, ..
-                }) => name.name.as_str(),
-                _ => "",
-            };
-            match word {
+        if let Some(radius) = body.and_then(|field| self.body(&field.value)) {
+            robot.radius = radius;
+        }
+        if let Some(drive) = drive.and_then(|field| self.drive(&field.value)) {
+            robot.drive = drive;
+        }
+        if let Some(field) = contact {
+            match word(&field.value) {
                 "stop" => robot.contact = Contact::Stop,
                 "slide" => robot.contact = Contact::Slide,
                 _ => self.choice_of(&field.value, "`contact`", &["stop", "slide"]),
@@ -160,35 +137,40 @@ impl<'a> Checker<'a> {
                 return None;
             }
         };
-        let speed = Type::Quantity(Dim::SPEED);
-        let turn = Type::Quantity(Dim::TURN_RATE);
-        let mut settings = self.settings(
+        let [max_speed, max_turn, speed_noise, turn_noise] = self.settings(
             reference?,
-            &[
-                ("max_speed", speed.clone(), None),
-                ("max_turn", turn.clone(), None),
-                ("speed_noise", speed, Some(0.0)),
-                ("turn_noise", turn, Some(0.0)),
+            [
+                ("max_speed", Type::SPEED, None),
+                ("max_turn", Type::TURN_RATE, None),
+                ("speed_noise", Type::SPEED, Some(0.0)),
+                ("turn_noise", Type::TURN_RATE, Some(0.0)),
             ],
         )?;
-        for (value, span) in settings.iter().take(2) {
-            if *value <= 0.0 {
-                self.out_of_range(
-                    *span,
-                    "the limit of a drive is above zero",
-                    "this robot could not move",
-                );
-                return None;
+        for (limit, span) in [max_speed, max_turn] {
+            if limit <= 0.0 {
+                let label = "this robot could not move";
+                return self
+                    .out_of_range(span, "the limit of a drive is above zero", label)
+                    .none();
             }
         }
-        let mut next = settings.drain(..).map(|(value, _)| value);
         Some(Drive {
             kind,
-            max_speed: next.next()?,
-            max_turn: next.next()?,
-            speed_noise: next.next()?,
-            turn_noise: next.next()?,
+            max_speed: max_speed.0,
+            max_turn: max_turn.0,
+            speed_noise: speed_noise.0,
+            turn_noise: turn_noise.0,
         })
+    }
+}
+
+/// The word that a value is; empty if it is anything else.
+fn word(value: &Expr) -> &str {
+    match &value.kind {
+        ExprKind::Ref(Ref {
+            name, args: None, ..
+        }) => &name.name,
+        _ => "",
     }
 }
 

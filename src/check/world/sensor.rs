@@ -1,12 +1,14 @@
 //! Sensors of a robot.
 
 use crate::check::Checker;
-use crate::check::types::units::Dim;
 use crate::check::types::{Type, Value};
+use crate::diagnostic::Code;
 use crate::ir::Name;
 use crate::ir::world::{Point, Sensor, SensorKind};
-use crate::syntax::ast::{self, ArgKind, Expr, ExprKind, Ref};
-use std::f64::consts::TAU;
+use crate::math::wrap;
+use crate::source::Span;
+use crate::syntax::ast::{self, Expr, ExprKind};
+use std::f64::consts::{PI, TAU};
 
 /// What a sensor can be, as it is offered.
 const SENSORS: [&str; 3] = ["scanner(…)", "range_finder(…)", "beacon(…)"];
@@ -18,54 +20,54 @@ impl<'a> Checker<'a> {
             self.choice_of(value, "a sensor", &SENSORS);
             return None;
         };
-        let angle = Type::Quantity(Dim::ANGLE);
-        let length = Type::Quantity(Dim::LENGTH);
-        let noise = ("noise", length.clone(), Some(0.0));
+        let noise = ("noise", Type::LENGTH, Some(0.0));
         let (kind, noise) = match reference.name.name.as_str() {
             "scanner" => {
-                let set = self.settings(
+                let [(from, at), (to, _), (range, far), (noise, _)] = self.settings(
                     reference,
-                    &[
-                        ("from", angle.clone(), None),
-                        ("to", angle, None),
-                        ("range", length, None),
+                    [
+                        ("from", Type::ANGLE, None),
+                        ("to", Type::ANGLE, None),
+                        ("range", Type::LENGTH, None),
                         noise,
                     ],
                 )?;
-                let [(from, at), (to, _), (range, far), (noise, _)] = *set.as_slice() else {
-                    return None;
-                };
                 if !(from < to && to - from <= TAU + 1e-9) {
-                    self.out_of_range(
-                        at,
-                        "a sector goes counter-clockwise, at most once round",
-                        "`to` lies above this, by 360 deg at most",
-                    );
-                    return None;
+                    return self
+                        .out_of_range(
+                            at,
+                            "a sector goes counter-clockwise, at most once round",
+                            "`to` lies above this, by 360 deg at most",
+                        )
+                        .none();
                 }
                 self.positive(range, far)?;
                 (SensorKind::Scanner { from, to, range }, noise)
             }
             "range_finder" => {
-                let set = self.settings(
+                let [(at, _), (range, far), (noise, _)] = self.settings(
                     reference,
-                    &[("at", angle, None), ("range", length, None), noise],
+                    [
+                        ("at", Type::ANGLE, None),
+                        ("range", Type::LENGTH, None),
+                        noise,
+                    ],
                 )?;
-                let [(at, _), (range, far), (noise, _)] = *set.as_slice() else {
-                    return None;
-                };
                 self.positive(range, far)?;
                 (SensorKind::RangeFinder { at, range }, noise)
             }
             "beacon" => {
-                let (target, facing) = self.beacon_target(reference)?;
-                let set = self.settings(
+                let (target, settings) = self.settings_after(
+                    Some("target"),
                     reference,
-                    &[("range", length, None), ("sector", angle, Some(TAU)), noise],
-                )?;
-                let [(range, far), (sector, _), (noise, _)] = *set.as_slice() else {
-                    return None;
-                };
+                    [
+                        ("range", Type::LENGTH, None),
+                        ("sector", Type::ANGLE, Some(TAU)),
+                        noise,
+                    ],
+                );
+                let (target, facing) = self.beacon_target(target, reference.name.span)?;
+                let [(range, far), (sector, _), (noise, _)] = settings?;
                 self.positive(range, far)?;
                 let kind = SensorKind::Beacon {
                     target,
@@ -88,32 +90,26 @@ impl<'a> Checker<'a> {
     }
 
     /// The `target` of a beacon: a place, whose `facing` is the way that it sends, against the robot that faces it.
-    fn beacon_target(&mut self, reference: &'a Ref) -> Option<(Point, f64)> {
-        let named = reference
-            .args
-            .iter()
-            .flatten()
-            .find_map(|arg| match &arg.kind {
-                ArgKind::Named(name, value) if name.name == "target" => Some(value),
-                _ => None,
-            });
-        let Some(value) = named else {
-            self.missing(
-                reference.name.span,
-                "`beacon(…)`",
-                "target",
-                "beacon(target = C, …)",
-            );
+    fn beacon_target(&mut self, target: Option<&'a Expr>, beacon: Span) -> Option<(Point, f64)> {
+        let Some(target) = target else {
+            let example = "beacon(target = C, …)";
+            self.missing(Code::E0402, beacon, "`beacon(…)`", "target", example);
             return None;
         };
-        let target = self.expect(value, &Type::Place(None), "the target of a beacon");
+        let target = self.expect(target, &Type::Place(None), "the target of a beacon");
         let Value::Place(id) = target.value else {
             return None;
         };
         let place = &self.program.world.as_ref()?.places[id];
-        let sends = place.facing.map_or(0.0, |facing| {
-            crate::math::wrap(facing + std::f64::consts::PI)
-        });
+        let sends = place.facing.map_or(0.0, |facing| wrap(facing + PI));
         Some((place.shape.center(), sends))
+    }
+
+    fn positive(&mut self, range: f64, span: Span) -> Option<()> {
+        if range > 0.0 {
+            return Some(());
+        }
+        self.out_of_range(span, "a range is above zero", "this would sense nothing")
+            .none()
     }
 }

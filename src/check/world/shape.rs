@@ -2,9 +2,8 @@
 
 use crate::check::Checker;
 use crate::check::builtin::Function;
-use crate::check::types::units::Dim;
 use crate::check::types::{Type, Value};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::Code;
 use crate::ir::world::{Point, Shape};
 use crate::source::Span;
 use crate::syntax::ast::{self, Ref};
@@ -74,7 +73,7 @@ impl<'a> Checker<'a> {
 
     /// A length above zero.
     pub fn radius(&mut self, value: &'a ast::Expr) -> Option<f64> {
-        let length = Type::Quantity(Dim::LENGTH);
+        let length = Type::LENGTH;
         let radius = self.constant(value, &length, "a radius")?;
         if radius > 0.0 {
             Some(radius)
@@ -102,26 +101,17 @@ impl<'a> Checker<'a> {
 
     fn constant_point(&mut self, value: &'a ast::Expr) -> Option<Point> {
         let typed = self.expect(value, &Type::Point, "a corner or a centre");
-        let (x, y) = match typed.value {
-            Value::Point(x, y) => (x, y),
-            _ => return None,
+        let Value::Point(x, y) = typed.value else {
+            return None;
         };
-        let mut coordinate = |id| {
-            let part = crate::check::types::Typed {
-                value: Value::Scalar(id),
-                ..typed.clone()
-            };
-            self.constant_of(&part, "a point of the world")
-        };
+        let mut coordinate = |id| self.constant_part(id, typed.span, "a point of the world");
         Some([coordinate(x)?, coordinate(y)?])
     }
 
     fn senseless<T>(&mut self, span: Span, what: &str) -> Option<T> {
-        self.report(
-            Diagnostic::new(Code::E0404, span, format!("{what} is no shape"))
-                .label("no robot could meet this"),
-        );
-        None
+        self.error(Code::E0404, span, format!("{what} is no shape"))
+            .label("no robot could meet this")
+            .none()
     }
 }
 

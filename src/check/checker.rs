@@ -1,0 +1,140 @@
+//! What the passes share, and their order.
+
+use super::body::Bodies;
+use super::context::{Bound, Context, Region};
+use super::decl::behavior::BehaviorId;
+use super::decl::event::EventId;
+use super::decl::predicate::PredicateId;
+use super::decl::state::StateSlot;
+use super::names::Names;
+use super::{Checked, Input};
+use crate::diagnostic::{self, Diagnostic};
+use crate::ir::task::History;
+use crate::ir::{Name, Program};
+use crate::source::Span;
+use crate::syntax::ast::{ItemKind, Outcome};
+use std::collections::BTreeMap;
+
+/// What the passes share.
+pub struct Checker<'a> {
+    /// Every declared name.
+    pub names: Names<'a>,
+    /// The program, as far as it is checked.
+    pub program: Program,
+    /// What has been reported.
+    pub diagnostics: Vec<Diagnostic>,
+    /// Where the expression at hand stands.
+    pub context: Context<'a>,
+    /// The bodies that have been checked or are being checked.
+    pub bodies: Bodies<'a>,
+    /// How many expressions are being checked within one another.
+    pub depth: usize,
+    /// What the history of the task at hand keeps, while its `start` is checked.
+    pub kept: Option<History>,
+    /// Where the tree at hand asks the history window.
+    pub asked: Vec<(Span, Outcome)>,
+    /// The names that bodies of the user bind, by where they are bound.
+    pub bound: BTreeMap<Span, Bound<'a>>,
+    /// The predicates, by name with arguments; `None` for one with a mistake.
+    pub predicates: BTreeMap<Name, Option<PredicateId>>,
+    /// The behaviours, by name with arguments; `None` for one with a mistake.
+    pub behaviors: BTreeMap<Name, Option<BehaviorId>>,
+    /// The states, by name.
+    pub states: BTreeMap<&'a str, StateSlot>,
+    /// The events that have been checked, by name.
+    pub events: BTreeMap<&'a str, EventId>,
+    /// The length of a tick in seconds, once the world has said it.
+    pub tick: Option<f64>,
+    /// Whether there is a world, right or wrong.
+    pub has_world: bool,
+}
+
+impl<'a> Checker<'a> {
+    /// Knows the names of the files, and nothing of what they mean.
+    pub fn new(files: &[Input<'a>]) -> Self {
+        let mut diagnostics = Vec::new();
+        Self {
+            names: Names::collect(files, &mut diagnostics),
+            program: Program::default(),
+            diagnostics,
+            context: Context::new(Region::World),
+            bodies: Bodies::default(),
+            depth: 0,
+            kept: None,
+            asked: Vec::new(),
+            bound: BTreeMap::new(),
+            predicates: BTreeMap::new(),
+            behaviors: BTreeMap::new(),
+            states: BTreeMap::new(),
+            events: BTreeMap::new(),
+            tick: None,
+            has_world: false,
+        }
+    }
+
+    /// The passes in their order: each reads only what earlier ones have made.
+    pub fn program(&mut self, files: &[Input<'a>]) {
+        let own = files.iter().filter(|input| !input.library);
+        let items = || own.clone().flat_map(|input| &input.ast.items);
+        self.worlds(items());
+        for item in items() {
+            match &item.kind {
+                ItemKind::State(state) => self.state(state),
+                ItemKind::Enum(decl) => self.enumeration(decl),
+                _ => {}
+            }
+        }
+        for item in items() {
+            match &item.kind {
+                ItemKind::Let(shared) => self.shared(shared),
+                ItemKind::Behavior(behavior) => self.behavior(behavior),
+                _ => {}
+            }
+        }
+        for item in items() {
+            match &item.kind {
+                ItemKind::World(world) => self.conditions_of_walls(world),
+                ItemKind::Predicate(predicate) => self.predicate(predicate),
+                ItemKind::Event(event) => self.event(event),
+                _ => {}
+            }
+        }
+        for item in items() {
+            match &item.kind {
+                ItemKind::EachTick(block) => self.each_tick(block),
+                ItemKind::On(on) => self.on(on),
+                _ => {}
+            }
+        }
+        for item in items() {
+            if let ItemKind::Task(task) = &item.kind {
+                self.task(task);
+            }
+        }
+        for item in items() {
+            if let ItemKind::Learn(learn) = &item.kind {
+                self.learn(learn);
+            }
+        }
+        for item in items() {
+            if let ItemKind::Tree(tree) = &item.kind {
+                self.tree(tree, &item.docs);
+            }
+        }
+        for item in items() {
+            if let ItemKind::Claim(claim) = &item.kind {
+                self.claim(claim);
+            }
+        }
+        self.unread_names();
+    }
+
+    /// The program with every mistake and warning, in the order of the text.
+    pub fn checked(mut self) -> Checked {
+        diagnostic::sort(&mut self.diagnostics);
+        Checked {
+            program: self.program,
+            diagnostics: self.diagnostics,
+        }
+    }
+}

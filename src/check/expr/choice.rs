@@ -1,0 +1,100 @@
+//! Choices, and the values that blocks yield.
+
+use crate::check::Checker;
+use crate::check::context::Binding;
+use crate::check::types::{Type, Typed, Value};
+use crate::source::Span;
+use crate::syntax::ast::{self, Expr, Otherwise};
+
+impl<'a> Checker<'a> {
+    /// `if … { … } else { … }`
+    pub fn choice(&mut self, choice: &'a ast::Choice, span: Span) -> Option<Typed> {
+        let condition = self.expect(&choice.cond, &Type::Bool, "a condition");
+        let then = self.yielded(&choice.then);
+        let (otherwise, last) = match &choice.otherwise {
+            Otherwise::If(inner, span) => (self.choice(inner, *span), None),
+            Otherwise::Yield(other) => (Some(self.yielded(other)), Some(&*other.value)),
+        };
+        let otherwise = otherwise?;
+        if then.ty == Type::Error || otherwise.ty == Type::Error {
+            return None;
+        }
+        if !otherwise.ty.fits(&then.ty) {
+            let units = then.ty.dim().filter(|_| otherwise.ty.dim().is_some());
+            let what = if units.is_some() { "unit" } else { "type" };
+            let message = format!("both sides of a choice are of one {what}");
+            let draft = self
+                .unlike(&otherwise, &then.ty, message)
+                .this_is(&otherwise.ty)
+                .also(then.span, format!("this is {}", then.ty));
+            return match last {
+                Some(expr) => draft.unit_for(expr, then.ty.dim()).none(),
+                None => draft.none(),
+            };
+        }
+        let ty = then.ty.clone();
+        self.select(&condition, &then, &otherwise, ty, span)
+    }
+
+    /// A choice between two values of one type.
+    pub fn select(
+        &mut self,
+        condition: &Typed,
+        then: &Typed,
+        otherwise: &Typed,
+        ty: Type,
+        span: Span,
+    ) -> Option<Typed> {
+        let pool = &mut self.program.pool;
+        let value = match (condition.scalar(), &then.value, &otherwise.value) {
+            (Some(c), Value::Scalar(a), Value::Scalar(b)) => Value::Scalar(pool.select(c, *a, *b)),
+            (Some(c), Value::Point(ax, ay), Value::Point(bx, by)) => {
+                Value::Point(pool.select(c, *ax, *bx), pool.select(c, *ay, *by))
+            }
+            (Some(_), Value::Unknown, _) | (Some(_), _, Value::Unknown) | (None, ..) => {
+                Value::Unknown
+            }
+            (Some(c), a, b) => match pool.constant(c) {
+                Some(holds) => if holds != 0.0 { a } else { b }.clone(),
+                None if a == b => a.clone(),
+                None => {
+                    self.not_yet(span, "targets that are chosen while the program runs");
+                    return None;
+                }
+            },
+        };
+        Some(Typed::new(ty, value, span))
+    }
+
+    /// `{ let … value }`
+    pub fn yielded(&mut self, body: &'a ast::Yield) -> Typed {
+        let depth = self.context.scope.len();
+        for binding in &body.bindings {
+            let Typed { ty, value, .. } = self.binding_value(binding);
+            self.bind(Binding::new(&binding.name, ty, value), "value", depth);
+        }
+        let value = self.expr(&body.value);
+        self.context.scope.truncate(depth);
+        value
+    }
+
+    /// The value of a `let`, of the type that it says.
+    pub fn binding_value(&mut self, binding: &'a ast::Binding) -> Typed {
+        self.declared(binding.ty.as_ref(), &binding.value, &binding.name.name)
+    }
+
+    /// A value of the type that is written beside it, if one is.
+    pub fn declared(&mut self, ty: Option<&ast::TypeExpr>, value: &'a Expr, name: &str) -> Typed {
+        match ty {
+            Some(written) => {
+                let ty = self.type_expr(written);
+                let mut typed = self.expect(value, &ty, &format!("`{name}`"));
+                if ty != Type::Error {
+                    typed.ty = ty;
+                }
+                typed
+            }
+            None => self.expr(value),
+        }
+    }
+}

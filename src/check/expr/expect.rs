@@ -1,0 +1,150 @@
+//! Expressions that have to be of a type, constants, numbers.
+
+use crate::check::Checker;
+use crate::check::report::Draft;
+use crate::check::types::units::Dim;
+use crate::check::types::{Type, Typed};
+use crate::diagnostic::{Applicability, Code};
+use crate::ir::expr::ExprId;
+use crate::source::Span;
+use crate::syntax::ast::{Expr, ExprKind};
+
+impl<'a> Checker<'a> {
+    /// Checks an expression that has to be of a type.
+    pub fn expect(&mut self, expr: &'a Expr, wanted: &Type, role: &str) -> Typed {
+        let typed = self.expr(expr);
+        self.coerce(typed, expr, wanted, role)
+    }
+
+    /// Reports an expression that is not of the wanted type; what comes back is of that type or an error.
+    pub fn coerce(&mut self, typed: Typed, expr: &Expr, wanted: &Type, role: &str) -> Typed {
+        if typed.ty.fits(wanted) {
+            self.warn_plain_ratio(expr, wanted);
+            return typed;
+        }
+        self.mismatch(&typed, expr, wanted, role).typed()
+    }
+
+    /// Checks an expression that has to be of the type of another one.
+    pub fn expect_like(&mut self, expr: &'a Expr, first: &Typed, role: &str) -> Typed {
+        let typed = self.expr(expr);
+        if typed.ty.fits(&first.ty) {
+            self.warn_plain_ratio(expr, &first.ty);
+            return typed;
+        }
+        self.mismatch(&typed, expr, &first.ty, role)
+            .also(first.span, format!("this is {}", first.ty))
+            .typed()
+    }
+
+    fn mismatch(&mut self, typed: &Typed, expr: &Expr, wanted: &Type, role: &str) -> Draft<'_> {
+        let message = format!("{role} is {wanted}, not {}", typed.ty);
+        self.unlike(typed, wanted, message)
+            .this_is(&typed.ty)
+            .unit_for(expr, wanted.dim().filter(|_| typed.ty.dim().is_some()))
+    }
+
+    /// Reports an expression whose unit, or else whose type, is not that of `wanted`.
+    pub fn unlike(&mut self, typed: &Typed, wanted: &Type, message: String) -> Draft<'_> {
+        let code = match (typed.ty.dim(), wanted.dim()) {
+            (Some(_), Some(_)) => Code::E0301,
+            _ => Code::E0302,
+        };
+        self.error(code, typed.span, message)
+    }
+
+    /// Checks an expression that has to be a constant number of a dimension.
+    pub fn constant(&mut self, expr: &'a Expr, wanted: &Type, role: &str) -> Option<f64> {
+        let typed = self.expect(expr, wanted, role);
+        self.constant_part(typed.scalar()?, typed.span, role)
+    }
+
+    /// The number that a part of the expression at `span` is; reported where it is not a finite constant.
+    pub fn constant_part(&mut self, part: ExprId, span: Span, role: &str) -> Option<f64> {
+        match self.program.pool.constant(part) {
+            Some(number) if number.is_finite() => Some(number),
+            Some(number) => self
+                .error(Code::E0309, span, format!("{role} is not a number"))
+                .label(if number.is_nan() {
+                    "the result is undefined"
+                } else {
+                    "the result is infinite"
+                })
+                .none(),
+            None => self
+                .error(Code::E0303, span, format!("{role} has to be a constant"))
+                .label("this changes as the program runs")
+                .none(),
+        }
+    }
+
+    /// The dimension of a number; anything else is reported.
+    pub fn number(&mut self, typed: &Typed) -> Option<Dim> {
+        if typed.ty == Type::Error {
+            return None;
+        }
+        let dim = typed.ty.dim();
+        if dim.is_none() {
+            self.error(
+                Code::E0302,
+                typed.span,
+                format!("a number is needed here, not {}", typed.ty),
+            )
+            .this_is(&typed.ty);
+        }
+        dim
+    }
+
+    /// `battery <= 25`: a plain number above 1 where a ratio is meant.
+    pub fn warn_plain_ratio(&mut self, expr: &Expr, wanted: &Type) {
+        if *wanted != Type::Ratio {
+            return;
+        }
+        if let ExprKind::Number(literal) = &expr.kind
+            && literal.unit.is_none()
+            && literal.value > 1.0
+        {
+            let digits = &literal.digits;
+            let message = format!("`{digits}` stands for {} %", literal.value * 100.0);
+            let percent = format!("{digits}%");
+            self.warning(Code::W0301, expr.span, message)
+                .label("a ratio goes from 0 to 1, or from 0% to 100%")
+                .fix(
+                    format!("write `{percent}`"),
+                    expr.span,
+                    percent,
+                    Applicability::Unsafe,
+                );
+        }
+    }
+}
+
+/// Whether an expression is a literal without a unit, perhaps signed.
+pub fn is_literal(expr: &Expr) -> bool {
+    match &expr.kind {
+        ExprKind::Number(literal) => literal.unit.is_none(),
+        ExprKind::Unary { operand, .. } => is_literal(operand),
+        ExprKind::Paren(inner) => is_literal(inner),
+        _ => false,
+    }
+}
+
+impl Draft<'_> {
+    /// Offers to write the unit of a dimension after a literal that lacks it.
+    pub fn unit_for(self, expr: &Expr, dim: Option<Dim>) -> Self {
+        let Some(unit) = dim.filter(|_| is_literal(expr)).and_then(Dim::unit) else {
+            return self;
+        };
+        let zero = matches!(&expr.kind, ExprKind::Number(literal) if literal.value == 0.0);
+        self.fix(
+            format!("give it its unit, ` {unit}`"),
+            expr.span.after(),
+            format!(" {unit}"),
+            if zero {
+                Applicability::Safe
+            } else {
+                Applicability::Unsafe
+            },
+        )
+    }
+}

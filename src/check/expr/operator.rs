@@ -1,0 +1,265 @@
+//! Operators.
+
+use crate::check::Checker;
+use crate::check::expr::expect::is_literal;
+use crate::check::types::units::Dim;
+use crate::check::types::{Type, Typed, Value};
+use crate::diagnostic::Code;
+use crate::ir::Pool;
+use crate::ir::expr::{Binary, ExprId, Unary};
+use crate::source::Span;
+use crate::syntax::ast::{self, BinaryOp, Expr, UnaryOp};
+
+impl<'a> Checker<'a> {
+    /// `not a`, `-a`, `+a`
+    pub fn unary(&mut self, op: UnaryOp, operand: &'a Expr, span: Span) -> Option<Typed> {
+        if op == UnaryOp::Not {
+            let operand = self.expect(operand, &Type::Bool, "what `not` negates");
+            return Some(self.lift(Type::Bool, span, [&operand], |pool, [a]| pool.not(a)));
+        }
+        let operand = self.expr(operand);
+        if operand.ty == Type::Error {
+            return None;
+        }
+        if operand.ty.dim().is_none() {
+            let message = format!("a sign stands before a number, not before {}", operand.ty);
+            return self
+                .error(Code::E0302, operand.span, message)
+                .this_is(&operand.ty)
+                .none();
+        }
+        let ty = operand.ty.clone();
+        Some(self.lift(ty, span, [&operand], |pool, [a]| match op {
+            UnaryOp::Neg => pool.unary(Unary::Neg, a),
+            _ => a,
+        }))
+    }
+
+    /// `a + b` and its like
+    pub fn binary(
+        &mut self,
+        op: ast::Spanned<BinaryOp>,
+        left: &'a Expr,
+        right: &'a Expr,
+        span: Span,
+    ) -> Option<Typed> {
+        let both = |checker: &mut Self, word: &str, op: Binary| {
+            let role = format!("each side of `{word}`");
+            let a = checker.expect(left, &Type::Bool, &role);
+            let b = checker.expect(right, &Type::Bool, &role);
+            Some(checker.lift_binary(op, Type::Bool, &a, &b, span))
+        };
+        match op.node {
+            BinaryOp::And => both(self, "and", Binary::And),
+            BinaryOp::Or => both(self, "or", Binary::Or),
+            BinaryOp::Eq
+            | BinaryOp::Ne
+            | BinaryOp::Lt
+            | BinaryOp::Le
+            | BinaryOp::Gt
+            | BinaryOp::Ge => Some(self.comparison(op, left, right, span)),
+            BinaryOp::Add => self.sum(Binary::Add, op, left, right, span),
+            BinaryOp::Sub => self.sum(Binary::Sub, op, left, right, span),
+            BinaryOp::Mul => self.product(Binary::Mul, left, right, span),
+            BinaryOp::Div => self.product(Binary::Div, left, right, span),
+            BinaryOp::Pow => self.power(left, right, span),
+        }
+    }
+
+    fn sum(
+        &mut self,
+        of: Binary,
+        op: ast::Spanned<BinaryOp>,
+        left: &'a Expr,
+        right: &'a Expr,
+        span: Span,
+    ) -> Option<Typed> {
+        let (a, b) = (self.expr(left), self.expr(right));
+        let (a, b) = self.same_dimension(op, (left, a), (right, b))?;
+        let ty = match (&a.ty, &b.ty) {
+            (Type::Ratio, _) | (_, Type::Ratio) => Type::Ratio,
+            _ => a.ty.clone(),
+        };
+        Some(self.lift_binary(of, ty, &a, &b, span))
+    }
+
+    fn product(
+        &mut self,
+        of: Binary,
+        left: &'a Expr,
+        right: &'a Expr,
+        span: Span,
+    ) -> Option<Typed> {
+        let (a, b) = (self.expr(left), self.expr(right));
+        let (x, y) = (self.number(&a), self.number(&b));
+        let (x, y) = (x?, y?);
+        let power = if of == Binary::Mul { 1 } else { -1 };
+        let ty = match (&a.ty, &b.ty) {
+            (Type::Ratio, Type::Ratio) if power == 1 => Type::Ratio,
+            _ => Type::Quantity(x.times(y, power)),
+        };
+        Some(self.lift_binary(of, ty, &a, &b, span))
+    }
+
+    fn comparison(
+        &mut self,
+        op: ast::Spanned<BinaryOp>,
+        left: &'a Expr,
+        right: &'a Expr,
+        span: Span,
+    ) -> Typed {
+        let (a, b) = (self.expr(left), self.expr(right));
+        if a.ty == Type::Error || b.ty == Type::Error {
+            return Typed::unknown(Type::Bool, span);
+        }
+        let equality = matches!(op.node, BinaryOp::Eq | BinaryOp::Ne);
+        let words = matches!(a.ty, Type::Bool | Type::Enum(_)) && a.ty == b.ty;
+        let operands = if equality && words {
+            Some((a, b))
+        } else if a.ty.dim().is_some() && b.ty.dim().is_some() {
+            self.same_dimension(op, (left, a), (right, b))
+        } else {
+            self.incomparable(op.span, &a, &b);
+            None
+        };
+        let Some((a, b)) = operands else {
+            return Typed::unknown(Type::Bool, span);
+        };
+        self.warn_plain_ratio(left, &b.ty);
+        self.warn_plain_ratio(right, &a.ty);
+        let (op, a, b) = match op.node {
+            BinaryOp::Eq => (Binary::Eq, a, b),
+            BinaryOp::Ne => (Binary::Ne, a, b),
+            BinaryOp::Lt => (Binary::Lt, a, b),
+            BinaryOp::Le => (Binary::Le, a, b),
+            BinaryOp::Gt => (Binary::Lt, b, a),
+            _ => (Binary::Le, b, a),
+        };
+        self.lift_binary(op, Type::Bool, &a, &b, span)
+    }
+
+    /// `base ^ exponent`: with a unit, the exponent has to be a whole constant.
+    fn power(&mut self, base: &'a Expr, exponent: &'a Expr, span: Span) -> Option<Typed> {
+        let base = self.expr(base);
+        let power = self.expect(exponent, &Type::NUMBER, "an exponent");
+        let dim = self.number(&base)?;
+        let ty = if dim == Dim::NONE {
+            Type::NUMBER
+        } else {
+            let known = power.scalar().and_then(|id| self.program.pool.constant(id));
+            match known {
+                Some(n) if n.fract() == 0.0 && n.abs() <= 16.0 => {
+                    Type::Quantity(Dim::NONE.times(dim, n as i32))
+                }
+                _ if power.ty == Type::Error => return None,
+                _ => {
+                    return self
+                        .error(
+                            Code::E0308,
+                            power.span,
+                            format!("{dim} can only be raised to a whole constant"),
+                        )
+                        .label("the unit of the result would not be known")
+                        .none();
+                }
+            }
+        };
+        Some(self.lift_binary(Binary::Pow, ty, &base, &power, span))
+    }
+
+    /// Both operands, if they are numbers of one dimension; reported if not.
+    fn same_dimension(
+        &mut self,
+        op: ast::Spanned<BinaryOp>,
+        (left, a): (&Expr, Typed),
+        (right, b): (&Expr, Typed),
+    ) -> Option<(Typed, Typed)> {
+        let (x, y) = (self.number(&a), self.number(&b));
+        let (x, y) = (x?, y?);
+        if x == y {
+            return Some((a, b));
+        }
+        let verb = match op.node {
+            BinaryOp::Add => "added to",
+            BinaryOp::Sub => "subtracted from",
+            _ => "compared with",
+        };
+        let (one, other) = if op.node == BinaryOp::Sub {
+            (&b.ty, &a.ty)
+        } else {
+            (&a.ty, &b.ty)
+        };
+        let message = format!("{one} cannot be {verb} {other}");
+        // The side without a unit is the likely mistake.
+        let (wrong, expr, fine, dim) = if x == Dim::NONE && is_literal(left) {
+            (&a, left, &b, y)
+        } else {
+            (&b, right, &a, x)
+        };
+        self.error(Code::E0301, wrong.span, message)
+            .this_is(&wrong.ty)
+            .also(fine.span, format!("this is {}", fine.ty))
+            .unit_for(expr, Some(dim))
+            .none()
+    }
+
+    /// Reports why two values are not compared: they are of different types, or such values are never compared.
+    fn incomparable(&mut self, op: Span, a: &Typed, b: &Typed) {
+        if a.ty != b.ty {
+            let message = format!("{} cannot be compared with {}", a.ty, b.ty);
+            self.error(Code::E0302, b.span, message)
+                .this_is(&b.ty)
+                .also(a.span, format!("this is {}", a.ty));
+            return;
+        }
+        let (message, label) = match a.ty {
+            Type::Bool => (
+                "truth values have no order",
+                "only `==` and `!=` compare them",
+            ),
+            Type::Enum(_) => (
+                "the values of an enum have no order",
+                "only `==` and `!=` compare them",
+            ),
+            _ => (
+                "only numbers, truth values and enums are compared",
+                "these are none of them",
+            ),
+        };
+        self.error(Code::E0302, op, message)
+            .label(label)
+            .also(a.span, format!("this is {}", a.ty));
+    }
+
+    /// A value that is made of scalars; unknown where one of them is.
+    pub fn lifted(
+        &mut self,
+        ty: Type,
+        span: Span,
+        operands: &[&Typed],
+        make: impl FnOnce(&mut Pool, &[ExprId]) -> Option<ExprId>,
+    ) -> Typed {
+        let ids: Option<Vec<ExprId>> = operands.iter().map(|operand| operand.scalar()).collect();
+        let value = ids
+            .and_then(|ids| make(&mut self.program.pool, &ids))
+            .map_or(Value::Unknown, Value::Scalar);
+        Typed::new(ty, value, span)
+    }
+
+    /// A value that is made of as many scalars; unknown where one of them is.
+    pub fn lift<const N: usize>(
+        &mut self,
+        ty: Type,
+        span: Span,
+        operands: [&Typed; N],
+        make: impl FnOnce(&mut Pool, [ExprId; N]) -> ExprId,
+    ) -> Typed {
+        let ids: Option<Vec<ExprId>> = operands.iter().map(|operand| operand.scalar()).collect();
+        let ids = ids.and_then(|ids| ids.try_into().ok());
+        Typed::new(ty, ids.map(|ids| make(&mut self.program.pool, ids)), span)
+    }
+
+    fn lift_binary(&mut self, op: Binary, ty: Type, a: &Typed, b: &Typed, span: Span) -> Typed {
+        self.lift(ty, span, [a, b], |pool, [a, b]| pool.binary(op, a, b))
+    }
+}

@@ -1,0 +1,166 @@
+//! Collecting the declared names: each once in its space.
+
+use super::{Decl, Names, START_WORDS, TypeDecl, is_built_in, learned_name};
+use crate::check::Input;
+use crate::check::report::Draft;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::syntax::ast::{Ident, Item, ItemKind, RobotEntryKind, World, WorldEntryKind};
+
+impl<'a> Names<'a> {
+    /// Collects the names of all files; a name that is declared twice is reported once.
+    pub fn collect(files: &[Input<'a>], diagnostics: &mut Vec<Diagnostic>) -> Self {
+        let mut names = Self::default();
+        for input in files {
+            let mut collector = Collector {
+                names: &mut names,
+                library: input.library,
+                diagnostics,
+            };
+            for item in &input.ast.items {
+                collector.item(item);
+            }
+        }
+        names
+    }
+}
+
+/// Declares the names of one file.
+struct Collector<'c, 'a> {
+    names: &'c mut Names<'a>,
+    library: bool,
+    diagnostics: &'c mut Vec<Diagnostic>,
+}
+
+impl<'a> Collector<'_, 'a> {
+    fn item(&mut self, item: &'a Item) {
+        match &item.kind {
+            ItemKind::Enum(decl) => {
+                for (index, name) in decl.variants.iter().enumerate() {
+                    self.value(Decl::Variant(name, decl, index));
+                }
+                self.type_name(TypeDecl::Enum(decl));
+            }
+            ItemKind::State(decl) => self.value(Decl::State(decl)),
+            ItemKind::Event(decl) => self.value(Decl::Event(decl)),
+            ItemKind::Let(decl) => self.value(Decl::Let(decl)),
+            ItemKind::Predicate(decl) => self.value(Decl::Predicate(decl)),
+            ItemKind::Behavior(decl) => self.value(Decl::Behavior(decl)),
+            ItemKind::Tree(decl) => self.value(Decl::Tree(decl)),
+            ItemKind::World(world) => self.world(world),
+            ItemKind::Task(task) => {
+                if let Some(first) = self.names.tasks.insert(&task.name.name, task) {
+                    self.twice(&task.name, &first.name, "a task");
+                }
+            }
+            ItemKind::Learn(learn) => {
+                let name = learned_name(learn);
+                if let Some(first) = self.names.learners.insert(name, learn) {
+                    let here = learn.name.as_ref().unwrap_or(&learn.task);
+                    let there = first.name.as_ref().unwrap_or(&first.task);
+                    self.error(Code::E0201, here, format!("two learners learn `{name}`"))
+                        .label("learned a second time here")
+                        .also(there.span, "first learned here")
+                        .help("give one of them a name of its own: `learn NAME for TASK { … }`");
+                }
+            }
+            ItemKind::Use(_)
+            | ItemKind::EachTick(_)
+            | ItemKind::On(_)
+            | ItemKind::Claim(_)
+            | ItemKind::Error => {}
+        }
+    }
+
+    fn world(&mut self, world: &'a World) {
+        for entry in &world.entries {
+            match &entry.kind {
+                WorldEntryKind::Place { name, of_kind, .. } => {
+                    self.value(Decl::Place(name, of_kind.as_ref()));
+                    if let Some(kind) = of_kind {
+                        self.kind(TypeDecl::PlaceKind(kind));
+                    }
+                }
+                WorldEntryKind::Wall { name, of_kind, .. } => {
+                    self.value(Decl::Wall(name, of_kind.as_ref()));
+                    if let Some(kind) = of_kind {
+                        self.kind(TypeDecl::WallKind(kind));
+                    }
+                }
+                WorldEntryKind::Robot { name, entries } => {
+                    self.value(Decl::Robot(name));
+                    // The sensors of the acting robot are in scope by name, those of others are not.
+                    let runs = entries.iter().any(|entry| {
+                        matches!(&entry.kind, RobotEntryKind::Field(field) if field.name.name == "runs")
+                    });
+                    for entry in entries.iter().filter(|_| !runs) {
+                        if let RobotEntryKind::Sensor { name, .. } = &entry.kind {
+                            self.value(Decl::Sensor(name));
+                        }
+                    }
+                }
+                WorldEntryKind::Field(_) | WorldEntryKind::Error => {}
+            }
+        }
+    }
+
+    fn value(&mut self, decl: Decl<'a>) {
+        let name = decl.ident();
+        let starts = matches!(decl, Decl::State(_)) && START_WORDS.contains(&name.name.as_str());
+        if starts || is_built_in(&name.name) && !decl.shadows(&name.name) {
+            self.error(Code::E0204, name, format!("`{}` is built in", name.name))
+                .label("choose another name");
+        }
+        let layer = if self.library {
+            &mut self.names.library
+        } else {
+            &mut self.names.user
+        };
+        match layer.get(name.name.as_str()).copied() {
+            Some(first) if !stands_beside(decl, first) => {
+                self.twice(name, first.ident(), first.what());
+            }
+            _ => {
+                layer.insert(&name.name, decl);
+            }
+        }
+    }
+
+    fn type_name(&mut self, decl: TypeDecl<'a>) {
+        let name = decl.ident();
+        match self.names.types.get(name.name.as_str()).copied() {
+            Some(first) => self.twice(name, first.ident(), "a type"),
+            None => {
+                self.names.types.insert(&name.name, decl);
+            }
+        }
+    }
+
+    /// A kind is declared by its first member; a place and a wall cannot be of one kind.
+    fn kind(&mut self, decl: TypeDecl<'a>) {
+        match (self.names.types.get(decl.ident().name.as_str()), decl) {
+            (Some(TypeDecl::PlaceKind(_)), TypeDecl::PlaceKind(_))
+            | (Some(TypeDecl::WallKind(_)), TypeDecl::WallKind(_)) => {}
+            _ => self.type_name(decl),
+        }
+    }
+
+    fn twice(&mut self, name: &Ident, first: &Ident, what: &str) {
+        self.error(
+            Code::E0201,
+            name,
+            format!("`{}` is declared twice", name.name),
+        )
+        .label("declared again here")
+        .also(first.span, format!("first declared here, as {what}"));
+    }
+
+    fn error(&mut self, code: Code, name: &Ident, message: String) -> Draft<'_> {
+        Draft::new(self.diagnostics, code, name.span, message)
+    }
+}
+
+/// Whether two declarations may have one name: a learned tree stands beside the accepted tree of its source.
+fn stands_beside(decl: Decl, first: Decl) -> bool {
+    matches!((decl, first), (Decl::Tree(_), Decl::Tree(_)))
+        && decl.ident().span.file != first.ident().span.file
+}

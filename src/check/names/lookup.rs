@@ -1,0 +1,109 @@
+//! Looking up names that have to be of a kind.
+
+use super::Decl;
+use crate::check::Checker;
+use crate::check::report::Draft;
+use crate::check::types::Value;
+use crate::diagnostic::{Code, suggest};
+use crate::ir::law::Behavior;
+use crate::ir::task::Task;
+use crate::ir::{Id, Name};
+use crate::syntax::ast::{Expr, ExprKind, Ident, Ref};
+
+/// The behaviours of the library.
+const LIBRARY: [&str; 5] = ["goto", "dock", "follow_wall", "wander", "idle"];
+
+impl<'a> Checker<'a> {
+    /// What a reference of the user names, if `is` accepts it, with whether it is of the library; anything else is
+    /// reported. `wanted` says what is accepted, with its article.
+    pub fn declared_as<T>(
+        &mut self,
+        reference: &Ref,
+        wanted: &str,
+        is: impl Fn(Decl<'a>) -> Option<T>,
+    ) -> Option<(T, bool)> {
+        let name = &reference.name;
+        match self.names.value(&name.name, false) {
+            Some((decl, library)) => match is(decl) {
+                Some(found) => Some((found, library)),
+                None => self
+                    .error(
+                        Code::E0203,
+                        reference.span,
+                        format!("{wanted} is needed here"),
+                    )
+                    .label(format!("`{}` is {}", name.name, decl.what()))
+                    .none(),
+            },
+            None => {
+                let what = wanted.split_once(' ').map_or(wanted, |(_, what)| what);
+                let help = self.perhaps_of_library(&name.name);
+                let help = help.filter(|_| what == "behaviour");
+                self.undeclared_value(name, what, |decl| is(decl).is_some())
+                    .help_if(help)
+                    .none()
+            }
+        }
+    }
+
+    /// The behaviour that a reference of the user names, with its arguments; anything else is reported.
+    pub fn behavior_ref(&mut self, reference: &'a Ref) -> Option<Id<Behavior>> {
+        let (behavior, library) =
+            self.declared_as(reference, "a behaviour", |decl| match decl {
+                Decl::Behavior(behavior) => Some(behavior),
+                _ => None,
+            })?;
+        match self.behavior_instance(behavior, library, reference)? {
+            Value::Behavior(id) => Some(id),
+            _ => None,
+        }
+    }
+
+    /// The task of that name; one that nothing declares is reported.
+    pub fn task_of(&mut self, name: &Ident) -> Option<Id<Task>> {
+        if !self.names.tasks.contains_key(name.name.as_str()) {
+            let likely = suggest::nearest(&name.name, self.names.tasks.keys().copied());
+            self.undeclared(name, "task", likely);
+        }
+        let name = Name::word(&name.name);
+        self.program.tasks.find(|task| task.name == name)
+    }
+
+    /// Reports a name that nothing declares; `what` could stand there, and is `likely` called so.
+    pub fn undeclared(&mut self, name: &Ident, what: &str, likely: Option<&str>) -> Draft<'_> {
+        self.error(
+            Code::E0202,
+            name.span,
+            format!("`{}` is not declared", name.name),
+        )
+        .label(format!("no {what} has this name"))
+        .likely(name, likely)
+    }
+
+    /// Reports a name that nothing declares, where a declaration that `fits` is needed.
+    pub fn undeclared_value(
+        &mut self,
+        name: &Ident,
+        what: &str,
+        fits: impl Fn(Decl<'a>) -> bool,
+    ) -> Draft<'_> {
+        let likely = suggest::nearest(&name.name, self.names.values(fits));
+        self.undeclared(name, what, likely)
+    }
+
+    /// How to get a behaviour that the library has and the program does not use.
+    pub fn perhaps_of_library(&self, name: &str) -> Option<String> {
+        let idle = self.names.value("idle", true);
+        let used = idle.is_some_and(|(_, library)| library);
+        (!used && LIBRARY.contains(&name)).then(|| format!("`use std` brings `{name}`"))
+    }
+
+    /// Reports an expression where a name is needed; `declaration` gives it one.
+    pub fn not_named(&mut self, expr: &Expr, wanted: &str, declaration: &str) {
+        if !matches!(expr.kind, ExprKind::Error) {
+            self.error(Code::E0203, expr.span, format!("{wanted} is needed here"))
+                .label("this is an expression without a name")
+                .help(format!("declare one: `{declaration}`"));
+        }
+    }
+}

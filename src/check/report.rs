@@ -1,0 +1,212 @@
+//! How a mistake is reported: in one statement, where it is found.
+
+use super::Checker;
+use super::types::Typed;
+use crate::diagnostic::{Applicability, Code, Diagnostic, suggest};
+use crate::source::Span;
+use crate::syntax::ast::{Expr, ExprKind, Ident};
+use std::fmt::Display;
+
+/// A diagnostic in the making; it is reported when it is dropped.
+pub struct Draft<'d> {
+    diagnostic: Option<Diagnostic>,
+    reported: &'d mut Vec<Diagnostic>,
+}
+
+impl Drop for Draft<'_> {
+    fn drop(&mut self) {
+        self.reported.extend(self.diagnostic.take());
+    }
+}
+
+impl<'d> Draft<'d> {
+    /// A diagnostic that goes to `reported`.
+    pub fn new(
+        reported: &'d mut Vec<Diagnostic>,
+        code: Code,
+        span: Span,
+        message: impl Into<String>,
+    ) -> Self {
+        Self {
+            diagnostic: Some(Diagnostic::new(code, span, message)),
+            reported,
+        }
+    }
+
+    fn with(mut self, add: impl FnOnce(Diagnostic) -> Diagnostic) -> Self {
+        self.diagnostic = self.diagnostic.take().map(add);
+        self
+    }
+
+    /// Says something at the primary place.
+    pub fn label(self, message: impl Into<String>) -> Self {
+        self.with(|diagnostic| diagnostic.label(message))
+    }
+
+    /// Says at the primary place what stands there.
+    pub fn this_is(self, what: impl Display) -> Self {
+        self.label(format!("this is {what}"))
+    }
+
+    /// Says something at a further place.
+    pub fn also(self, span: Span, message: impl Into<String>) -> Self {
+        self.with(|diagnostic| diagnostic.also(span, message))
+    }
+
+    /// Adds a note.
+    pub fn note(self, note: impl Into<String>) -> Self {
+        self.with(|diagnostic| diagnostic.note(note))
+    }
+
+    /// Adds advice.
+    pub fn help(self, help: impl Into<String>) -> Self {
+        self.with(|diagnostic| diagnostic.help(help))
+    }
+
+    /// Adds advice where there is any.
+    pub fn help_if(self, help: Option<String>) -> Self {
+        match help {
+            Some(help) => self.help(help),
+            None => self,
+        }
+    }
+
+    /// Offers to replace the text of one span.
+    pub fn fix(
+        self,
+        title: impl Into<String>,
+        span: Span,
+        replacement: impl Into<String>,
+        applicability: Applicability,
+    ) -> Self {
+        self.with(|diagnostic| diagnostic.fix(title, span, replacement, applicability))
+    }
+
+    /// Offers the name that was likely meant, if there is one.
+    pub fn likely(self, name: &Ident, likely: Option<&str>) -> Self {
+        match likely {
+            None => self,
+            Some(likely) => {
+                let question = format!("did you mean `{likely}`?");
+                self.label(question.clone())
+                    .fix(question, name.span, likely, Applicability::Unsafe)
+            }
+        }
+    }
+
+    /// Reports it.
+    pub fn emit(self) {}
+
+    /// Reports it; there is nothing to go on with.
+    pub fn none<T>(self) -> Option<T> {
+        None
+    }
+
+    /// Reports it; the expression that it is about has no meaning.
+    pub fn typed(self) -> Typed {
+        Typed::error(
+            self.diagnostic
+                .as_ref()
+                .map_or_else(Span::default, Diagnostic::span),
+        )
+    }
+}
+
+impl<'a> Checker<'a> {
+    /// Reports an error at `span`, with what is added to it in the same statement.
+    pub fn error(&mut self, code: Code, span: Span, message: impl Into<String>) -> Draft<'_> {
+        Draft::new(&mut self.diagnostics, code, span, message)
+    }
+
+    /// Reports a warning at `span`: what differs from an error is its code.
+    pub fn warning(&mut self, code: Code, span: Span, message: impl Into<String>) -> Draft<'_> {
+        self.error(code, span, message)
+    }
+
+    /// Reports a finished diagnostic.
+    pub fn report(&mut self, diagnostic: Diagnostic) {
+        self.diagnostics.push(diagnostic);
+    }
+
+    /// Reports a name that `owner` does not have among its `known` ones.
+    pub fn unknown_to(
+        &mut self,
+        owner: &str,
+        code: Code,
+        name: &Ident,
+        what: &str,
+        known: &[&str],
+    ) -> Draft<'_> {
+        let label = match known {
+            [] => "it has none".to_owned(),
+            known => format!("it has {}", listed(known, "and")),
+        };
+        let message = format!("{owner} has no {what} `{}`", name.name);
+        let likely = suggest::nearest(&name.name, known.iter().copied());
+        self.error(code, name.span, message)
+            .label(label)
+            .likely(name, likely)
+    }
+
+    /// Reports what stands at `here` a second time.
+    pub fn said_twice(&mut self, what: &str, here: Span, first: Span) {
+        self.error(Code::E0503, here, format!("`{what}` is there twice"))
+            .label("said again here")
+            .also(first, "first said here");
+    }
+
+    /// Reports what `owner` has to say and does not.
+    pub fn missing(&mut self, code: Code, span: Span, owner: &str, missing: &str, example: &str) {
+        self.error(code, span, format!("{owner} does not say its `{missing}`"))
+            .label(format!("`{missing}` is missing"))
+            .help(format!("for example: `{example}`"));
+    }
+
+    /// Reports a value that is none of the words that can stand there.
+    pub fn choice_of(&mut self, value: &Expr, what: &str, choices: &[&str]) {
+        let name = match &value.kind {
+            ExprKind::Error => return,
+            ExprKind::Ref(reference) => Some(&reference.name),
+            _ => None,
+        };
+        let span = name.map_or(value.span, |name| name.span);
+        let draft = self
+            .error(
+                Code::E0403,
+                span,
+                format!("{what} is {}", listed(choices, "or")),
+            )
+            .label("this is not");
+        if let Some(name) = name {
+            let words = choices.iter().filter_map(|choice| choice.split('(').next());
+            draft.likely(name, suggest::nearest(&name.name, words));
+        }
+    }
+
+    /// Reports a number that makes no sense where it stands.
+    pub fn out_of_range(&mut self, span: Span, why: impl Into<String>, label: &str) -> Draft<'_> {
+        self.error(Code::E0309, span, why).label(label)
+    }
+
+    /// Reports what needs a world in a program that has none.
+    pub fn no_world(&mut self, span: Span, what: &str, label: &str) -> Draft<'_> {
+        let message = format!("{what} needs a world, and there is none");
+        self.error(Code::E0407, span, message).label(label)
+    }
+
+    /// Reports what the language has and btc has not built: `what` names it in the plural.
+    pub fn not_yet(&mut self, span: Span, what: &str) {
+        self.error(Code::E0701, span, format!("{what} are not built yet"))
+            .label("the language has this, this version of btc cannot run it");
+    }
+}
+
+/// Names in a sentence: `a`, `b` and `c`.
+pub fn listed(names: &[&str], word: &str) -> String {
+    let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    match quoted.as_slice() {
+        [] => String::new(),
+        [one] => one.clone(),
+        [most @ .., last] => format!("{} {word} {last}", most.join(", ")),
+    }
+}

@@ -1,0 +1,71 @@
+//! The history window: what a task keeps of how its behaviours end.
+
+use crate::check::Checker;
+use crate::check::builtin::Function;
+use crate::check::context::Region;
+use crate::check::types::Type;
+use crate::diagnostic::Code;
+use crate::ir::task::History;
+use crate::syntax::ast::{Expr, Outcome, Ref, Spanned};
+
+impl<'a> Checker<'a> {
+    /// `history last n outcome, …`
+    pub fn history(&mut self, window: &'a Expr, outcomes: &[Spanned<Outcome>]) -> History {
+        let length = self.constant(window, &Type::NUMBER, "the length of the history");
+        let window_length = match length {
+            Some(n) if n.fract() == 0.0 && (1.0..=64.0).contains(&n) => n as usize,
+            Some(n) => {
+                let label = if n.fract() != 0.0 {
+                    "this is no whole number"
+                } else if n < 1.0 {
+                    "nothing would be remembered"
+                } else {
+                    "these are too many"
+                };
+                self.out_of_range(window.span, "a history holds 1 to 64 terminations", label);
+                0
+            }
+            None => 0,
+        };
+        let keeps = |outcome| outcomes.iter().any(|kept| kept.node == outcome);
+        History {
+            window: window_length,
+            success: keeps(Outcome::Success),
+            failure: keeps(Outcome::Failure),
+        }
+    }
+
+    /// A history that starts with what it does not keep would be forgotten at once.
+    pub fn kept_in_history(&mut self, function: Function, reference: &Ref) {
+        let Some(history) = self
+            .kept
+            .filter(|_| self.context.region == Region::StartHistory)
+        else {
+            return;
+        };
+        let kept = match function {
+            Function::Failure => history.failure,
+            _ => history.success,
+        };
+        if !kept {
+            let outcome = function.name();
+            self.error(
+                Code::E0607,
+                reference.name.span,
+                format!("the history of the task keeps no {outcome}"),
+            )
+            .label("so it cannot start with one")
+            .help(format!("let the task say `{}`", keeping(history, outcome)));
+        }
+    }
+}
+
+/// The `history` line that keeps an outcome besides what is kept already.
+pub fn keeping(history: History, outcome: &str) -> String {
+    let window = history.window.max(1);
+    if history.success || history.failure {
+        format!("history last {window} success, failure")
+    } else {
+        format!("history last {window} {outcome}")
+    }
+}

@@ -1,0 +1,135 @@
+//! Guards: formulas over predicates and the history.
+
+use crate::check::Checker;
+use crate::check::expr::plain_ref;
+use crate::check::names::{Decl, is_built_in};
+use crate::diagnostic::Code;
+use crate::ir::tree::{Atom, Guard};
+use crate::source::Span;
+use crate::syntax::ast::{BinaryOp, Expr, ExprKind, Outcome, Ref, UnaryOp};
+use crate::syntax::print;
+
+impl<'a> Checker<'a> {
+    /// A formula over predicates and the history.
+    pub fn guard(&mut self, expr: &'a Expr) -> Option<Guard> {
+        match &expr.kind {
+            ExprKind::Bool(value) => Some(Guard::Const(*value)),
+            ExprKind::Paren(inner) => self.guard(inner),
+            ExprKind::Unary { op, operand } if op.node == UnaryOp::Not => {
+                self.guard(operand).map(|guard| Guard::Not(Box::new(guard)))
+            }
+            ExprKind::Binary { op, left, right }
+                if matches!(op.node, BinaryOp::And | BinaryOp::Or) =>
+            {
+                let (left, right) = (self.guard(left), self.guard(right));
+                Some(joined(op.node == BinaryOp::And, left?, right?))
+            }
+            ExprKind::Ref(reference) => self.atom(reference).map(Guard::Atom),
+            ExprKind::Error => None,
+            ExprKind::Binary { op, .. } if op.node <= BinaryOp::Ge => {
+                let help = format!("give it one: {}", declaration(expr));
+                self.no_predicate(expr.span, "this comparison has none", Some(help))
+            }
+            _ => {
+                let label = "this is neither a predicate nor `and`, `or`, `not` of some";
+                self.no_predicate(expr.span, label, None)
+            }
+        }
+    }
+
+    fn atom(&mut self, reference: &'a Ref) -> Option<Atom> {
+        let name = reference.name.name.as_str();
+        match name {
+            "done" => return self.asked(reference, Outcome::Success),
+            "failed" => return self.asked(reference, Outcome::Failure),
+            _ => {}
+        }
+        let name_it = || {
+            let asked = Expr {
+                kind: ExprKind::Ref(reference.clone()),
+                span: reference.span,
+            };
+            format!("give it a name: {}", declaration(&asked))
+        };
+        match self.names.value(name, self.context.library) {
+            Some((Decl::Predicate(predicate), library)) => self
+                .predicate_instance(predicate, library, reference)
+                .map(Atom::Predicate),
+            Some((decl, _)) => {
+                let help = match decl {
+                    Decl::Behavior(_) | Decl::Tree(_) => {
+                        "nodes that follow each other: `sequence { …, … }`".to_owned()
+                    }
+                    Decl::Event(_) => {
+                        "remember it in a state, and ask that by a predicate".to_owned()
+                    }
+                    _ => name_it(),
+                };
+                let label = format!("`{name}` is {}", decl.what());
+                self.no_predicate(reference.span, &label, Some(help))
+            }
+            None if is_built_in(name) => {
+                let label = format!("`{name}` is built in");
+                self.no_predicate(reference.span, &label, Some(name_it()))
+            }
+            None => self
+                .undeclared_value(&reference.name, "predicate", |decl| {
+                    matches!(decl, Decl::Predicate(_))
+                })
+                .none(),
+        }
+    }
+
+    /// `done(b)`, `failed(b)`: whether the history window holds that end of a behaviour.
+    fn asked(&mut self, reference: &'a Ref, outcome: Outcome) -> Option<Atom> {
+        let &[ended] = self.positional(reference, 1, 1)?.as_slice() else {
+            return None;
+        };
+        let Some(behavior) = plain_ref(ended) else {
+            let name = &reference.name.name;
+            return self
+                .error(
+                    Code::E0203,
+                    ended.span,
+                    format!("`{name}` asks a behaviour"),
+                )
+                .label("this is an expression")
+                .none();
+        };
+        let id = self.behavior_ref(behavior)?;
+        self.asked.push((reference.span, outcome));
+        Some(match outcome {
+            Outcome::Success => Atom::Done(id),
+            Outcome::Failure => Atom::Failed(id),
+        })
+    }
+
+    fn no_predicate<T>(&mut self, span: Span, label: &str, help: Option<String>) -> Option<T> {
+        self.error(Code::E0601, span, "a guard asks predicates by name")
+            .label(label)
+            .help_if(help)
+            .none()
+    }
+}
+
+/// The predicate that gives what is asked a name.
+fn declaration(asked: &Expr) -> String {
+    format!("`predicate NAME = {}`", print::expr(asked))
+}
+
+/// A conjunction or a disjunction, kept flat.
+fn joined(and: bool, left: Guard, right: Guard) -> Guard {
+    let mut parts = Vec::new();
+    for side in [left, right] {
+        match side {
+            Guard::And(inner) if and => parts.extend(inner),
+            Guard::Or(inner) if !and => parts.extend(inner),
+            other => parts.push(other),
+        }
+    }
+    if and {
+        Guard::And(parts)
+    } else {
+        Guard::Or(parts)
+    }
+}
