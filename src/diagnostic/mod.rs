@@ -7,9 +7,11 @@ pub mod suggest;
 pub use codes::Code;
 
 use crate::source::Span;
+use serde::Serialize;
 
 /// How grave a diagnostic is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Severity {
     /// The program has a meaning, though perhaps not the one that was meant.
     Warning,
@@ -27,7 +29,8 @@ pub struct Label {
 }
 
 /// Whether a fix may be applied without a look.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Applicability {
     /// The fix keeps or restores what was meant.
     Safe,

@@ -2,7 +2,7 @@
 
 use crate::diagnostic::{Applicability, Diagnostic, Severity};
 use crate::source::{Source, Sources, Span};
-use serde_json::{Value, json};
+use serde::Serialize;
 
 /// One line of JSON a diagnostic, each ended by a newline.
 ///
@@ -11,68 +11,103 @@ use serde_json::{Value, json};
 pub fn json(sources: &Sources, diagnostics: &[Diagnostic]) -> String {
     diagnostics
         .iter()
-        .map(|diagnostic| format!("{}\n", object(sources, diagnostic)))
+        // Strings, numbers and lists of them always have a JSON form.
+        .filter_map(|diagnostic| serde_json::to_string(&object(sources, diagnostic)).ok())
+        .map(|line| line + "\n")
         .collect()
 }
 
-fn object(sources: &Sources, diagnostic: &Diagnostic) -> Value {
-    let labels: Vec<Value> = diagnostic
-        .labels
-        .iter()
-        .enumerate()
-        .map(|(index, label)| {
-            json!({
-                "primary": index == 0,
-                "message": label.message,
-                "span": place(sources, label.span),
-            })
-        })
-        .collect();
-    let fixes: Vec<Value> = diagnostic
-        .fixes
-        .iter()
-        .map(|fix| {
-            let edits: Vec<Value> = fix
-                .edits
-                .iter()
-                .map(|(span, new)| json!({ "span": place(sources, *span), "replacement": new }))
-                .collect();
-            let applicability = match fix.applicability {
-                Applicability::Safe => "safe",
-                Applicability::Unsafe => "unsafe",
-            };
-            json!({ "title": fix.title, "applicability": applicability, "edits": edits })
-        })
-        .collect();
-    let severity = match diagnostic.severity {
-        Severity::Error => "error",
-        Severity::Warning => "warning",
-    };
-    json!({
-        "code": diagnostic.code.name(),
-        "severity": severity,
-        "message": diagnostic.message,
-        "labels": labels,
-        "notes": diagnostic.notes,
-        "help": diagnostic.help,
-        "fixes": fixes,
+#[derive(Serialize)]
+struct Object<'a> {
+    code: &'static str,
+    severity: Severity,
+    message: &'a str,
+    labels: Vec<Label<'a>>,
+    notes: &'a [String],
+    help: &'a [String],
+    fixes: Vec<Fix<'a>>,
+}
+
+#[derive(Serialize)]
+struct Label<'a> {
+    primary: bool,
+    message: &'a str,
+    span: Option<Place<'a>>,
+}
+
+#[derive(Serialize)]
+struct Fix<'a> {
+    title: &'a str,
+    applicability: Applicability,
+    edits: Vec<Edit<'a>>,
+}
+
+#[derive(Serialize)]
+struct Edit<'a> {
+    span: Option<Place<'a>>,
+    replacement: &'a str,
+}
+
+#[derive(Serialize)]
+struct Place<'a> {
+    file: &'a str,
+    bytes: [u32; 2],
+    start: Position,
+    end: Position,
+}
+
+#[derive(Serialize)]
+struct Position {
+    line: usize,
+    column: usize,
+    column_utf16: usize,
+}
+
+fn object<'a>(sources: &'a Sources, diagnostic: &'a Diagnostic) -> Object<'a> {
+    let labels = diagnostic.labels.iter().enumerate();
+    let labels = labels.map(|(index, label)| Label {
+        primary: index == 0,
+        message: &label.message,
+        span: place(sources, label.span),
+    });
+    let fixes = diagnostic.fixes.iter().map(|fix| {
+        let edits = fix.edits.iter().map(|(span, new)| Edit {
+            span: place(sources, *span),
+            replacement: new,
+        });
+        Fix {
+            title: &fix.title,
+            applicability: fix.applicability,
+            edits: edits.collect(),
+        }
+    });
+    Object {
+        code: diagnostic.code.name(),
+        severity: diagnostic.severity,
+        message: &diagnostic.message,
+        labels: labels.collect(),
+        notes: &diagnostic.notes,
+        help: &diagnostic.help,
+        fixes: fixes.collect(),
+    }
+}
+
+fn place(sources: &Sources, span: Span) -> Option<Place<'_>> {
+    let source = sources.get(span.file)?;
+    Some(Place {
+        file: &source.name,
+        bytes: [span.start, span.end],
+        start: position(source, span.start),
+        end: position(source, span.end),
     })
 }
 
-fn place(sources: &Sources, span: Span) -> Value {
-    let Some(source) = sources.get(span.file) else {
-        return Value::Null;
-    };
-    json!({
-        "file": source.name,
-        "bytes": [span.start, span.end],
-        "start": position(source, span.start),
-        "end": position(source, span.end),
-    })
-}
-
-fn position(source: &Source, offset: u32) -> Value {
+fn position(source: &Source, offset: u32) -> Position {
     let (line, column) = source.position(offset);
     let (_, column_utf16) = source.position_utf16(offset);
-    json!({ "line": line + 1, "column": column + 1, "column_utf16": column_utf16 + 1 })
+    Position {
+        line: line + 1,
+        column: column + 1,
+        column_utf16: column_utf16 + 1,
+    }
 }
