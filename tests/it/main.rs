@@ -21,6 +21,7 @@ mod naive;
 mod planted;
 mod program;
 mod reference;
+mod refused;
 mod robust;
 mod simplify;
 mod snapshot;
