@@ -53,7 +53,7 @@ impl<'a> Checker<'a> {
         scope: Vec<Binding<'a>>,
         pass: impl FnOnce(&mut Self),
     ) {
-        // What is deeper is reported where it is unrolled.
+        // A deeper body is reported where it is unrolled.
         if self.bodies.open.len() > DEEP {
             return;
         }
@@ -141,7 +141,7 @@ impl<'a> Checker<'a> {
         (result, std::mem::replace(&mut self.diagnostics, before))
     }
 
-    /// Reports, once, that definitions within definitions do not come to an end.
+    /// Reports, once, that definitions nest without end.
     pub fn too_much(&mut self, span: Span, label: &str) {
         if std::mem::replace(&mut self.bodies.gave_up, true) {
             return;
@@ -162,7 +162,7 @@ impl<'a> Checker<'a> {
 fn used_so(mut inner: Diagnostic, reference: &Ref, library: bool) -> Diagnostic {
     let name = &reference.name.name;
     match inner.code {
-        // These are mistakes of the text that they stand in, whoever uses it.
+        // These are mistakes of the body itself, whoever uses it.
         Code::E0205 | Code::E0209 if !library => inner,
         _ => {
             let label = Label {

@@ -1,4 +1,4 @@
-//! What the passes share, and their order.
+//! The state that all passes share, and the order of the passes.
 
 use super::body::Bodies;
 use super::context::{Bound, Context, Region};
@@ -15,7 +15,7 @@ use crate::source::Span;
 use crate::syntax::ast::{ItemKind, Outcome};
 use std::collections::BTreeMap;
 
-/// What the passes share.
+/// The state that all passes share.
 pub struct Checker<'a> {
     /// Every declared name.
     pub names: Names<'a>,
@@ -50,7 +50,7 @@ pub struct Checker<'a> {
 }
 
 impl<'a> Checker<'a> {
-    /// Knows the names of the files, and nothing of what they mean.
+    /// Collects the names of the files; nothing is checked yet.
     pub fn new(files: &[Input<'a>]) -> Self {
         let mut diagnostics = Vec::new();
         Self {

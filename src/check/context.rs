@@ -1,4 +1,4 @@
-//! Where an expression stands: what is in scope there, and what is allowed.
+//! The context of an expression: what is in scope and what is allowed.
 
 use super::Checker;
 use super::types::{Type, Value};
@@ -65,7 +65,7 @@ impl Region {
         matches!(self, Region::Event | Region::Effect | Region::Reward)
     }
 
-    /// What to call it, with its article.
+    /// Its name, with its article.
     pub fn name(self) -> &'static str {
         match self {
             Region::World => "a constant",
@@ -99,7 +99,7 @@ pub struct Binding<'a> {
 }
 
 impl<'a> Binding<'a> {
-    /// A name that keeps its value.
+    /// A name whose value cannot be set.
     pub fn new(name: &'a Ident, ty: Type, value: Value) -> Self {
         Self {
             name,
@@ -120,14 +120,14 @@ impl<'a> Binding<'a> {
 pub struct Context<'a> {
     /// The part of the program.
     pub region: Region,
-    /// Whether the text is the library's.
+    /// Whether the text belongs to the library.
     pub library: bool,
     /// The names bound so far, the innermost last.
     pub scope: Vec<Binding<'a>>,
 }
 
 impl<'a> Context<'a> {
-    /// The user's text, nothing bound.
+    /// A context in the user's text, with nothing bound.
     pub fn new(region: Region) -> Self {
         Self {
             region,

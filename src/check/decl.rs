@@ -5,6 +5,7 @@ mod drive;
 pub mod event;
 mod instance;
 mod law;
+mod parameter;
 pub mod predicate;
 mod shared;
 pub mod state;

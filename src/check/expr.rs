@@ -1,4 +1,4 @@
-//! Expressions, by their kinds.
+//! Expressions: the entry point, and one file for each kind.
 
 mod choice;
 mod draw;

@@ -1,4 +1,4 @@
-//! Every declared name with what it names.
+//! The declared names.
 //!
 //! Names live in three spaces: *values* (what an expression or a tree node can say), *types* (enums and kinds) and
 //! *tasks*. The library is a layer of its own under the user's: the user's definitions win, but the library's own
@@ -11,7 +11,7 @@ use super::builtin::{Constant, Function};
 use crate::syntax::ast::{self, Ident};
 use std::collections::BTreeMap;
 
-/// What a name of the value space names.
+/// A declaration in the value space.
 #[derive(Clone, Copy, Debug)]
 pub enum Decl<'a> {
     /// A variant of an enum, by its index.
@@ -39,7 +39,7 @@ pub enum Decl<'a> {
 }
 
 impl<'a> Decl<'a> {
-    /// What it is, with its article.
+    /// The kind of declaration, with its article.
     pub fn what(self) -> &'static str {
         match self {
             Decl::Variant(..) => "a variant of an enum",
@@ -85,7 +85,7 @@ impl<'a> Decl<'a> {
     }
 }
 
-/// What a name of the type space names.
+/// A declaration in the type space.
 #[derive(Clone, Copy, Debug)]
 pub enum TypeDecl<'a> {
     /// An enum.
@@ -97,7 +97,7 @@ pub enum TypeDecl<'a> {
 }
 
 impl<'a> TypeDecl<'a> {
-    /// Where its name is first said.
+    /// Where its name first occurs.
     pub fn ident(self) -> &'a Ident {
         match self {
             TypeDecl::Enum(decl) => &decl.name,
@@ -119,7 +119,7 @@ pub struct Names<'a> {
     pub learners: BTreeMap<&'a str, &'a ast::Learn>,
 }
 
-/// The words that a `start` sets besides states.
+/// The words besides states that a `start` sets.
 pub const START_WORDS: [&str; 4] = ["pose", "position", "heading", "history"];
 
 /// The name of what a learner learns.

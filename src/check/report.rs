@@ -1,4 +1,4 @@
-//! How a mistake is reported: in one statement, where it is found.
+//! Reporting: a mistake is reported where it is found, in one statement.
 
 use super::Checker;
 use super::types::Typed;
@@ -7,7 +7,7 @@ use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, Ident};
 use std::fmt::Display;
 
-/// A diagnostic in the making; it is reported when it is dropped.
+/// A diagnostic under construction; it is reported when it is dropped.
 pub struct Draft<'d> {
     diagnostic: Option<Diagnostic>,
     reported: &'d mut Vec<Diagnostic>,
@@ -43,7 +43,7 @@ impl<'d> Draft<'d> {
         self.with(|diagnostic| diagnostic.label(message))
     }
 
-    /// Says at the primary place what stands there.
+    /// Labels the primary place with what is there.
     pub fn this_is(self, what: impl Display) -> Self {
         self.label(format!("this is {what}"))
     }
@@ -97,7 +97,7 @@ impl<'d> Draft<'d> {
     /// Reports it.
     pub fn emit(self) {}
 
-    /// Reports it; there is nothing to go on with.
+    /// Reports it, with nothing to return.
     pub fn none<T>(self) -> Option<T> {
         None
     }
@@ -148,21 +148,21 @@ impl<'a> Checker<'a> {
             .likely(name, likely)
     }
 
-    /// Reports what stands at `here` a second time.
+    /// Reports something that is given a second time.
     pub fn said_twice(&mut self, what: &str, here: Span, first: Span) {
         self.error(Code::E0503, here, format!("`{what}` is there twice"))
             .label("said again here")
             .also(first, "first said here");
     }
 
-    /// Reports what `owner` has to say and does not.
+    /// Reports a part that `owner` lacks.
     pub fn missing(&mut self, code: Code, span: Span, owner: &str, missing: &str, example: &str) {
         self.error(code, span, format!("{owner} does not say its `{missing}`"))
             .label(format!("`{missing}` is missing"))
             .help(format!("for example: `{example}`"));
     }
 
-    /// Reports a value that is none of the words that can stand there.
+    /// Reports a value that is none of the `choices`.
     pub fn choice_of(&mut self, value: &Expr, what: &str, choices: &[&str]) {
         let name = match &value.kind {
             ExprKind::Error => return,
@@ -183,21 +183,21 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Reports a number that makes no sense where it stands.
+    /// Reports a number outside its range.
     pub fn out_of_range(&mut self, span: Span, why: impl Into<String>, label: &str) -> Draft<'_> {
         self.error(Code::E0309, span, why).label(label)
     }
 
-    /// Reports what needs a world in a program that has none.
+    /// Reports that `what` needs a world in a program without one.
     pub fn no_world(&mut self, span: Span, what: &str, label: &str) -> Draft<'_> {
         let message = format!("{what} needs a world, and there is none");
         self.error(Code::E0407, span, message).label(label)
     }
 
-    /// Reports what the language has and btc has not built: `what` names it in the plural.
-    pub fn not_yet(&mut self, span: Span, what: &str) {
+    /// Reports a part of the language that btc does not support yet: `what` names it in the plural.
+    pub fn not_yet(&mut self, span: Span, what: &str) -> Draft<'_> {
         self.error(Code::E0701, span, format!("{what} are not built yet"))
-            .label("the language has this, this version of btc cannot run it");
+            .label("the language has this, this version of btc cannot run it")
     }
 }
 

@@ -1,21 +1,19 @@
-//! Arguments, and the parameters that they are for.
+//! Matching arguments to parameters.
 
 use super::Checker;
-use super::context::{Binding, Context, Region};
 use super::report::listed;
-use super::types::Type;
 use crate::diagnostic::Code;
-use crate::syntax::ast::{Arg, ArgKind, Expr, Param, Params, Ref};
+use crate::syntax::ast::{Arg, ArgKind, Expr, Ident, Ref};
 
-/// What can be given to something that is called, and how.
+/// The arguments that something takes.
 pub struct Signature<'s> {
-    /// Who takes the arguments, as a message names it: `` `goto` ``.
+    /// The callee as a message names it: `` `goto` ``.
     pub owner: &'s str,
-    /// What is taken.
+    /// Which arguments, and whether by position or by name.
     pub takes: Takes<'s>,
 }
 
-/// What is taken, and how.
+/// Which arguments, and whether by position or by name.
 pub enum Takes<'s> {
     /// Values by position: functions.
     Values,
@@ -58,6 +56,14 @@ impl<'a> Matched<'a> {
     }
 }
 
+/// The parameter that an argument names.
+fn name(arg: &Arg) -> Option<&Ident> {
+    match &arg.kind {
+        ArgKind::Named(name, _) => Some(name),
+        ArgKind::Positional(_) | ArgKind::Binder { .. } => None,
+    }
+}
+
 /// The value that an argument gives; a binder gives none.
 fn value(arg: &Arg) -> Option<&Expr> {
     match &arg.kind {
@@ -67,57 +73,41 @@ fn value(arg: &Arg) -> Option<&Expr> {
 }
 
 impl<'a> Checker<'a> {
-    /// Finds the parameter of each argument. What finds none is reported, and checked for its own mistakes.
+    /// Finds the parameter of each argument. An argument without one is reported, and checked for its own mistakes.
     pub fn matched(&mut self, signature: &Signature, args: &'a [Arg]) -> Matched<'a> {
-        let names = signature.takes.names();
         let mut matched = Matched {
-            given: vec![None; names.len()],
+            given: vec![None; signature.takes.names().len()],
             fine: true,
         };
         let mut position = 0;
         for arg in args {
-            let Some(slot) = self.slot(signature, arg, &mut position, matched.fine) else {
-                matched.fine = false;
-                continue;
-            };
-            match (matched.given.get_mut(slot), &signature.takes) {
-                (Some(free @ None), _) => *free = Some(arg),
-                (Some(Some(first)), takes) => {
-                    let name = names.get(slot).copied().unwrap_or_default();
-                    match (takes, &first.kind, &arg.kind) {
-                        (
-                            Takes::Settings { .. },
-                            ArgKind::Named(first, _),
-                            ArgKind::Named(again, _),
-                        ) => self.said_twice(name, again.span, first.span),
-                        _ => self
-                            .error(Code::E0305, arg.span, format!("`{name}` is given twice"))
-                            .label("given a second time")
-                            .emit(),
-                    }
-                    matched.fine = false;
+            let slot = self.slot(signature, arg, &mut position, matched.fine);
+            match slot.map(|slot| matched.given.get_mut(slot)) {
+                Some(Some(free @ None)) => {
+                    *free = Some(arg);
+                    continue;
                 }
-                (None, Takes::Parameters { words, .. }) => {
+                Some(Some(Some(first))) => self.given_twice(signature, first, arg),
+                Some(None) if matches!(signature.takes, Takes::Values) => {
+                    matched.given.push(Some(arg));
+                    continue;
+                }
+                Some(None) => {
                     if matched.fine {
-                        let owner = signature.owner;
-                        self.error(Code::E0305, arg.span, format!("{owner} takes {words}"))
-                            .label(if names.is_empty() {
-                                "there is no parameter for it"
-                            } else {
-                                "one too many"
-                            });
+                        self.one_too_many(signature, arg);
                     }
                     self.stray_argument(arg);
-                    matched.fine = false;
                 }
-                (None, _) => matched.given.push(Some(arg)),
+                None if matches!(signature.takes, Takes::Settings { .. }) => {}
+                None => self.stray_argument(arg),
             }
+            matched.fine = false;
         }
         matched
     }
 
-    /// The place of an argument among the parameters; what can have none is reported, unless it is like what was
-    /// reported before.
+    /// The place of an argument among the parameters. One that has none is reported, but a lack of names or a name too
+    /// many only as the first mistake.
     fn slot(
         &mut self,
         signature: &Signature,
@@ -128,54 +118,69 @@ impl<'a> Checker<'a> {
         let owner = signature.owner;
         match (&arg.kind, &signature.takes) {
             (ArgKind::Positional(_) | ArgKind::Binder { .. }, Takes::Settings { names }) => {
-                // One message is enough to say that all of them need their names.
                 if first_mistake {
-                    self.error(
-                        Code::E0305,
-                        arg.span,
-                        format!("{owner} takes its settings by name"),
-                    )
-                    .label("which setting is this?")
-                    .help(format!("it has {}", listed(names, "and")));
+                    let message = format!("{owner} takes its settings by name");
+                    self.error(Code::E0305, arg.span, message)
+                        .label("which setting is this?")
+                        .help(format!("it has {}", listed(names, "and")));
                 }
                 None
             }
+            (ArgKind::Binder { .. }, _) => self
+                .error(Code::E0305, arg.span, format!("{owner} takes no `in`"))
+                .label("only any, all, count and nearest range over a kind")
+                .none(),
             (ArgKind::Positional(_), _) => {
                 *position += 1;
                 Some(*position - 1)
             }
             (ArgKind::Named(name, _), Takes::Values) => {
                 if first_mistake {
-                    self.error(
-                        Code::E0305,
-                        name.span,
-                        format!("{owner} takes its arguments by position"),
-                    )
-                    .label("no parameter has a name");
+                    let message = format!("{owner} takes its arguments by position");
+                    self.error(Code::E0305, name.span, message)
+                        .label("no parameter has a name");
                 }
-                self.stray_argument(arg);
                 None
             }
-            (ArgKind::Named(name, _), Takes::Parameters { names, .. }) => {
+            (ArgKind::Named(name, _), takes) => {
+                let names = takes.names();
                 let slot = names.iter().position(|known| *known == name.name);
                 if slot.is_none() {
-                    self.unknown_to(owner, Code::E0305, name, "parameter", names);
-                    self.stray_argument(arg);
+                    let (code, what) = match takes {
+                        Takes::Settings { .. } => (Code::E0403, "setting"),
+                        _ => (Code::E0305, "parameter"),
+                    };
+                    self.unknown_to(owner, code, name, what, names);
                 }
                 slot
             }
-            (ArgKind::Named(name, _), Takes::Settings { names }) => {
-                let slot = names.iter().position(|known| *known == name.name);
-                if slot.is_none() {
-                    self.unknown_to(owner, Code::E0403, name, "setting", names);
-                }
-                slot
-            }
-            (ArgKind::Binder { .. }, _) => self
-                .error(Code::E0305, arg.span, format!("{owner} takes no `in`"))
-                .label("only any, all, count and nearest range over a kind")
-                .none(),
         }
+    }
+
+    fn given_twice(&mut self, signature: &Signature, first: &Arg, again: &Arg) {
+        match (&signature.takes, name(first), name(again)) {
+            (Takes::Settings { .. }, Some(first), Some(again)) => {
+                self.said_twice(&again.name, again.span, first.span);
+            }
+            (_, first, second) => {
+                let name = second.or(first).map_or("", |name| &name.name);
+                self.error(Code::E0305, again.span, format!("`{name}` is given twice"))
+                    .label("given a second time");
+            }
+        }
+    }
+
+    fn one_too_many(&mut self, signature: &Signature, arg: &Arg) {
+        let Takes::Parameters { names, words } = signature.takes else {
+            return;
+        };
+        let message = format!("{} takes {words}", signature.owner);
+        self.error(Code::E0305, arg.span, message)
+            .label(if names.is_empty() {
+                "there is no parameter for it"
+            } else {
+                "one too many"
+            });
     }
 
     /// Checks an argument that has no parameter, for its own mistakes.
@@ -236,117 +241,5 @@ impl<'a> Checker<'a> {
             self.expr(value);
         }
         None
-    }
-
-    /// Parameters that are known by their type only.
-    pub fn unknown_parameters(&mut self, params: Option<&'a Params>) -> Vec<Binding<'a>> {
-        let mut bindings: Vec<Binding<'a>> = Vec::new();
-        for param in params.map_or(&[][..], |params| &params.params) {
-            let name = &param.name;
-            let ty = self.type_expr(&param.ty);
-            if let Some(default) = &param.default {
-                let role = format!("`{}`", name.name);
-                let region = std::mem::replace(&mut self.context.region, Region::Let);
-                self.expect(default, &ty, &role);
-                self.context.region = region;
-            }
-            if let Some(first) = bindings.iter().find(|other| other.name.name == name.name) {
-                self.error(
-                    Code::E0201,
-                    name.span,
-                    format!("two parameters are called `{}`", name.name),
-                )
-                .label("declared again here")
-                .also(first.name.span, "first declared here");
-            }
-            self.binds(name, "parameter");
-            bindings.push(Binding::unknown(name, ty));
-        }
-        bindings
-    }
-
-    /// The parameters of a declaration with the values that a reference gives them, by position, by name or by
-    /// default; `library` says whether the declaration is of the library. Every mistake is reported; `None` if there
-    /// are any.
-    pub fn bind_arguments(
-        &mut self,
-        params: Option<&'a Params>,
-        library: bool,
-        reference: &'a Ref,
-    ) -> Option<Vec<Binding<'a>>> {
-        let params: &'a [Param] = params.map_or(&[], |params| &params.params);
-        let name = &reference.name.name;
-        let names: Vec<&str> = params
-            .iter()
-            .map(|param| param.name.name.as_str())
-            .collect();
-        let signature = Signature {
-            owner: &format!("`{name}`"),
-            takes: Takes::Parameters {
-                names: &names,
-                words: &words(params),
-            },
-        };
-        let args = reference.args.as_deref().unwrap_or_default();
-        let matched = self.matched(&signature, args);
-        let mut fine = matched.fine;
-        let mut bindings: Vec<Binding<'a>> = Vec::new();
-        for (param, given) in params.iter().zip(matched.values()) {
-            let role = format!("`{}` of `{name}`", param.name.name);
-            let ty = self.in_library(library, |checker| checker.type_expr(&param.ty));
-            let value = match (given, &param.default) {
-                (Some(value), _) => self.expect(value, &ty, &role),
-                (None, Some(default)) => {
-                    let context = Context {
-                        region: Region::Let,
-                        library,
-                        scope: bindings.clone(),
-                    };
-                    let outer = std::mem::replace(&mut self.context, context);
-                    let (value, _) = self.captured(|checker| checker.expect(default, &ty, &role));
-                    self.context = outer;
-                    value
-                }
-                (None, None) => {
-                    // Another wrong argument may have been meant for it.
-                    if fine {
-                        self.error(
-                            Code::E0305,
-                            reference.span,
-                            format!("`{name}` needs its argument `{}`", param.name.name),
-                        )
-                        .label(format!("{ty} is missing"))
-                        .also(param.span, "it is declared here");
-                    }
-                    fine = false;
-                    continue;
-                }
-            };
-            fine &= value.ty != Type::Error;
-            let ty = if ty == Type::Error { value.ty } else { ty };
-            bindings.push(Binding::new(&param.name, ty, value.value));
-        }
-        fine.then_some(bindings)
-    }
-
-    fn in_library<T>(&mut self, library: bool, pass: impl FnOnce(&mut Self) -> T) -> T {
-        let outer = std::mem::replace(&mut self.context.library, library);
-        let result = pass(self);
-        self.context.library = outer;
-        result
-    }
-}
-
-/// How many arguments parameters take, in words.
-fn words(params: &[Param]) -> String {
-    let most = if params.iter().any(|param| param.default.is_some()) {
-        "at most "
-    } else {
-        ""
-    };
-    match params.len() {
-        0 => "no arguments".to_owned(),
-        1 => format!("{most}one argument"),
-        n => format!("{most}{n} arguments"),
     }
 }

@@ -1,4 +1,4 @@
-//! Tasks: what is observed, chosen, remembered and rewarded; how episodes start and end.
+//! Tasks: observations, choices, history, rewards, and how episodes start and end.
 
 pub mod history;
 mod learner;
@@ -37,7 +37,7 @@ impl<'a> Checker<'a> {
             otherwise: zero,
         };
         let mut seen: BTreeMap<&str, Span> = BTreeMap::new();
-        // A `start` may speak of the history, wherever that stands.
+        // A `start` may refer to a `history` that comes after it.
         let mut starts = Vec::new();
         for aspect in &task.aspects {
             self.context = Context::new(Region::Tree);
@@ -86,7 +86,7 @@ impl<'a> Checker<'a> {
         if !self.has_world {
             self.no_world(task.name.span, "a task", "where is this to be done?");
         }
-        // A task with a mistake in it is known by name, so that what refers to it is not reported as well.
+        // A task with a mistake is kept, so that references to it are not reported as well.
         self.program.tasks.push(built);
     }
 
@@ -146,7 +146,7 @@ impl<'a> Checker<'a> {
         } else if ticks < 1.0 {
             "this is less than half a tick"
         } else {
-            "this is beyond all counting"
+            "this is too long"
         };
         self.out_of_range(expr.span, format!("{role} is at least one tick"), label)
             .none()

@@ -14,13 +14,13 @@ use std::fmt;
 /// A type.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Type {
-    /// Of what has been reported already; agrees with everything.
+    /// The type of an expression that was reported; it fits every type.
     Error,
     /// `bool`
     Bool,
     /// A quantity.
     Quantity(Dim),
-    /// A plain number that is thought of in `%`.
+    /// A plain number, shown in `%`.
     Ratio,
     /// `point`
     Point,
@@ -114,7 +114,7 @@ impl fmt::Display for Type {
     }
 }
 
-/// What an expression has become.
+/// The value of a checked expression.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     /// Known by its type only: a parameter of a body that is checked for itself, or something that was reported.

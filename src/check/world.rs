@@ -133,8 +133,7 @@ impl<'a> Checker<'a> {
     ) {
         let span = shape.span;
         let shape = self.shape_of(shape, "a place");
-        let angle = Type::ANGLE;
-        let facing = facing.and_then(|facing| self.constant(facing, &angle, "`facing`"));
+        let facing = facing.and_then(|facing| self.constant(facing, &Type::ANGLE, "`facing`"));
         let Some(shape) = shape else { return };
         if arena.is_some_and(|arena| !contains(arena, shape.center())) {
             self.error(

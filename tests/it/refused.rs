@@ -46,7 +46,9 @@ fn a_refused_command_says_why() {
 #[test]
 fn every_code_has_a_snapshot() {
     let texts = entries("snapshots").into_iter();
-    let texts: Vec<String> = texts.map(|path| fs::read_to_string(path).unwrap()).collect();
+    let texts: Vec<String> = texts
+        .map(|path| fs::read_to_string(path).unwrap())
+        .collect();
     let shown = |code: &Code| {
         let head = format!("[{code}]: ");
         texts.iter().any(|text| text.contains(&head))

@@ -5,7 +5,7 @@ use crate::check::context::Region;
 use crate::check::types::{Type, Value};
 use crate::diagnostic::Code;
 use crate::ir::expr::{Expr, Local};
-use crate::ir::law::Behavior;
+use crate::ir::law::{Behavior, Law};
 use crate::ir::table::Table;
 use crate::ir::{Id, Name};
 use crate::syntax::ast::{self, BehaviorBody, Ref};
@@ -20,21 +20,9 @@ impl<'a> Checker<'a> {
             return;
         }
         let scope = self.unknown_parameters(behavior.params.as_ref());
-        self.body_for_itself(
-            &behavior.name,
-            Region::Clause,
-            scope,
-            |checker| match &behavior.body {
-                BehaviorBody::Declared => {}
-                BehaviorBody::Alias(target) => {
-                    checker.context.region = Region::Tree;
-                    checker.alias(target);
-                }
-                BehaviorBody::Clauses(clauses) => {
-                    checker.law(clauses, Table::default());
-                }
-            },
-        );
+        self.body_for_itself(&behavior.name, Region::Clause, scope, |checker| {
+            checker.behavior_body(behavior, Table::default());
+        });
     }
 
     /// The behaviour with the given arguments: a known value, or an unknown one inside a body that is checked for
@@ -72,23 +60,10 @@ impl<'a> Checker<'a> {
             });
         }
         let body = behavior.name.span;
-        let law =
-            self.unrolled(
-                body,
-                reference,
-                library,
-                Region::Clause,
-                scope,
-                |checker| match &behavior.body {
-                    BehaviorBody::Declared => Some(None),
-                    BehaviorBody::Alias(target) => {
-                        checker.context.region = Region::Tree;
-                        let target = checker.alias(target)?;
-                        Some(checker.program.behaviors[target].law.clone())
-                    }
-                    BehaviorBody::Clauses(clauses) => checker.law(clauses, locals).map(Some),
-                },
-            );
+        let region = Region::Clause;
+        let law = self.unrolled(body, reference, library, region, scope, |checker| {
+            checker.behavior_body(behavior, locals)
+        });
         let id = law.flatten().map(|law| {
             self.program.behaviors.push(Behavior {
                 name: name.clone(),
@@ -99,16 +74,32 @@ impl<'a> Checker<'a> {
         id.map(Value::Behavior)
     }
 
+    /// The law of a behaviour whose arguments `locals` hold; one that is declared only has none.
+    fn behavior_body(
+        &mut self,
+        behavior: &'a ast::Behavior,
+        locals: Table<Local>,
+    ) -> Option<Option<Law>> {
+        match &behavior.body {
+            BehaviorBody::Declared => Some(None),
+            BehaviorBody::Alias(target) => {
+                self.context.region = Region::Tree;
+                let target = self.alias(target)?;
+                Some(self.program.behaviors[target].law.clone())
+            }
+            BehaviorBody::Clauses(clauses) => self.law(clauses, locals).map(Some),
+        }
+    }
+
     fn alias(&mut self, target: &'a Ref) -> Option<BehaviorId> {
         let typed = self.reference(target)?;
-        match (&typed.ty, typed.value) {
-            (_, Value::Behavior(id)) => return Some(id),
-            (Type::Behavior | Type::Error, _) => {}
+        match (&typed.ty, &typed.value) {
+            (_, Value::Behavior(id)) => Some(*id),
+            (Type::Behavior | Type::Error, _) => None,
             (other, _) => self
                 .error(Code::E0203, target.span, "an alias names a behaviour")
-                .label(format!("this is {other}"))
-                .emit(),
+                .this_is(other)
+                .none(),
         }
-        None
     }
 }

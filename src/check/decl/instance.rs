@@ -52,7 +52,7 @@ impl Checker<'_> {
             return name::Value::Name(named.clone());
         }
         match (value, &given.kind) {
-            // A parameter of a subtree or a shared expression stands for a number that has no spelling here.
+            // A parameter of a subtree or a shared expression stands for a number that is not written here.
             (Value::Scalar(id), _)
                 if self.mentions_parameter(given)
                     && let Some(number) = self.program.pool.constant(*id) =>

@@ -63,17 +63,7 @@ impl<'a> Checker<'a> {
                 .also(predicate.name.span, "declared here, without `= …`")
                 .none();
         }
-        let body = predicate.name.span;
-        let value = self
-            .unrolled(
-                body,
-                reference,
-                library,
-                Region::Predicate,
-                scope,
-                |checker| checker.predicate_body(predicate),
-            )
-            .flatten();
+        let value = self.predicate_under(scope, predicate, library, reference);
         Some(Typed::new(Type::Bool, value, span))
     }
 
@@ -92,27 +82,34 @@ impl<'a> Checker<'a> {
         if let Some(known) = self.predicates.get(&name) {
             return *known;
         }
-        let when = if predicate.value.is_some() {
-            let body = predicate.name.span;
-            self.unrolled(
-                body,
-                reference,
-                library,
-                Region::Predicate,
-                scope,
-                |checker| checker.predicate_body(predicate),
-            )
-            .map(|when| when.map(Some))
-        } else {
-            Some(Some(None))
+        // A predicate that is declared only has no value, and is an atom all the same.
+        let when = match predicate.value {
+            Some(_) => self
+                .predicate_under(scope, predicate, library, reference)
+                .map(Some),
+            None => Some(None),
         };
-        let id = when.flatten().map(|when| {
-            self.program.predicates.push(Predicate {
-                name: name.clone(),
-                when,
-            })
+        let id = when.map(|when| {
+            let name = name.clone();
+            self.program.predicates.push(Predicate { name, when })
         });
         self.predicates.insert(name, id);
         id
+    }
+
+    /// The value of a predicate under arguments.
+    fn predicate_under(
+        &mut self,
+        scope: Vec<Binding<'a>>,
+        predicate: &'a ast::Predicate,
+        library: bool,
+        reference: &'a Ref,
+    ) -> Option<ExprId> {
+        let body = predicate.name.span;
+        let region = Region::Predicate;
+        self.unrolled(body, reference, library, region, scope, |checker| {
+            checker.predicate_body(predicate)
+        })
+        .flatten()
     }
 }

@@ -79,7 +79,7 @@ impl<'a> Checker<'a> {
                 decl.name.span,
                 format!("the enum `{}` has no variants", decl.name.name),
             )
-            .label("nothing could be of it");
+            .label("no value could be of this type");
         }
     }
 
@@ -92,7 +92,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// A state variable as it is now.
+    /// The current value of a state variable.
     pub fn state_value(&mut self, state: &'a ast::State, reference: &'a Ref) -> Option<Typed> {
         let span = reference.span;
         if self.context.region == Region::World {

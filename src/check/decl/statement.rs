@@ -60,7 +60,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// A `let` holds the value of its moment; a constant or a target needs no variable for that.
+    /// A `let` keeps the value it has when it is reached; a constant or a target needs no variable.
     fn let_stmt(&mut self, binding: &'a ast::Binding, depth: usize) -> Option<Vec<Stmt>> {
         let name = &binding.name;
         let typed = self.binding_value(binding);
@@ -108,7 +108,7 @@ impl<'a> Checker<'a> {
                 op.span,
                 format!("{role} is {ty}, which is no number"),
             )
-            .label("only numbers are reckoned with; `=` sets it");
+            .label("arithmetic needs a number; `=` sets it");
             self.expr(value);
             return None;
         }

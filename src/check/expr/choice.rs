@@ -58,8 +58,8 @@ impl<'a> Checker<'a> {
                 Some(holds) => if holds != 0.0 { a } else { b }.clone(),
                 None if a == b => a.clone(),
                 None => {
-                    self.not_yet(span, "targets that are chosen while the program runs");
-                    return None;
+                    let what = "targets that are chosen while the program runs";
+                    return self.not_yet(span, what).none();
                 }
             },
         };
@@ -83,7 +83,7 @@ impl<'a> Checker<'a> {
         self.declared(binding.ty.as_ref(), &binding.value, &binding.name.name)
     }
 
-    /// A value of the type that is written beside it, if one is.
+    /// A value with its declared type, if there is one.
     pub fn declared(&mut self, ty: Option<&ast::TypeExpr>, value: &'a Expr, name: &str) -> Typed {
         match ty {
             Some(written) => {

@@ -9,7 +9,7 @@ use crate::ir::tree::Status;
 use crate::syntax::ast::Ref;
 
 impl<'a> Checker<'a> {
-    /// `success(b)`, `failure(b)`: the behaviour ended so in this tick; in a `history` line, that it did.
+    /// `success(b)`, `failure(b)`: whether the behaviour ended so in this tick; in a `history` line, that end.
     pub fn ended(&mut self, function: Function, reference: &'a Ref) -> Typed {
         let span = reference.span;
         let Some(&[value]) = self.positional(reference, 1, 1).as_deref() else {

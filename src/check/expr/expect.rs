@@ -1,4 +1,4 @@
-//! Expressions that have to be of a type, constants, numbers.
+//! Expressions of an expected type, constants and numbers.
 
 use crate::check::Checker;
 use crate::check::report::Draft;

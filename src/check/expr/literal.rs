@@ -23,9 +23,9 @@ impl<'a> Checker<'a> {
             };
             return Some(Typed::new(ty, Value::Scalar(id), span));
         }
-        // Ticks before the world has said how long they are: the type is known all the same.
+        // Ticks of a length that is not known yet: the type is known, the value is not.
         let meaning = meaning(unit, Some(1.0))?;
-        // A world says how long a tick is before it says anything else.
+        // The tick is checked before the rest of the world.
         let in_tick = self.has_world && self.program.world.is_none();
         if in_tick || !self.has_world {
             let message = if in_tick {

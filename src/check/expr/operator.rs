@@ -246,7 +246,7 @@ impl<'a> Checker<'a> {
         Typed::new(ty, value, span)
     }
 
-    /// A value that is made of as many scalars; unknown where one of them is.
+    /// A value computed from scalars; unknown if one of them is.
     pub fn lift<const N: usize>(
         &mut self,
         ty: Type,

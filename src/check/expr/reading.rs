@@ -1,4 +1,4 @@
-//! What is read of targets: places, points, walls and sensors become arithmetic on the pose, or a reading.
+//! Readings of targets: places, points, walls and sensors become arithmetic on the pose, or a leaf of the pool.
 
 use crate::check::Checker;
 use crate::check::builtin::Function;
@@ -17,14 +17,9 @@ impl<'a> Checker<'a> {
             return Typed::error(span);
         };
         if !self.has_world {
-            return self
-                .error(
-                    Code::E0407,
-                    reference.name.span,
-                    format!("`{}` needs a world, and there is none", reference.name.name),
-                )
-                .label("read by a robot in its world")
-                .typed();
+            let what = format!("`{}`", reference.name.name);
+            let label = "read by a robot in its world";
+            return self.no_world(reference.name.span, &what, label).typed();
         }
         let mut targets = Vec::new();
         for value in values {
@@ -60,18 +55,17 @@ impl<'a> Checker<'a> {
             [from, to] => self.distance_between(from, to),
             _ => None,
         };
-        Typed::new(ty, id.map_or(Value::Unknown, Value::Scalar), span)
+        Typed::new(ty, id, span)
     }
 
     fn read_one(&mut self, function: Function, target: &Typed) -> Option<ExprId> {
         if matches!(target.value, Value::Robot) {
-            self.not_yet(target.span, "readings of robots");
-            return None;
+            return self.not_yet(target.span, "readings of robots").none();
         }
         let wall = matches!(target.value, Value::Wall(_) | Value::NearestWall);
         if function == Function::Visible && wall {
-            self.not_yet(target.span, "readings of walls in sight");
-            return None;
+            let what = "readings of walls in sight";
+            return self.not_yet(target.span, what).none();
         }
         match function {
             Function::Distance => self.echo(target, Echo::Distance),
@@ -140,8 +134,8 @@ impl<'a> Checker<'a> {
     fn distance_between(&mut self, from: &Typed, to: &Typed) -> Option<ExprId> {
         for end in [from, to] {
             if !matches!(end.ty, Type::Place(_) | Type::Point) {
-                self.not_yet(end.span, "distances between walls, robots and sensors");
-                return None;
+                let what = "distances between walls, robots and sensors";
+                return self.not_yet(end.span, what).none();
             }
         }
         let ((ax, ay), (bx, by)) = (self.point_of(from)?, self.point_of(to)?);

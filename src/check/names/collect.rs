@@ -1,4 +1,4 @@
-//! Collecting the declared names: each once in its space.
+//! Collecting the declared names of all files.
 
 use super::{Decl, Names, START_WORDS, TypeDecl, is_built_in, learned_name};
 use crate::check::Input;
@@ -88,7 +88,7 @@ impl<'a> Collector<'_, 'a> {
                 }
                 WorldEntryKind::Robot { name, entries } => {
                     self.value(Decl::Robot(name));
-                    // The sensors of the acting robot are in scope by name, those of others are not.
+                    // Only the sensors of the acting robot are in scope by name.
                     let runs = entries.iter().any(|entry| {
                         matches!(&entry.kind, RobotEntryKind::Field(field) if field.name.name == "runs")
                     });

@@ -1,4 +1,4 @@
-//! Looking up names that have to be of a kind.
+//! Looking up a name where one kind of declaration is expected.
 
 use super::Decl;
 use crate::check::Checker;
@@ -69,7 +69,7 @@ impl<'a> Checker<'a> {
         self.program.tasks.find(|task| task.name == name)
     }
 
-    /// Reports a name that nothing declares; `what` could stand there, and is `likely` called so.
+    /// Reports an undeclared name where a `what` is expected; `likely` is the name that was probably meant.
     pub fn undeclared(&mut self, name: &Ident, what: &str, likely: Option<&str>) -> Draft<'_> {
         self.error(
             Code::E0202,
@@ -80,7 +80,7 @@ impl<'a> Checker<'a> {
         .likely(name, likely)
     }
 
-    /// Reports a name that nothing declares, where a declaration that `fits` is needed.
+    /// Reports an undeclared name where a declaration that `fits` is expected.
     pub fn undeclared_value(
         &mut self,
         name: &Ident,
@@ -91,7 +91,7 @@ impl<'a> Checker<'a> {
         self.undeclared(name, what, likely)
     }
 
-    /// How to get a behaviour that the library has and the program does not use.
+    /// Advice to use the library, if it has a behaviour of this name and the program does not use it.
     pub fn perhaps_of_library(&self, name: &str) -> Option<String> {
         let idle = self.names.value("idle", true);
         let used = idle.is_some_and(|(_, library)| library);

@@ -35,7 +35,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// A history that starts with what it does not keep would be forgotten at once.
+    /// Reports a history that starts with an outcome it does not keep: it would be forgotten at once.
     pub fn kept_in_history(&mut self, function: Function, reference: &Ref) {
         let Some(history) = self
             .kept
@@ -60,7 +60,7 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// The `history` line that keeps an outcome besides what is kept already.
+/// The `history` line that keeps an outcome in addition to those it keeps already.
 pub fn keeping(history: History, outcome: &str) -> String {
     let window = history.window.max(1);
     if history.success || history.failure {

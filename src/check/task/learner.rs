@@ -1,4 +1,4 @@
-//! Learners: the settings by which a task is learned.
+//! Learners: the settings for learning a task.
 
 use crate::check::Checker;
 use crate::check::context::{Context, Region};
@@ -79,7 +79,7 @@ impl<'a> Checker<'a> {
         }
         if let (Method::Model, Some(rate)) = (built.method, seen.get("rate")) {
             self.warning(Code::W0501, *rate, "the method `model` takes no steps")
-                .label("this says nothing here");
+                .label("this has no effect here");
         }
         if !seen.contains_key("episodes") {
             let example = "episodes = 4_000";
@@ -118,7 +118,7 @@ impl<'a> Checker<'a> {
                 link.span.to(tail.span),
                 format!("`{name}` takes no `{word}`"),
             )
-            .label("this says nothing here");
+            .label("this has no effect here");
             return;
         }
         let tail = setting.tail.as_ref().map(|(_, tail)| tail);
@@ -228,7 +228,7 @@ impl<'a> Checker<'a> {
             Some(to) => self.ramp(from_id, to.scalar()?),
             None => from_id,
         };
-        let strange = self.program.pool.any(id, &mut |expr| {
+        let reads_world = self.program.pool.any(id, &mut |expr| {
             !matches!(
                 expr,
                 Expr::Num(_)
@@ -240,7 +240,7 @@ impl<'a> Checker<'a> {
                     | Expr::Select(..)
             )
         });
-        if strange {
+        if reads_world {
             return self
                 .error(
                     Code::E0307,

@@ -92,7 +92,7 @@ impl<'a> Checker<'a> {
             if (0.0..=1.0).contains(&value) {
                 Some(value)
             } else {
-                // That it is no `%` has been said, and is the lesser mistake.
+                // The warning that it has no `%` is the lesser mistake.
                 self.diagnostics
                     .retain(|said| said.code != Code::W0301 || said.span() != p.span);
                 self.out_of_range(

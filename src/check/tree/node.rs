@@ -116,7 +116,7 @@ impl<'a> Checker<'a> {
             (false, Some(args)) => {
                 let span = args.first().map_or(word.span, |arg| arg.span);
                 self.error(Code::E0606, span, format!("`{name}` takes no argument"))
-                    .label("this says nothing here")
+                    .label("this has no effect here")
                     .none()
             }
             (true, Some([arg])) => match &arg.kind {

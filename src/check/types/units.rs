@@ -57,7 +57,7 @@ impl Dim {
         even.then(|| Self::new(self.length / 2, self.time / 2, self.angle / 2))
     }
 
-    /// A unit of this dimension as the language writes it, if it can: a numerator of one factor is needed.
+    /// A unit of this dimension as the language writes it. `None` unless its numerator has exactly one factor.
     pub fn unit(self) -> Option<String> {
         let one_above = [self.length, self.angle, self.time]
             .iter()

@@ -46,7 +46,7 @@ impl<'a> Checker<'a> {
                             name.name
                         ),
                     )
-                    .label(format!("this is {ty}"));
+                    .this_is(ty);
                     return Type::Error;
                 }
             }

@@ -164,7 +164,7 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// The word that a value is; empty if it is anything else.
+/// The value as a word; empty if it is not one.
 fn word(value: &Expr) -> &str {
     match &value.kind {
         ExprKind::Ref(Ref {
@@ -174,7 +174,7 @@ fn word(value: &Expr) -> &str {
     }
 }
 
-/// The robot of a world that has not said it yet.
+/// A stand-in for the robot until it is checked.
 pub fn no_robot() -> Robot {
     Robot {
         name: Name::default(),

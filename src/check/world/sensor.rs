@@ -10,7 +10,7 @@ use crate::source::Span;
 use crate::syntax::ast::{self, Expr, ExprKind};
 use std::f64::consts::{PI, TAU};
 
-/// What a sensor can be, as it is offered.
+/// The kinds of sensors, as a message lists them.
 const SENSORS: [&str; 3] = ["scanner(…)", "range_finder(…)", "beacon(…)"];
 
 impl<'a> Checker<'a> {

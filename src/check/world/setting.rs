@@ -1,4 +1,4 @@
-//! Fields and settings of the world: each by its name, each once, constants all.
+//! Fields and settings of the world: given by name, at most once, constant.
 
 use crate::check::Checker;
 use crate::check::signature::{Signature, Takes};
@@ -7,7 +7,7 @@ use crate::diagnostic::Code;
 use crate::source::Span;
 use crate::syntax::ast::{Expr, Field, Ref};
 
-/// A setting: its name, its type, and the value that it has where it is not given.
+/// A setting: its name, its type and its default.
 pub type Setting = (&'static str, Type, Option<f64>);
 
 impl<'a> Checker<'a> {
@@ -82,7 +82,7 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// How a setting could look.
+/// An example of a setting.
 fn example(setting: &str) -> &'static str {
     match setting {
         "max_speed" => "max_speed = 0.4 m/s",

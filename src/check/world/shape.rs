@@ -1,4 +1,4 @@
-//! Shapes of the world: constants, checked for sense.
+//! Shapes of the world: constant and not degenerate.
 
 use crate::check::Checker;
 use crate::check::builtin::Function;
@@ -73,8 +73,7 @@ impl<'a> Checker<'a> {
 
     /// A length above zero.
     pub fn radius(&mut self, value: &'a ast::Expr) -> Option<f64> {
-        let length = Type::LENGTH;
-        let radius = self.constant(value, &length, "a radius")?;
+        let radius = self.constant(value, &Type::LENGTH, "a radius")?;
         if radius > 0.0 {
             Some(radius)
         } else {

@@ -1,0 +1,122 @@
+//! Parameters, and the arguments that references give them.
+
+use crate::check::Checker;
+use crate::check::context::{Binding, Context, Region};
+use crate::check::signature::{Signature, Takes};
+use crate::check::types::Type;
+use crate::diagnostic::Code;
+use crate::syntax::ast::{Param, Params, Ref};
+
+impl<'a> Checker<'a> {
+    /// Parameters that are known by their type only.
+    pub fn unknown_parameters(&mut self, params: Option<&'a Params>) -> Vec<Binding<'a>> {
+        let mut bindings: Vec<Binding<'a>> = Vec::new();
+        for param in params.map_or(&[][..], |params| &params.params) {
+            let name = &param.name;
+            let ty = self.type_expr(&param.ty);
+            if let Some(default) = &param.default {
+                let role = format!("`{}`", name.name);
+                let region = std::mem::replace(&mut self.context.region, Region::Let);
+                self.expect(default, &ty, &role);
+                self.context.region = region;
+            }
+            if let Some(first) = bindings.iter().find(|other| other.name.name == name.name) {
+                self.error(
+                    Code::E0201,
+                    name.span,
+                    format!("two parameters are called `{}`", name.name),
+                )
+                .label("declared again here")
+                .also(first.name.span, "first declared here");
+            }
+            self.binds(name, "parameter");
+            bindings.push(Binding::unknown(name, ty));
+        }
+        bindings
+    }
+
+    /// The parameters of a declaration with the values that a reference gives them, by position, by name or by
+    /// default; `library` says whether the declaration is of the library. Every mistake is reported; `None` if there
+    /// are any.
+    pub fn bind_arguments(
+        &mut self,
+        params: Option<&'a Params>,
+        library: bool,
+        reference: &'a Ref,
+    ) -> Option<Vec<Binding<'a>>> {
+        let params: &'a [Param] = params.map_or(&[], |params| &params.params);
+        let name = &reference.name.name;
+        let names: Vec<&str> = params
+            .iter()
+            .map(|param| param.name.name.as_str())
+            .collect();
+        let signature = Signature {
+            owner: &format!("`{name}`"),
+            takes: Takes::Parameters {
+                names: &names,
+                words: &words(params),
+            },
+        };
+        let args = reference.args.as_deref().unwrap_or_default();
+        let matched = self.matched(&signature, args);
+        let mut fine = matched.fine;
+        let mut bindings: Vec<Binding<'a>> = Vec::new();
+        for (param, given) in params.iter().zip(matched.values()) {
+            let role = format!("`{}` of `{name}`", param.name.name);
+            let ty = self.in_library(library, |checker| checker.type_expr(&param.ty));
+            let value = match (given, &param.default) {
+                (Some(value), _) => self.expect(value, &ty, &role),
+                (None, Some(default)) => {
+                    let context = Context {
+                        region: Region::Let,
+                        library,
+                        scope: bindings.clone(),
+                    };
+                    let outer = std::mem::replace(&mut self.context, context);
+                    let (value, _) = self.captured(|checker| checker.expect(default, &ty, &role));
+                    self.context = outer;
+                    value
+                }
+                (None, None) => {
+                    // If another argument is wrong, it may be the missing one.
+                    if fine {
+                        self.error(
+                            Code::E0305,
+                            reference.span,
+                            format!("`{name}` needs its argument `{}`", param.name.name),
+                        )
+                        .label(format!("{ty} is missing"))
+                        .also(param.span, "it is declared here");
+                    }
+                    fine = false;
+                    continue;
+                }
+            };
+            fine &= value.ty != Type::Error;
+            let ty = if ty == Type::Error { value.ty } else { ty };
+            bindings.push(Binding::new(&param.name, ty, value.value));
+        }
+        fine.then_some(bindings)
+    }
+
+    fn in_library<T>(&mut self, library: bool, pass: impl FnOnce(&mut Self) -> T) -> T {
+        let outer = std::mem::replace(&mut self.context.library, library);
+        let result = pass(self);
+        self.context.library = outer;
+        result
+    }
+}
+
+/// How many arguments parameters take, in words.
+fn words(params: &[Param]) -> String {
+    let most = if params.iter().any(|param| param.default.is_some()) {
+        "at most "
+    } else {
+        ""
+    };
+    match params.len() {
+        0 => "no arguments".to_owned(),
+        1 => format!("{most}one argument"),
+        n => format!("{most}{n} arguments"),
+    }
+}
