@@ -7,6 +7,9 @@ use crate::diagnostic::Code;
 use crate::source::Span;
 use crate::syntax::ast::{Expr, Field, Ref};
 
+/// The values of settings, each with its place.
+type Values<const N: usize> = [(f64, Span); N];
+
 /// A setting: its name, its type and its default.
 pub type Setting = (&'static str, Type, Option<f64>);
 
@@ -17,7 +20,7 @@ impl<'a> Checker<'a> {
         &mut self,
         reference: &'a Ref,
         wanted: [Setting; N],
-    ) -> Option<[(f64, Span); N]> {
+    ) -> Option<Values<N>> {
         self.settings_after(None, reference, wanted).1
     }
 
@@ -27,7 +30,7 @@ impl<'a> Checker<'a> {
         first: Option<&'static str>,
         reference: &'a Ref,
         wanted: [Setting; N],
-    ) -> (Option<&'a Expr>, Option<[(f64, Span); N]>) {
+    ) -> (Option<&'a Expr>, Option<Values<N>>) {
         let names = wanted.iter().map(|(name, ..)| *name);
         let names: Vec<&str> = first.into_iter().chain(names).collect();
         let owner = format!("`{}(…)`", reference.name.name);
