@@ -6,7 +6,7 @@
 )]
 
 #[allow(dead_code, unreachable_pub, reason = "shared with the tests")]
-#[path = "../tests/it/world_delivery.rs"]
+#[path = "../tests/it/world/delivery.rs"]
 mod world_delivery;
 
 use btc::ir::world::Shape;

@@ -1,84 +1,71 @@
 //! Functions of numbers.
 
 use super::Checker;
-use super::builtin::Function;
 use super::types::units::Dim;
 use super::types::{Type, Typed};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::ir::expr::{Binary, Unary};
+use crate::ir::expr::{Binary, Kind, Unary};
 use crate::syntax::ast::Ref;
 
 impl<'a> Checker<'a> {
     /// A function of one number.
-    pub fn function_of_one(&mut self, function: Function, reference: &'a Ref) -> Typed {
-        use Function as F;
+    pub fn function_of_one(&mut self, op: Unary, reference: &'a Ref) -> Typed {
         let span = reference.span;
         let Some(&[value]) = self.positional(reference, 1, 1).as_deref() else {
             return Typed::error(span);
         };
-        let angle = Type::Quantity(Dim::ANGLE);
-        let role = format!("the argument of `{}`", reference.name.name);
-        let same = |ty: &Type| ty.clone();
-        let (op, argument, ty): (Unary, Typed, Type) = match function {
-            F::Sin | F::Cos | F::Tan => {
-                let op = match function {
-                    F::Sin => Unary::Sin,
-                    F::Cos => Unary::Cos,
-                    _ => Unary::Tan,
-                };
-                (op, self.expect(value, &angle, &role), Type::NUMBER)
-            }
-            F::Asin | F::Acos | F::Atan => {
-                let op = match function {
-                    F::Asin => Unary::Asin,
-                    F::Acos => Unary::Acos,
-                    _ => Unary::Atan,
-                };
-                (op, self.expect(value, &Type::NUMBER, &role), angle)
-            }
-            F::Wrap => (Unary::Wrap, self.expect(value, &angle, &role), angle),
-            F::Exp | F::Ln | F::Floor | F::Ceil | F::Round => {
-                let op = match function {
-                    F::Exp => Unary::Exp,
-                    F::Ln => Unary::Ln,
-                    F::Floor => Unary::Floor,
-                    F::Ceil => Unary::Ceil,
-                    _ => Unary::Round,
-                };
-                (op, self.expect(value, &Type::NUMBER, &role), Type::NUMBER)
-            }
-            _ => {
+        let role = format!("the argument of `{}`", op.name());
+        let argument = match fixed_type(op.takes()) {
+            Some(ty) => self.expect(value, &ty, &role),
+            None => {
                 let argument = self.expr(value);
-                let Some(dim) = self.number(&argument) else {
+                if self.number(&argument).is_none() {
                     return Typed::error(span);
-                };
-                match function {
-                    F::Sign => (Unary::Sign, argument, Type::NUMBER),
-                    F::Sqrt => match dim.root() {
-                        Some(root) => (Unary::Sqrt, argument, Type::Quantity(root)),
-                        None => {
-                            self.report(
-                                Diagnostic::new(
-                                    Code::E0301,
-                                    argument.span,
-                                    format!("{dim} has no square root with a unit"),
-                                )
-                                .label("the exponents of its unit are odd"),
-                            );
-                            return Typed::error(span);
-                        }
-                    },
-                    _ => {
-                        let ty = same(&argument.ty);
-                        (Unary::Abs, argument, ty)
-                    }
                 }
+                argument
             }
+        };
+        let ty = match fixed_type(op.gives()) {
+            Some(ty) => Some(ty),
+            None if op.gives() == Kind::Derived => self.root(&argument),
+            None => Some(argument.ty.clone()),
+        };
+        let Some(ty) = ty else {
+            return Typed::error(span);
         };
         self.lifted(ty, span, &[&argument], |pool, ids| match ids {
             [a] => Some(pool.unary(op, *a)),
             _ => None,
         })
+    }
+
+    /// A function of two numbers of one unit; of more, where its result is of that unit, too.
+    pub fn function_of_two(&mut self, op: Binary, reference: &'a Ref) -> Typed {
+        let span = reference.span;
+        let Some(ty) = fixed_type(op.gives()) else {
+            return self.fold(op, reference);
+        };
+        let Some((a, b)) = self.two_alike(reference) else {
+            return Typed::error(span);
+        };
+        self.lifted(ty, span, &[&a, &b], |pool, ids| match ids {
+            [a, b] => Some(pool.binary(op, *a, *b)),
+            _ => None,
+        })
+    }
+
+    /// The type of a square root.
+    fn root(&mut self, square: &Typed) -> Option<Type> {
+        let dim = square.ty.dim()?;
+        let root = dim.root();
+        if root.is_none() {
+            let message = format!("{dim} has no square root with a unit");
+            self.report(
+                Diagnostic::new(Code::E0301, square.span, message)
+                    .label("the exponents of its unit are odd"),
+            );
+        }
+        root.map(Type::Quantity)
     }
 
     pub fn two_alike(&mut self, reference: &'a Ref) -> Option<(Typed, Typed)> {
@@ -93,7 +80,8 @@ impl<'a> Checker<'a> {
         (b.ty != Type::Error).then_some((a, b))
     }
 
-    pub fn extremum(&mut self, op: Binary, reference: &'a Ref) -> Typed {
+    /// `op(a, b, c)` is `op(op(a, b), c)`.
+    fn fold(&mut self, op: Binary, reference: &'a Ref) -> Typed {
         let span = reference.span;
         let Some(values) = self.positional(reference, 2, usize::MAX) else {
             return Typed::error(span);
@@ -160,5 +148,15 @@ impl<'a> Checker<'a> {
             let floor = pool.binary(Binary::Max, x, low);
             Some(pool.binary(Binary::Min, floor, high))
         })
+    }
+}
+
+/// The type of a kind; `None` if it depends on the operands.
+fn fixed_type(kind: Kind) -> Option<Type> {
+    match kind {
+        Kind::Truth => Some(Type::Bool),
+        Kind::Number => Some(Type::NUMBER),
+        Kind::Angle => Some(Type::Quantity(Dim::ANGLE)),
+        Kind::Quantity | Kind::Derived => None,
     }
 }

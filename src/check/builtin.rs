@@ -5,7 +5,7 @@ use super::context::Region;
 use super::types::units::Dim;
 use super::types::{Type, Typed, Value};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::ir::expr::{Binary, Expr, Pose};
+use crate::ir::expr::{Binary, Expr, Pose, Unary};
 use crate::source::Span;
 use crate::syntax::ast::Ref;
 
@@ -49,27 +49,9 @@ named! {
 }
 
 named! {
-    /// Names with arguments.
+    /// Names with arguments, besides the functions of numbers.
     Function {
-        Abs "abs",
-        Sign "sign",
-        Min "min",
-        Max "max",
         Clamp "clamp",
-        Wrap "wrap",
-        Sqrt "sqrt",
-        Exp "exp",
-        Ln "ln",
-        Floor "floor",
-        Ceil "ceil",
-        Round "round",
-        Sin "sin",
-        Cos "cos",
-        Tan "tan",
-        Asin "asin",
-        Acos "acos",
-        Atan "atan",
-        Atan2 "atan2",
         Distance "distance",
         Bearing "bearing",
         Direction "direction",
@@ -96,10 +78,35 @@ named! {
     }
 }
 
+/// What a call of a built-in name calls.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BuiltIn {
+    /// A function of one number.
+    Unary(Unary),
+    /// A function of two numbers.
+    Binary(Binary),
+    /// Anything else.
+    Function(Function),
+}
+
+impl BuiltIn {
+    /// The built-in of that name.
+    pub fn named(name: &str) -> Option<Self> {
+        let unary = || Unary::named(name).map(Self::Unary);
+        let binary = || Binary::named(name).map(Self::Binary);
+        let function = Function::named(name).map(Self::Function);
+        function.or_else(unary).or_else(binary)
+    }
+}
+
 /// Every built-in name.
 pub fn names() -> impl Iterator<Item = &'static str> {
     let constants = Constant::NAMES.iter().map(|(name, _)| *name);
-    constants.chain(Function::NAMES.iter().map(|(name, _)| *name))
+    let unary = Unary::ALL.iter().map(|op| op.name());
+    let binary = Binary::ALL.iter().map(|op| op.name());
+    let functions = Function::NAMES.iter().map(|(name, _)| *name);
+    let calls = unary.chain(binary).chain(functions);
+    constants.chain(calls.filter(|name| !name.is_empty()))
 }
 
 impl<'a> Checker<'a> {
@@ -199,10 +206,15 @@ impl<'a> Checker<'a> {
         Typed::error(span)
     }
 
-    /// A call of a built-in function.
-    pub fn built_in_call(&mut self, function: Function, reference: &'a Ref) -> Typed {
-        let span = reference.span;
+    /// A call of a built-in name.
+    pub fn built_in_call(&mut self, called: BuiltIn, reference: &'a Ref) -> Typed {
         use Function as F;
+        let span = reference.span;
+        let function = match called {
+            BuiltIn::Unary(op) => return self.function_of_one(op, reference),
+            BuiltIn::Binary(op) => return self.function_of_two(op, reference),
+            BuiltIn::Function(function) => function,
+        };
         match function {
             F::Any | F::All | F::Count | F::Nearest => self.quantified(function, reference),
             F::Disc | F::Rect | F::Polygon | F::Polyline | F::Line => {
@@ -220,30 +232,7 @@ impl<'a> Checker<'a> {
             }
             F::Success | F::Failure | F::Done | F::Failed => self.ended(function, reference),
             F::Uniform | F::Normal | F::Chance | F::OneOf => self.random(function, reference),
-            F::Min | F::Max => {
-                let op = if function == F::Min {
-                    Binary::Min
-                } else {
-                    Binary::Max
-                };
-                self.extremum(op, reference)
-            }
             F::Clamp => self.clamp(reference),
-            F::Atan2 => {
-                let Some((a, b)) = self.two_alike(reference) else {
-                    return Typed::error(span);
-                };
-                self.lifted(
-                    Type::Quantity(Dim::ANGLE),
-                    span,
-                    &[&a, &b],
-                    |pool, ids| match ids {
-                        [a, b] => Some(pool.binary(Binary::Atan2, *a, *b)),
-                        _ => None,
-                    },
-                )
-            }
-            _ => self.function_of_one(function, reference),
         }
     }
 }

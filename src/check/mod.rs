@@ -20,6 +20,8 @@ mod tree;
 mod types;
 mod world;
 
+pub use builtin::names as built_in_names;
+
 use crate::diagnostic::Diagnostic;
 use crate::ir::Program;
 use crate::syntax::ast;

@@ -7,7 +7,7 @@
 mod collect;
 mod lookup;
 
-use super::builtin::{Constant, Function};
+use super::builtin;
 use crate::syntax::ast::{self, Ident};
 use std::collections::BTreeMap;
 
@@ -149,5 +149,5 @@ impl<'a> Names<'a> {
 
 /// Whether a name is one that the compiler knows.
 pub fn is_built_in(name: &str) -> bool {
-    Constant::named(name).is_some() || Function::named(name).is_some()
+    builtin::names().any(|known| known == name)
 }

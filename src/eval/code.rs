@@ -1,88 +1,116 @@
-//! The instructions of the register machine.
+//! The instructions of the register machine: one for each operator of the language, and the machine's own.
+
+use crate::ir::expr::{Binary, Unary};
+use crate::ir::operator::operators;
 
 /// A register's number.
 pub type Register = u16;
 
-/// What an instruction does. `a`, `b` and `dst` are registers unless it says otherwise.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(u8)]
-#[allow(missing_docs, reason = "arithmetic is named after the function")]
-pub enum Op {
-    /// `dst = a`
-    Move,
-    // `dst = a op b`
-    Add,
-    Sub,
-    Mul,
-    Div,
-    Min,
-    Max,
-    Pow,
-    Atan2,
-    Hypot,
-    Eq,
-    Ne,
-    Lt,
-    Le,
-    And,
-    Or,
-    /// `dst` = the direction of the vector of x coordinate `b` and y coordinate `a`, in [−π, π)
-    Direction,
-    /// `dst = a² + b²`
-    SquareSum,
-    /// `dst = a − b`, wrapped to [−π, π)
-    WrapSub,
-    /// `dst = a`, kept within ±b
-    Clamp,
-    // `dst = op a`
-    Neg,
-    Not,
-    Abs,
-    Sign,
-    Sqrt,
-    Exp,
-    Ln,
-    Floor,
-    Ceil,
-    Round,
-    Sin,
-    Cos,
-    Tan,
-    Asin,
-    Acos,
-    Atan,
-    Wrap,
-    /// Goes on at the instruction `dst`.
-    Jump,
-    // Goes on at `dst` where the condition on `a` (and `b`) holds, or does not.
-    JumpIf,
-    JumpUnless,
-    JumpEq,
-    JumpNe,
-    JumpLt,
-    JumpLe,
-    JumpUnlessLt,
-    JumpUnlessLe,
-    /// `dst` = whether no wall stands between the robot and the point (`a`, `b`).
-    Visible,
-    /// Fills the four registers from `dst` with echo source number `a`: distance, x and y of the vector to it, seen.
-    Look,
-    /// `dst` = whether the robot is in place number `a`.
-    Inside,
-    /// `dst` = uniform in [a, b).
-    Uniform,
-    /// `dst` = Gaussian of mean `a` and standard deviation `b`.
-    Normal,
-    /// `dst` = true with probability `a`.
-    Chance,
-    /// `dst` = one of 0 … a − 1.
-    Pick,
-    /// Reports event number `a`.
-    Fire,
-    /// Sets bit number `dst` of the atoms where `a` holds.
-    Atom,
-    /// Ends the run with the answer `a`.
-    Exit,
+macro_rules! instructions {
+    (
+        unary ($a:ident) { $($unary:ident $un:literal $ut:ident => $ug:ident, $uc:literal, $uf:expr;)* }
+        binary ($x:ident, $y:ident) { $($binary:ident $bn:literal $bt:ident => $bg:ident, $bc:literal, $bf:expr;)* }
+    ) => {
+        /// What an instruction does. `a`, `b` and `dst` are registers unless it says otherwise.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[repr(u8)]
+        #[allow(missing_docs, reason = "operators are named after the function")]
+        pub enum Op {
+            // `dst = op a`
+            $($unary,)*
+            // `dst = a op b`
+            $($binary,)*
+            /// `dst = a`
+            Move,
+            /// `dst` = the direction of the vector of x coordinate `b` and y coordinate `a`, in [−π, π)
+            Direction,
+            /// `dst = a² + b²`
+            SquareSum,
+            /// `dst = a − b`, wrapped to [−π, π)
+            WrapSub,
+            /// `dst = a`, kept within ±b
+            Clamp,
+            /// Goes on at the instruction `dst`.
+            Jump,
+            // Goes on at `dst` where the condition on `a` (and `b`) holds, or does not.
+            JumpIf,
+            JumpUnless,
+            JumpEq,
+            JumpNe,
+            JumpLt,
+            JumpLe,
+            JumpUnlessLt,
+            JumpUnlessLe,
+            /// `dst` = whether no wall stands between the robot and the point (`a`, `b`).
+            Visible,
+            /// Fills the four registers from `dst` with echo source number `a`: distance, x and y of the vector to it,
+            /// seen.
+            Look,
+            /// `dst` = whether the robot is in place number `a`.
+            Inside,
+            /// `dst` = uniform in [a, b).
+            Uniform,
+            /// `dst` = Gaussian of mean `a` and standard deviation `b`.
+            Normal,
+            /// `dst` = true with probability `a`.
+            Chance,
+            /// `dst` = one of 0 … a − 1.
+            Pick,
+            /// Reports event number `a`.
+            Fire,
+            /// Sets bit number `dst` of the atoms where `a` holds.
+            Atom,
+            /// Ends the run with the answer `a`.
+            Exit,
+        }
+
+        impl From<Unary> for Op {
+            fn from(op: Unary) -> Self {
+                match op { $(Unary::$unary => Op::$unary,)* }
+            }
+        }
+
+        impl From<Binary> for Op {
+            fn from(op: Binary) -> Self {
+                match op { $(Binary::$binary => Op::$binary,)* }
+            }
+        }
+
+        impl Op {
+            /// The value of an operator of the language; `None` for every other instruction.
+            #[inline(always)]
+            pub(super) fn apply(self, a: impl Fn() -> f64, b: impl Fn() -> f64) -> Option<f64> {
+                match self {
+                    $(Op::$unary => Some(Unary::$unary.apply(a())),)*
+                    $(Op::$binary => Some(Binary::$binary.apply(a(), b())),)*
+                    _ => None,
+                }
+            }
+        }
+    };
+}
+operators!(instructions);
+
+impl Op {
+    /// Whether all it does is to set `dst`.
+    pub(super) fn makes_a_value(self) -> bool {
+        match self {
+            Op::Jump
+            | Op::JumpIf
+            | Op::JumpUnless
+            | Op::JumpEq
+            | Op::JumpNe
+            | Op::JumpLt
+            | Op::JumpLe
+            | Op::JumpUnlessLt
+            | Op::JumpUnlessLe
+            | Op::Look
+            | Op::Fire
+            | Op::Atom
+            | Op::Exit => false,
+            _ => true,
+        }
+    }
 }
 
 /// An instruction: eight bytes.

@@ -204,14 +204,3 @@ impl Label {
         !self.0.is_empty()
     }
 }
-
-impl Op {
-    /// Whether all it does is to set `dst`.
-    fn makes_a_value(self) -> bool {
-        (self as u8) < Op::Jump as u8
-            || matches!(
-                self,
-                Op::Visible | Op::Inside | Op::Uniform | Op::Normal | Op::Chance | Op::Pick
-            )
-    }
-}

@@ -6,7 +6,7 @@ use super::layout::{Fixed, Source};
 use crate::ir::expr::{Binary, Draw, Echo, Pose, Unary};
 use crate::ir::{Expr, ExprId};
 
-/// A cost from which a value is worth a jump around it, in plain operations.
+/// A value of this cost or more, in additions, is worth a jump around it.
 const WORTH_A_JUMP: u32 = 3;
 
 impl Compiler<'_> {
@@ -54,7 +54,7 @@ impl Compiler<'_> {
                 }
                 _ => {
                     let a = self.value(a)?;
-                    self.result(id, unary(op), a, 0)?
+                    self.result(id, op.into(), a, 0)?
                 }
             },
             Expr::Binary(op @ (Binary::And | Binary::Or), a, b) => self.junction(id, op, a, b)?,
@@ -62,7 +62,7 @@ impl Compiler<'_> {
                 Some((a, limit)) => self.binary(id, Op::Clamp, a, limit)?,
                 None => {
                     let (a, b) = self.compared(op, a, b)?;
-                    self.result(id, binary(op), a, b)?
+                    self.result(id, op.into(), a, b)?
                 }
             },
             Expr::Select(condition, then, otherwise) => {
@@ -120,7 +120,7 @@ impl Compiler<'_> {
         b: ExprId,
     ) -> Result<Register, TooLarge> {
         if self.cost(b) < WORTH_A_JUMP {
-            return self.binary(id, binary(op), a, b);
+            return self.binary(id, op.into(), a, b);
         }
         let dst = self.fresh()?;
         let truth = self.layout.constant(1.0)?;
@@ -233,7 +233,7 @@ impl Compiler<'_> {
         mirrored.then_some((x, b))
     }
 
-    /// What computing an expression here would cost, up to where it no longer matters.
+    /// What computing an expression here would cost in additions; not counted further than where a jump pays.
     fn cost(&self, id: ExprId) -> u32 {
         let (mut sum, mut open) = (0, vec![id]);
         while let Some(id) = open.pop() {
@@ -254,9 +254,9 @@ impl Compiler<'_> {
                 Expr::Sensor(sensor, echo) => self.look_cost(Source::Sensor(sensor), echo),
                 Expr::Wall(wall, echo) => self.look_cost(Source::Wall(wall), echo),
                 Expr::Visible(..) => 10,
-                Expr::Unary(op, _) if (unary(op) as u8) >= Op::Exp as u8 => 5,
-                Expr::Binary(Binary::Atan2 | Binary::Pow | Binary::Div | Binary::Hypot, ..) => 5,
-                Expr::Unary(..) | Expr::Binary(..) | Expr::Inside(_) | Expr::Draw(..) => 1,
+                Expr::Unary(op, _) => op.cost(),
+                Expr::Binary(op, ..) => op.cost(),
+                Expr::Inside(_) | Expr::Draw(..) => 1,
                 Expr::Select(..) => 2,
                 _ => 0,
             };
@@ -272,47 +272,5 @@ impl Compiler<'_> {
         } else {
             10
         }
-    }
-}
-
-fn unary(op: Unary) -> Op {
-    match op {
-        Unary::Neg => Op::Neg,
-        Unary::Not => Op::Not,
-        Unary::Abs => Op::Abs,
-        Unary::Sign => Op::Sign,
-        Unary::Sqrt => Op::Sqrt,
-        Unary::Exp => Op::Exp,
-        Unary::Ln => Op::Ln,
-        Unary::Floor => Op::Floor,
-        Unary::Ceil => Op::Ceil,
-        Unary::Round => Op::Round,
-        Unary::Sin => Op::Sin,
-        Unary::Cos => Op::Cos,
-        Unary::Tan => Op::Tan,
-        Unary::Asin => Op::Asin,
-        Unary::Acos => Op::Acos,
-        Unary::Atan => Op::Atan,
-        Unary::Wrap => Op::Wrap,
-    }
-}
-
-fn binary(op: Binary) -> Op {
-    match op {
-        Binary::Add => Op::Add,
-        Binary::Sub => Op::Sub,
-        Binary::Mul => Op::Mul,
-        Binary::Div => Op::Div,
-        Binary::Min => Op::Min,
-        Binary::Max => Op::Max,
-        Binary::Pow => Op::Pow,
-        Binary::Atan2 => Op::Atan2,
-        Binary::Hypot => Op::Hypot,
-        Binary::Eq => Op::Eq,
-        Binary::Ne => Op::Ne,
-        Binary::Lt => Op::Lt,
-        Binary::Le => Op::Le,
-        Binary::And => Op::And,
-        Binary::Or => Op::Or,
     }
 }

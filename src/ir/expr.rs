@@ -5,11 +5,11 @@
 
 use super::law::Behavior;
 use super::name::Name;
+pub use super::operator::{Binary, Kind, Unary};
 use super::program::{Event, State};
 use super::table::Id;
 use super::tree::Status;
 use super::world::{Place, Sensor, Wall};
-use crate::math;
 use rustc_hash::FxHashMap;
 
 /// A behaviour's own variable.
@@ -108,50 +108,6 @@ pub enum Echo {
     Seen,
 }
 
-/// Functions of one operand.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[allow(missing_docs, reason = "each is the function of that name")]
-pub enum Unary {
-    Neg,
-    Not,
-    Abs,
-    Sign,
-    Sqrt,
-    Exp,
-    Ln,
-    Floor,
-    Ceil,
-    Round,
-    Sin,
-    Cos,
-    Tan,
-    Asin,
-    Acos,
-    Atan,
-    Wrap,
-}
-
-/// Functions of two operands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[allow(missing_docs, reason = "each is the function of that name")]
-pub enum Binary {
-    Add,
-    Sub,
-    Mul,
-    Div,
-    Min,
-    Max,
-    Pow,
-    Atan2,
-    Hypot,
-    Eq,
-    Ne,
-    Lt,
-    Le,
-    And,
-    Or,
-}
-
 /// Random draws.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Draw {
@@ -163,82 +119,6 @@ pub enum Draw {
     Chance(ExprId),
     /// One of 0 … n − 1.
     Pick(u32),
-}
-
-impl Unary {
-    /// The value.
-    pub fn apply(self, a: f64) -> f64 {
-        match self {
-            Unary::Neg => -a,
-            Unary::Not => f64::from(a == 0.0),
-            Unary::Abs => a.abs(),
-            Unary::Sign => {
-                if a > 0.0 {
-                    1.0
-                } else if a < 0.0 {
-                    -1.0
-                } else {
-                    0.0
-                }
-            }
-            Unary::Sqrt => a.sqrt(),
-            Unary::Exp => math::exp(a),
-            Unary::Ln => math::ln(a),
-            Unary::Floor => a.floor(),
-            Unary::Ceil => a.ceil(),
-            Unary::Round => a.round(),
-            Unary::Sin => math::sin(a),
-            Unary::Cos => math::cos(a),
-            Unary::Tan => math::tan(a),
-            Unary::Asin => math::asin(a),
-            Unary::Acos => math::acos(a),
-            Unary::Atan => math::atan(a),
-            Unary::Wrap => math::wrap(a),
-        }
-    }
-}
-
-impl Binary {
-    /// The value; truth values are 0 and 1.
-    pub fn apply(self, a: f64, b: f64) -> f64 {
-        match self {
-            Binary::Add => a + b,
-            Binary::Sub => a - b,
-            Binary::Mul => a * b,
-            Binary::Div => a / b,
-            // Written out so that every machine treats NaN and signed zeros alike.
-            Binary::Min => {
-                if b < a {
-                    b
-                } else {
-                    a
-                }
-            }
-            Binary::Max => {
-                if b > a {
-                    b
-                } else {
-                    a
-                }
-            }
-            Binary::Pow => math::pow(a, b),
-            Binary::Atan2 => math::atan2(a, b),
-            Binary::Hypot => math::hypot(a, b),
-            Binary::Eq => f64::from(a == b),
-            Binary::Ne => f64::from(a != b),
-            Binary::Lt => f64::from(a < b),
-            Binary::Le => f64::from(a <= b),
-            Binary::And => f64::from(a != 0.0 && b != 0.0),
-            Binary::Or => f64::from(a != 0.0 || b != 0.0),
-        }
-    }
-
-    fn is_truth(self) -> bool {
-        matches!(
-            self,
-            Binary::Eq | Binary::Ne | Binary::Lt | Binary::Le | Binary::And | Binary::Or
-        )
-    }
 }
 
 /// Every expression of a program, each node once.
@@ -287,6 +167,13 @@ impl Pool {
         self.add(Expr::Bool(value))
     }
 
+    fn literal(&mut self, kind: Kind, value: f64) -> ExprId {
+        match kind {
+            Kind::Truth => self.bool(value != 0.0),
+            _ => self.num(value),
+        }
+    }
+
     /// The value of a constant; a truth value is 0 or 1.
     pub fn constant(&self, id: ExprId) -> Option<f64> {
         match self.get(id) {
@@ -313,11 +200,7 @@ impl Pool {
     /// A function of one operand, folded where it is constant.
     pub fn unary(&mut self, op: Unary, a: ExprId) -> ExprId {
         if let Some(value) = self.constant(a) {
-            let value = op.apply(value);
-            return match op {
-                Unary::Not => self.bool(value != 0.0),
-                _ => self.num(value),
-            };
+            return self.literal(op.gives(), op.apply(value));
         }
         if let (Unary::Not | Unary::Neg, Expr::Unary(inner, b)) = (op, self.get(a))
             && op == inner
@@ -331,12 +214,7 @@ impl Pool {
     pub fn binary(&mut self, op: Binary, a: ExprId, b: ExprId) -> ExprId {
         match (self.constant(a), self.constant(b)) {
             (Some(x), Some(y)) => {
-                let value = op.apply(x, y);
-                return if op.is_truth() {
-                    self.bool(value != 0.0)
-                } else {
-                    self.num(value)
-                };
+                return self.literal(op.gives(), op.apply(x, y));
             }
             (Some(x), None) => match op {
                 Binary::And => return if x == 0.0 { a } else { b },

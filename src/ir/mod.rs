@@ -6,6 +6,7 @@
 pub mod expr;
 pub mod law;
 pub mod name;
+pub(crate) mod operator;
 pub mod program;
 pub mod table;
 pub mod task;

@@ -24,8 +24,8 @@ impl<'a> Checker<'a> {
                 return Some(self.built_in_value(value, span));
             }
         }
-        if let Some(function) = builtin::Function::named(name) {
-            return Some(self.built_in_call(function, reference));
+        if let Some(called) = builtin::BuiltIn::named(name) {
+            return Some(self.built_in_call(called, reference));
         }
         match self.names.value(name, self.context.library) {
             Some((decl, library)) => self.declared_reference(decl, library, reference),

@@ -1,6 +1,6 @@
 //! A robot never ends a tick inside a wall, nor goes through one.
 
-use crate::world_geometry::{Twin, free, twin};
+use super::geometry::{Twin, free, twin};
 use btc::ir::world::Contact;
 use btc::random::Random;
 use btc::world::{Command, Motion, Pose, Scene};

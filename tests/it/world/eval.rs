@@ -1,7 +1,7 @@
 //! Register code does what the expressions and statements say: a second, naive reading of them is the oracle.
 
-use btc::eval::{Compiler, Fixed, Formula, Host, Layout, Reading, run};
-use btc::ir::expr::{Binary, Draw, Echo, Local, Pose, Temp, Unary};
+use btc::eval::{Compiler, Fixed, Host, Layout, Reading, run};
+use btc::ir::expr::{Binary, Draw, Echo, Kind, Local, Pose, Temp, Unary};
 use btc::ir::law::{Behavior, Block, Law, Stmt};
 use btc::ir::program::{State, ValueKind};
 use btc::ir::world::{Contact, Drive, DriveKind, Robot, Sensor, SensorKind, Shape, Wall, World};
@@ -9,6 +9,7 @@ use btc::ir::{Expr, ExprId, Id, Name, Program, Table};
 use btc::random::Random;
 use proptest::prelude::*;
 use std::collections::BTreeMap;
+use std::f64::consts::PI;
 
 const STATES: usize = 3;
 const LOCALS: usize = 2;
@@ -207,42 +208,22 @@ impl Inventor {
             let i = self.pick(self.numbers.len());
             return self.numbers[i];
         }
-        const UNARY: [Unary; 15] = [
-            Unary::Neg,
-            Unary::Abs,
-            Unary::Sign,
-            Unary::Sqrt,
-            Unary::Exp,
-            Unary::Ln,
-            Unary::Floor,
-            Unary::Ceil,
-            Unary::Round,
-            Unary::Sin,
-            Unary::Cos,
-            Unary::Tan,
-            Unary::Asin,
-            Unary::Atan,
-            Unary::Wrap,
-        ];
-        const BINARY: [Binary; 9] = [
-            Binary::Add,
-            Binary::Sub,
-            Binary::Mul,
-            Binary::Div,
-            Binary::Min,
-            Binary::Max,
-            Binary::Pow,
-            Binary::Atan2,
-            Binary::Hypot,
-        ];
+        let not = |op: &Unary| *op != Unary::Not;
+        let unary: Vec<Unary> = Unary::ALL.iter().copied().filter(not).collect();
+        let truth = |op: &Binary| op.gives() == Kind::Truth;
+        let binary: Vec<Binary> = Binary::ALL
+            .iter()
+            .copied()
+            .filter(|op| !truth(op))
+            .collect();
         let id = match self.pick(if draws { 9 } else { 8 }) {
             0 | 1 => {
-                let op = UNARY[self.pick(UNARY.len())];
+                let op = unary[self.pick(unary.len())];
                 let a = self.number(depth - 1, draws);
                 self.program.pool.unary(op, a)
             }
             2 | 3 => {
-                let op = BINARY[self.pick(BINARY.len())];
+                let op = binary[self.pick(binary.len())];
                 let a = self.number(depth - 1, draws);
                 let b = self.number(depth - 1, draws);
                 self.program.pool.binary(op, a, b)
@@ -638,21 +619,38 @@ fn a_let_is_computed_where_it_is_read() {
     assert_eq!(ops, ["JumpUnless", "Sin"]);
 }
 
-/// A learner's `visits^-0.7` and `35% -> 5%`.
+/// What the table of operators says where IEEE 754 leaves a choice or a reader might expect another.
 #[test]
-fn formulas_read_visits_and_progress() {
-    let mut program = Program::default();
-    let visits = program.pool.leaf(Expr::Visits);
-    let progress = program.pool.leaf(Expr::Progress);
-    let exponent = program.pool.num(-0.7);
-    let rate = program.pool.binary(Binary::Pow, visits, exponent);
-    let (from, span) = (program.pool.num(0.35), program.pool.num(-0.3));
-    let part = program.pool.binary(Binary::Mul, span, progress);
-    let explore = program.pool.binary(Binary::Add, from, part);
-    let mut rate = Formula::compile(&program, rate).unwrap();
-    let mut explore = Formula::compile(&program, explore).unwrap();
-    assert_eq!(rate.value(1.0, 0.5), 1.0);
-    assert!((rate.value(10.0, 0.5) - 0.199_526_231_496_888).abs() < 1e-12);
-    assert!((explore.value(3.0, 0.5) - 0.2).abs() < 1e-12);
-    assert!((explore.value(3.0, 1.0) - 0.05).abs() < 1e-12);
+fn operators_at_their_edges() {
+    let nan = f64::NAN;
+    for (op, a, value) in [
+        (Unary::Sign, nan, 0.0),
+        (Unary::Sign, -0.0, 0.0),
+        (Unary::Sign, -3.0, -1.0),
+        (Unary::Round, 2.5, 3.0),
+        (Unary::Round, -2.5, -3.0),
+        (Unary::Wrap, PI, -PI),
+        (Unary::Not, nan, 0.0),
+        (Unary::Not, 0.0, 1.0),
+    ] {
+        assert_eq!(op.apply(a), value, "{op:?} {a}");
+    }
+    for (op, a, b, value) in [
+        (Binary::Min, nan, 1.0, nan),
+        (Binary::Min, 1.0, nan, 1.0),
+        (Binary::Max, nan, 1.0, nan),
+        (Binary::Max, 1.0, nan, 1.0),
+        (Binary::Div, 1.0, 0.0, f64::INFINITY),
+        (Binary::Div, 0.0, 0.0, nan),
+        (Binary::Eq, nan, nan, 0.0),
+        (Binary::Ne, nan, nan, 1.0),
+        (Binary::Le, nan, nan, 0.0),
+        (Binary::And, nan, 1.0, 1.0),
+        (Binary::Or, 0.0, -0.0, 0.0),
+        (Binary::Atan2, 1.0, 0.0, PI / 2.0),
+        (Binary::Hypot, 3.0, -4.0, 5.0),
+    ] {
+        let found = op.apply(a, b);
+        assert!(same(found, value), "{op:?} {a} {b}: {found}");
+    }
 }

@@ -1,7 +1,7 @@
 //! What sensors read, through a running program.
 
-use crate::world_delivery::Maker;
-use crate::world_ticks::small_program;
+use super::delivery::Maker;
+use super::ticks::small_program;
 use btc::ir::expr::Echo;
 use btc::ir::law::{Block, Stmt};
 use btc::ir::task::StartLine;

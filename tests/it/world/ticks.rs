@@ -1,6 +1,6 @@
 //! What a tick means.
 
-use crate::world_delivery::{self, Maker};
+use super::delivery::{self, Maker};
 use btc::ir::expr::{Binary, Draw, Echo, Local};
 use btc::ir::law::{Behavior, Block, Law, Stmt};
 use btc::ir::program::{Effect, Event, Predicate, State, ValueKind};
@@ -20,7 +20,7 @@ fn a_simulator_can_be_shared() {
 /// The expert of the paper's Figure 8 delivers for thousands of ticks without dying.
 #[test]
 fn an_expert_delivers_in_the_small_world() {
-    let (program, task) = world_delivery::small();
+    let (program, task) = delivery::small();
     let start = &program.tasks[task].start;
     let simulator = Simulator::build(&program, task, &[start], &[]).unwrap();
     let mut simulation = simulator.simulation();
@@ -444,7 +444,7 @@ fn atoms_beyond_the_tasks_can_be_asked_for() {
 
 #[test]
 fn an_episode_is_the_same_whatever_ran_before_it() {
-    let (program, task) = world_delivery::large();
+    let (program, task) = delivery::large();
     let start = &program.tasks[task].start;
     let simulator = Simulator::build(&program, task, &[start], &[]).unwrap();
     let trace = |simulation: &mut Simulation, episode| {
@@ -560,7 +560,7 @@ fn a_declared_behavior_fails() {
 /// The same bits on every machine and in every build.
 #[test]
 fn a_seed_is_a_course_to_the_last_bit() {
-    let (program, task) = world_delivery::large();
+    let (program, task) = delivery::large();
     let start = &program.tasks[task].start;
     let simulator = Simulator::build(&program, task, &[start], &[]).unwrap();
     let mut simulation = simulator.simulation();
