@@ -3,8 +3,8 @@
 use super::code::{Code, Instruction, Op, Register};
 use super::layout::{Fixed, Layout};
 use super::memo::Memo;
-use crate::ir::expr::Temp;
-use crate::ir::law::{Behavior, Stmt};
+use crate::ir::expr::{Local, Temp};
+use crate::ir::law::Behavior;
 use crate::ir::program::Event;
 use crate::ir::{Expr, ExprId, Id, Pool};
 use rustc_hash::FxHashMap;
@@ -39,8 +39,6 @@ pub struct Compiler<'a> {
     pub(super) temps: FxHashMap<Id<Temp>, Binding>,
     /// Whether the code reads how long the behaviour has run.
     pub(super) timed: bool,
-    /// The statements that follow the current one, innermost block last.
-    pub(super) rest: Vec<&'a [Stmt]>,
 }
 
 /// What a name stands for.
@@ -48,7 +46,7 @@ pub struct Compiler<'a> {
 pub(super) enum Binding {
     /// A value that was computed.
     Known(Register),
-    /// A value that is computed where it is needed: nothing that it reads has changed since.
+    /// A value that is computed where it is read.
     Deferred(ExprId),
 }
 
@@ -70,7 +68,6 @@ impl<'a> Compiler<'a> {
             label: 0,
             temps: FxHashMap::default(),
             timed: false,
-            rest: Vec::new(),
         }
     }
 
@@ -192,9 +189,9 @@ impl<'a> Compiler<'a> {
         Ok(register as Register)
     }
 
-    pub(super) fn local(&self, index: usize) -> Register {
+    pub(super) fn local(&self, local: Id<Local>) -> Register {
         let first = self.behavior.map_or(0, |id| self.layout.locals(id));
-        first + index as Register
+        first + local.index() as Register
     }
 }
 

@@ -10,6 +10,7 @@
 //! Arithmetic is that of IEEE 754: 1 / 0 is infinite, 0 / 0 is NaN. A comparison with NaN is false; a robot that is told
 //! to drive at NaN stands.
 
+mod actions;
 mod code;
 mod compiler;
 mod condition;

@@ -22,7 +22,7 @@ impl Compiler<'_> {
             Expr::Num(value) => self.layout.constant(value)?,
             Expr::Bool(value) => self.layout.constant(f64::from(value))?,
             Expr::State(state) => self.layout.state(state),
-            Expr::Local(local) => self.local(local.index()),
+            Expr::Local(local) => self.local(local),
             Expr::Temp(temp) => match self.temps.get(&temp) {
                 Some(&Binding::Known(register)) => register,
                 Some(&Binding::Deferred(value)) => self.value(value)?,

@@ -301,7 +301,7 @@ fn start(pool: &Pool, layout: &mut Layout, lines: &[StartLine]) -> Result<Vec<St
                 Step::Place
             }
             StartLine::State(state, value) => {
-                compiler.set_state(state, value)?;
+                compiler.block(&Block(vec![Stmt::SetState(state, value)]))?;
                 Step::Set
             }
             StartLine::History(code) => {
