@@ -9,7 +9,7 @@
 #[path = "../tests/it/world/delivery.rs"]
 mod world_delivery;
 
-use btc::ir::world::Shape;
+use btc::geometry::Shape;
 use btc::ir::{Id, Program};
 use btc::random::Random;
 use btc::world::{Scene, Simulation, Simulator, Start};

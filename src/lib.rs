@@ -19,6 +19,8 @@ pub mod math;
 
 pub mod random;
 
+pub mod geometry;
+
 pub mod eval;
 
 pub mod world;

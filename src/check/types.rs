@@ -4,10 +4,11 @@ pub mod units;
 pub mod written;
 
 use super::types::units::Dim;
+use crate::geometry;
 use crate::ir::Id;
 use crate::ir::expr::ExprId;
 use crate::ir::law::Behavior;
-use crate::ir::world::{self, Place, Sensor, Wall};
+use crate::ir::world::{Place, Sensor, Wall};
 use crate::source::Span;
 use std::fmt;
 
@@ -136,7 +137,7 @@ pub enum Value {
     /// A behaviour.
     Behavior(Id<Behavior>),
     /// A shape.
-    Shape(world::Shape),
+    Shape(geometry::Shape),
     /// `anywhere`
     Anywhere,
 }

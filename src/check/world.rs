@@ -9,9 +9,10 @@ use super::Checker;
 use super::context::{Context, Region};
 use super::types::Type;
 use crate::diagnostic::Code;
+use crate::geometry::Shape;
 use crate::ir::Name;
 use crate::ir::table::Table;
-use crate::ir::world::{Place, Point, Shape, Wall, World};
+use crate::ir::world::{Place, Wall, World};
 use crate::syntax::ast::{self, Expr, Item, ItemKind, WorldEntryKind};
 use robot::no_robot;
 
@@ -135,7 +136,7 @@ impl<'a> Checker<'a> {
         let shape = self.shape_of(shape, "a place");
         let facing = facing.and_then(|facing| self.constant(facing, &Type::ANGLE, "`facing`"));
         let Some(shape) = shape else { return };
-        if arena.is_some_and(|arena| !contains(arena, shape.center())) {
+        if arena.is_some_and(|arena| !arena.contains(shape.center())) {
             self.error(
                 Code::E0404,
                 span,
@@ -160,27 +161,5 @@ impl<'a> Checker<'a> {
                 shape,
             });
         }
-    }
-}
-
-/// Whether a point lies in a closed shape.
-fn contains(shape: &Shape, [x, y]: Point) -> bool {
-    match shape {
-        Shape::Disc {
-            center: [cx, cy],
-            radius,
-        } => crate::math::hypot(x - cx, y - cy) <= *radius,
-        Shape::Rect {
-            min: [x0, y0],
-            max: [x1, y1],
-        } => (*x0..=*x1).contains(&x) && (*y0..=*y1).contains(&y),
-        Shape::Polygon(points) => {
-            let next = points.iter().cycle().skip(1);
-            let crossings = points.iter().zip(next).filter(|(a, b)| {
-                (a[1] > y) != (b[1] > y) && x < (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1]) + a[0]
-            });
-            crossings.count() % 2 == 1
-        }
-        Shape::Polyline(_) => false,
     }
 }

@@ -2,9 +2,7 @@
 
 use super::name::Name;
 use super::table::Table;
-
-/// A point of the plane, in metres.
-pub type Point = [f64; 2];
+use crate::geometry::{Point, Shape};
 
 /// A world with one acting robot.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,81 +19,6 @@ pub struct World {
     pub places: Table<Place>,
     /// The robot that acts.
     pub robot: Robot,
-}
-
-/// A shape of the plane.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Shape {
-    /// A disc.
-    Disc {
-        /// The centre.
-        center: Point,
-        /// The radius.
-        radius: f64,
-    },
-    /// An axis-parallel rectangle.
-    Rect {
-        /// The corner of the least coordinates.
-        min: Point,
-        /// The corner of the greatest coordinates.
-        max: Point,
-    },
-    /// A simple polygon, counter-clockwise.
-    Polygon(Vec<Point>),
-    /// A chain of thin segments; a line is a chain of one.
-    Polyline(Vec<Point>),
-}
-
-impl Shape {
-    /// The point that `distance` and `direction` of a place measure to: the centre of a disc or a rectangle, the
-    /// centroid of a polygon (by area), the middle of a polyline (by length).
-    pub fn center(&self) -> Point {
-        match self {
-            Shape::Disc { center, .. } => *center,
-            Shape::Rect {
-                min: [x0, y0],
-                max: [x1, y1],
-            } => [(x0 + x1) / 2.0, (y0 + y1) / 2.0],
-            Shape::Polygon(points) => centroid(points),
-            Shape::Polyline(points) => middle(points),
-        }
-    }
-}
-
-/// Centroid by area (the shoelace sums); the mean of the corners where the area vanishes.
-fn centroid(points: &[Point]) -> Point {
-    let next = points.iter().cycle().skip(1);
-    let (mut area, mut cx, mut cy) = (0.0, 0.0, 0.0);
-    for (&[x0, y0], &[x1, y1]) in points.iter().zip(next) {
-        let cross = x0 * y1 - x1 * y0;
-        area += cross;
-        cx += (x0 + x1) * cross;
-        cy += (y0 + y1) * cross;
-    }
-    if area == 0.0 {
-        let n = points.len().max(1) as f64;
-        let (x, y) = points
-            .iter()
-            .fold((0.0, 0.0), |(x, y), p| (x + p[0], y + p[1]));
-        return [x / n, y / n];
-    }
-    [cx / (3.0 * area), cy / (3.0 * area)]
-}
-
-/// The point halfway along a chain.
-fn middle(points: &[Point]) -> Point {
-    let segments = || points.iter().zip(points.iter().skip(1));
-    let length = |a: &Point, b: &Point| crate::math::hypot(b[0] - a[0], b[1] - a[1]);
-    let mut left = segments().map(|(a, b)| length(a, b)).sum::<f64>() / 2.0;
-    for (a, b) in segments() {
-        let l = length(a, b);
-        if left <= l && l > 0.0 {
-            let t = left / l;
-            return [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])];
-        }
-        left -= l;
-    }
-    points.first().copied().unwrap_or_default()
 }
 
 /// A wall or an obstacle. A polyline is thin, every other shape is solid.

@@ -1,9 +1,10 @@
 //! What was built from a program.
 
 use super::words::counted;
+use crate::geometry::Shape;
 use crate::ir::Program;
 use crate::ir::name::{self, Name};
-use crate::ir::world::{DriveKind, Shape};
+use crate::ir::world::DriveKind;
 use crate::tree::Size;
 
 /// The items of a program, a line each.

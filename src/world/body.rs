@@ -3,9 +3,8 @@
 use super::pose::Pose;
 use super::scene::Scene;
 use super::sensing::Probe;
-use super::shape;
 use crate::eval::{Host, Reading};
-use crate::ir::world::Shape;
+use crate::geometry::Shape;
 use crate::random::Random;
 
 /// What senses and is sensed.
@@ -122,7 +121,7 @@ impl Host for Body<'_> {
         self.around
             .places
             .get(usize::from(place))
-            .is_some_and(|place| shape::contains(place, self.pose.position))
+            .is_some_and(|place| place.contains(self.pose.position))
     }
 
     #[inline]

@@ -10,7 +10,6 @@
 mod atoms;
 mod body;
 mod build;
-mod circle;
 mod episode;
 mod error;
 mod history;
@@ -19,18 +18,14 @@ mod option;
 mod pose;
 mod programs;
 mod scene;
-mod segment;
 mod sensing;
-mod shape;
 mod simulation;
 
 pub use build::Simulator;
-pub use circle::Circle;
 pub use episode::Start;
 pub use error::BuildError;
 pub use motion::{Command, Motion};
 pub use option::Transition;
 pub use pose::Pose;
 pub use scene::Scene;
-pub use segment::Segment;
 pub use simulation::{End, Outcome, Simulation};

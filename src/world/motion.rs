@@ -5,9 +5,9 @@
 //! that no speed carries the robot through a thin wall.
 
 use super::pose::{Pose, rotor};
-use super::scene::{Scene, turned};
-use super::segment::{along, dot};
-use crate::ir::world::{Contact, Drive, DriveKind, Point, Robot};
+use super::scene::Scene;
+use crate::geometry::{Point, along, dot, turned};
+use crate::ir::world::{Contact, Drive, DriveKind, Robot};
 use crate::math;
 use crate::random::Random;
 

@@ -1,6 +1,6 @@
 //! The pose: a position, a heading, and the heading's unit vector, so that going straight needs no trigonometry.
 
-use crate::ir::world::Point;
+use crate::geometry::Point;
 use crate::math;
 
 /// Where the robot's centre is and where it looks.

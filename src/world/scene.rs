@@ -1,9 +1,7 @@
 //! Everything that stands in the way: the walls and the arena's boundary, as segments and circles.
 
-use super::circle::Circle;
-use super::segment::{Segment, along, cross, dot, limit, minus};
-use super::shape;
-use crate::ir::world::{Point, Shape, World};
+use crate::geometry::{Circle, Point, Segment, Shape, along, cross, dot, limit, minus, turned};
+use crate::ir::world::World;
 
 /// A world's obstacles, for a robot that is inside the arena and outside the walls.
 #[derive(Clone, Debug)]
@@ -34,12 +32,6 @@ enum Arena {
     Polygon,
 }
 
-/// `u` turned by the angle whose cosine and sine `v` is.
-#[inline(always)]
-pub(super) fn turned(u: Point, v: Point) -> Point {
-    [u[0] * v[0] - u[1] * v[1], u[0] * v[1] + u[1] * v[0]]
-}
-
 /// The sector of a scanner: one or two parts of at most half a turn, each from a direction on the right to one on the
 /// left, as unit vectors relative to the heading.
 pub(super) type Sector = Vec<(Point, Point)>;
@@ -50,7 +42,7 @@ impl Scene {
         let walls: Vec<_> = world
             .walls
             .values()
-            .map(|wall| (shape::outline(&wall.shape), shape::rim(&wall.shape)))
+            .map(|wall| (wall.shape.outline(), wall.shape.rim()))
             .collect();
         Self {
             arena: match world.arena {
@@ -59,7 +51,7 @@ impl Scene {
                 _ => Arena::Polygon,
             },
             shape: world.arena.clone(),
-            boundary: shape::outline(&world.arena),
+            boundary: world.arena.outline(),
             segments: walls.iter().flat_map(|(s, _)| s).copied().collect(),
             circles: walls.iter().filter_map(|(_, c)| *c).collect(),
             solids: world
@@ -69,7 +61,7 @@ impl Scene {
                 .map(|wall| wall.shape.clone())
                 .collect(),
             walls,
-            convex: shape::is_convex(&world.arena),
+            convex: world.arena.is_convex(),
         }
     }
 
@@ -229,14 +221,14 @@ impl Scene {
     /// Whether a disc of this radius at `p` is inside the arena and touches nothing.
     pub fn is_free(&self, p: Point, radius: f64) -> bool {
         p.iter().all(|c| c.is_finite())
-            && shape::contains(&self.shape, p)
-            && !self.solids.iter().any(|solid| shape::contains(solid, p))
+            && self.shape.contains(p)
+            && !self.solids.iter().any(|solid| solid.contains(p))
             && self.is_free_along(p, [0.0; 2], radius)
     }
 
     /// The corners of a rectangle around the arena.
     pub fn bounds(&self) -> (Point, Point) {
-        shape::bounds(&self.shape)
+        self.shape.bounds()
     }
 
     /// `p` pulled back into a round arena, so that a disc of this radius touches its boundary from inside; `p` where

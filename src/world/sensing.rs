@@ -1,10 +1,10 @@
 //! What the sensors read.
 
 use super::pose::{Pose, rotor};
-use super::scene::{Scene, Sector, turned};
-use super::segment::{along, dot, minus};
+use super::scene::{Scene, Sector};
 use crate::eval::Reading;
-use crate::ir::world::{Point, Sensor, SensorKind};
+use crate::geometry::{Point, along, dot, minus, turned};
+use crate::ir::world::{Sensor, SensorKind};
 use crate::math;
 use std::f64::consts::PI;
 

@@ -13,19 +13,28 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("spelling", &[]),
     ("diagnostic", &["source"]),
     ("syntax", &["source", "spelling", "diagnostic"]),
-    ("ir", &["math", "spelling"]),
-    ("check", &["source", "diagnostic", "syntax", "ir", "math"]),
+    ("geometry", &["math"]),
+    ("ir", &["math", "spelling", "geometry"]),
+    (
+        "check",
+        &["source", "diagnostic", "syntax", "ir", "geometry", "math"],
+    ),
     ("eval", &["ir", "math", "random"]),
-    ("world", &["ir", "eval", "math", "random"]),
+    ("world", &["ir", "eval", "geometry", "math", "random"]),
     ("policy", &["ir", "logic"]),
     ("learn", &["ir", "world", "policy", "math", "random"]),
     ("tree", &["ir", "policy", "logic"]),
-    ("emit", &["ir", "tree", "source", "syntax", "math"]),
+    (
+        "emit",
+        &["ir", "tree", "source", "syntax", "geometry", "math"],
+    ),
     ("trial", &["ir", "world", "policy", "learn", "tree"]),
     ("simplify", &["ir", "learn", "tree", "trial"]),
     (
         "report",
-        &["ir", "policy", "learn", "tree", "simplify", "emit"],
+        &[
+            "ir", "geometry", "policy", "learn", "tree", "simplify", "emit",
+        ],
     ),
     (
         "driver",

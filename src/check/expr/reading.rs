@@ -4,8 +4,8 @@ use crate::check::Checker;
 use crate::check::builtin::Function;
 use crate::check::types::{Type, Typed, Value};
 use crate::diagnostic::Code;
+use crate::geometry::Shape;
 use crate::ir::expr::{Binary, Echo, Expr, ExprId, Pose, Unary};
-use crate::ir::world::Shape;
 use crate::syntax::ast::Ref;
 
 impl<'a> Checker<'a> {

@@ -3,8 +3,9 @@
 use crate::check::Checker;
 use crate::check::types::{Type, Value};
 use crate::diagnostic::Code;
+use crate::geometry::Point;
 use crate::ir::Name;
-use crate::ir::world::{Point, Sensor, SensorKind};
+use crate::ir::world::{Sensor, SensorKind};
 use crate::math::wrap;
 use crate::source::Span;
 use crate::syntax::ast::{self, Expr, ExprKind};

@@ -4,7 +4,7 @@ use crate::check::Checker;
 use crate::check::builtin::Function;
 use crate::check::types::{Type, Value};
 use crate::diagnostic::Code;
-use crate::ir::world::{Point, Shape};
+use crate::geometry::{Point, Shape, crosses_itself, doubled_area};
 use crate::source::Span;
 use crate::syntax::ast::{self, Ref};
 
@@ -112,48 +112,4 @@ impl<'a> Checker<'a> {
             .label("no robot could meet this")
             .none()
     }
-}
-
-/// Twice the signed area; positive where the corners go round counter-clockwise.
-fn doubled_area(points: &[Point]) -> f64 {
-    let next = points.iter().cycle().skip(1);
-    points
-        .iter()
-        .zip(next)
-        .map(|(a, b)| a[0] * b[1] - b[0] * a[1])
-        .sum()
-}
-
-/// Whether two edges that are not neighbours meet.
-fn crosses_itself(points: &[Point]) -> bool {
-    let next = points.iter().cycle().skip(1);
-    let edges: Vec<(Point, Point)> = points.iter().copied().zip(next.copied()).collect();
-    let n = edges.len();
-    edges.iter().enumerate().any(|(i, first)| {
-        edges
-            .iter()
-            .enumerate()
-            .skip(i + 2)
-            .any(|(j, second)| (j + 1) % n != i && meet(*first, *second))
-    })
-}
-
-/// Whether two segments have a point in common.
-fn meet((a, b): (Point, Point), (c, d): (Point, Point)) -> bool {
-    let side = |p: Point, q: Point, r: Point| {
-        (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
-    };
-    let between = |p: Point, q: Point, r: Point| {
-        (0..2).all(|k| {
-            let at = |point: Point| point.get(k).copied().unwrap_or_default();
-            at(p).min(at(q)) <= at(r) && at(r) <= at(p).max(at(q))
-        })
-    };
-    let (c1, d1) = (side(a, b, c), side(a, b, d));
-    let (a1, b1) = (side(c, d, a), side(c, d, b));
-    ((c1 > 0.0) != (d1 > 0.0) && (a1 > 0.0) != (b1 > 0.0) && c1 != 0.0 && d1 != 0.0)
-        || (c1 == 0.0 && between(a, b, c))
-        || (d1 == 0.0 && between(a, b, d))
-        || (a1 == 0.0 && between(c, d, a))
-        || (b1 == 0.0 && between(c, d, b))
 }

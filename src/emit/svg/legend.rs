@@ -2,7 +2,7 @@
 
 use super::page::{self, Page};
 use super::view;
-use crate::ir::world::Point;
+use crate::geometry::Point;
 
 /// The height of a line.
 const LINE: f64 = 20.0;

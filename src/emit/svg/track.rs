@@ -3,10 +3,10 @@
 use super::page::{self, Page};
 use super::paint::HUES;
 use super::view::View;
+use crate::geometry::Point;
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::program::Event;
-use crate::ir::world::Point;
 use std::collections::BTreeMap;
 
 /// Where a robot stands.

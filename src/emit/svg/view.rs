@@ -1,7 +1,7 @@
 //! How the plane of a world lies on the page.
 
 use super::page::{chain, number};
-use crate::ir::world::{Point, Shape};
+use crate::geometry::{Point, Shape};
 use crate::math;
 use std::f64::consts::{PI, TAU};
 
@@ -20,7 +20,7 @@ pub(super) struct View {
 impl View {
     /// The largest picture of an arena that fits in a size, with its corner at a point; all in px.
     pub(super) fn new(arena: &Shape, origin: Point, largest: Point) -> Self {
-        let (low, high) = bounds(arena);
+        let (low, high) = arena.bounds();
         let metres = [high[0] - low[0], high[1] - low[1]].map(|length| length.max(1e-9));
         let scale = (largest[0] / metres[0]).min(largest[1] / metres[1]);
         Self {
@@ -45,14 +45,9 @@ impl View {
             Shape::Disc { center, radius } => {
                 sector(self.at(*center), radius * self.scale, 0.0, TAU)
             }
-            Shape::Rect {
-                min: [x0, y0],
-                max: [x1, y1],
-            } => {
-                let corners = [[*x0, *y0], [*x1, *y0], [*x1, *y1], [*x0, *y1]];
-                chain(corners.map(|p| self.at(p))) + "Z"
+            Shape::Rect { .. } | Shape::Polygon(_) => {
+                chain(shape.corners().into_iter().map(|p| self.at(p))) + "Z"
             }
-            Shape::Polygon(points) => chain(points.iter().map(|p| self.at(*p))) + "Z",
             Shape::Polyline(points) => chain(points.iter().map(|p| self.at(*p))),
         }
     }
@@ -78,24 +73,4 @@ pub(super) fn sector([x, y]: Point, radius: f64, from: f64, to: f64) -> String {
         return chain([rim(from)]) + &arc(0, rim(from + PI)) + &arc(0, rim(from)) + "Z";
     }
     chain([[x, y], rim(from)]) + &arc(u8::from(to - from > PI), rim(to)) + "Z"
-}
-
-/// The corners of the least axis-parallel rectangle around a shape.
-pub(super) fn bounds(shape: &Shape) -> (Point, Point) {
-    match shape {
-        Shape::Disc {
-            center: [x, y],
-            radius: r,
-        } => ([x - r, y - r], [x + r, y + r]),
-        Shape::Rect { min, max } => (*min, *max),
-        Shape::Polygon(points) | Shape::Polyline(points) => {
-            let first = points.first().copied().unwrap_or_default();
-            points.iter().fold((first, first), |(low, high), p| {
-                (
-                    [low[0].min(p[0]), low[1].min(p[1])],
-                    [high[0].max(p[0]), high[1].max(p[1])],
-                )
-            })
-        }
-    }
 }

@@ -6,9 +6,10 @@ use super::paint::{LINES, Rule, rule};
 use super::scale;
 use super::track::{self, Stand, Track};
 use super::view::{self, View};
+use crate::geometry::{Point, Shape};
 use crate::ir::Program;
 use crate::ir::name;
-use crate::ir::world::{Place, Point, Robot, SensorKind, Shape, World};
+use crate::ir::world::{Place, Robot, SensorKind, World};
 
 /// Around everything.
 const MARGIN: f64 = 20.0;
@@ -219,13 +220,7 @@ fn draw_place(place: &Place, view: &View, page: &mut Page) {
         return;
     };
     let [dx, dy] = view::along(facing);
-    let (low, high) = view::bounds(&place.shape);
-    let half = |low: f64, high: f64| (high - low) / 2.0 * view.scale;
-    let reach = match place.shape {
-        Shape::Disc { radius, .. } => radius * view.scale,
-        // Where the ray from the middle leaves the rectangle around the shape.
-        _ => (half(low[0], high[0]) / dx.abs()).min(half(low[1], high[1]) / dy.abs()),
-    };
+    let reach = place.shape.reach(facing) * view.scale;
     let [x, y] = view.at(place.shape.center());
     let ahead = |far: f64, aside: f64| [x + far * dx - aside * dy, y + far * dy + aside * dx];
     let tip = reach + 7.0;
@@ -242,7 +237,7 @@ fn draw_place(place: &Place, view: &View, page: &mut Page) {
 fn name_place(place: &Place, view: &View, wide: f64, page: &mut Page) {
     let name = place.name.to_string();
     let text = page::width(&name);
-    let (low, high) = view::bounds(&place.shape);
+    let (low, high) = place.shape.bounds();
     let [[left, foot], [right, top]] = [view.at(low), view.at(high)];
     let [x, y] = view.at(place.shape.center());
     let down = place

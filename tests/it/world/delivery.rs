@@ -1,13 +1,12 @@
 //! The two delivery programs, built by hand as the checker would build them.
 
+use btc::geometry::{Point, Shape};
 use btc::ir::expr::{Binary, Draw, Echo, Local, Pose, Temp, Unary};
 use btc::ir::law::{Behavior, Block, Law, Stmt};
 use btc::ir::program::{Effect, Event, Predicate, State, ValueKind};
 use btc::ir::task::{History, RewardLine, StartLine, Task};
 use btc::ir::tree::Status;
-use btc::ir::world::{
-    Contact, Drive, DriveKind, Point, Robot, Sensor, SensorKind, Shape, Wall, World,
-};
+use btc::ir::world::{Contact, Drive, DriveKind, Robot, Sensor, SensorKind, Wall, World};
 use btc::ir::{Expr, ExprId, Id, Pool, Program, Table};
 use std::f64::consts::PI;
 

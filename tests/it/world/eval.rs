@@ -1,10 +1,11 @@
 //! Register code does what the expressions and statements say: a second, naive reading of them is the oracle.
 
 use btc::eval::{Compiler, Fixed, Host, Layout, Reading, run};
+use btc::geometry::Shape;
 use btc::ir::expr::{Binary, Draw, Echo, Kind, Local, Pose, Temp, Unary};
 use btc::ir::law::{Behavior, Block, Law, Stmt};
 use btc::ir::program::{State, ValueKind};
-use btc::ir::world::{Contact, Drive, DriveKind, Robot, Sensor, SensorKind, Shape, Wall, World};
+use btc::ir::world::{Contact, Drive, DriveKind, Robot, Sensor, SensorKind, Wall, World};
 use btc::ir::{Expr, ExprId, Id, Name, Program, Table};
 use btc::random::Random;
 use proptest::prelude::*;

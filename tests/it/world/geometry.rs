@@ -1,6 +1,7 @@
 //! The geometry of the inner loop beside parry's, on random worlds.
 
-use btc::ir::world::{Contact, Drive, DriveKind, Point, Robot, Shape, Wall, World};
+use btc::geometry::{Point, Shape};
+use btc::ir::world::{Contact, Drive, DriveKind, Robot, Wall, World};
 use btc::ir::{Name, Table};
 use btc::random::Random;
 use btc::world::Scene;

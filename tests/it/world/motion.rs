@@ -87,7 +87,7 @@ proptest! {
 fn empty(contact: Contact) -> Twin {
     let mut twin = twin(&mut Random::new(1, 0, 0), contact);
     twin.world.walls = std::iter::empty().collect();
-    twin.world.arena = btc::ir::world::Shape::Rect {
+    twin.world.arena = btc::geometry::Shape::Rect {
         min: [0.0, 0.0],
         max: [6.0, 4.0],
     };

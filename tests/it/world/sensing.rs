@@ -2,10 +2,11 @@
 
 use super::delivery::Maker;
 use super::ticks::small_program;
+use btc::geometry::Shape;
 use btc::ir::expr::Echo;
 use btc::ir::law::{Block, Stmt};
 use btc::ir::task::StartLine;
-use btc::ir::world::{SensorKind, Shape, Wall};
+use btc::ir::world::{SensorKind, Wall};
 use btc::ir::{Expr, Id};
 use btc::world::{Simulator, Start};
 use std::f64::consts::PI;

@@ -1,12 +1,13 @@
 //! What a tick means.
 
 use super::delivery::{self, Maker};
+use btc::geometry::Shape;
 use btc::ir::expr::{Binary, Draw, Echo, Local};
 use btc::ir::law::{Behavior, Block, Law, Stmt};
 use btc::ir::program::{Effect, Event, Predicate, State, ValueKind};
 use btc::ir::task::{History, RewardLine, StartLine, Task};
 use btc::ir::tree::{Atom, Status};
-use btc::ir::world::{Contact, Drive, DriveKind, Robot, Sensor, SensorKind, Shape, Wall, World};
+use btc::ir::world::{Contact, Drive, DriveKind, Robot, Sensor, SensorKind, Wall, World};
 use btc::ir::{Expr, ExprId, Id, Name, Program, Table};
 use btc::world::{BuildError, End, Simulation, Simulator, Start};
 

@@ -1,6 +1,6 @@
 //! Thin walls.
 
-use crate::ir::world::Point;
+use super::vector::{Point, along, cross, dot, limit, minus};
 
 /// A segment from `start` along `along`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,37 +11,6 @@ pub struct Segment {
     pub along: Point,
     /// 1 / |along|²; 0 for a segment that is a point.
     inverse: f64,
-}
-
-/// `a × b`, the z coordinate of the cross product.
-#[inline(always)]
-pub(super) fn cross(a: Point, b: Point) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
-}
-
-/// `a · b`
-#[inline(always)]
-pub(super) fn dot(a: Point, b: Point) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
-}
-
-/// `a − b`
-#[inline(always)]
-pub(super) fn minus(a: Point, b: Point) -> Point {
-    [a[0] - b[0], a[1] - b[1]]
-}
-
-/// `a + t b`
-#[inline(always)]
-pub(super) fn along(a: Point, t: f64, b: Point) -> Point {
-    [a[0] + t * b[0], a[1] + t * b[1]]
-}
-
-/// `t`, kept within [low, high]; `low` for NaN.
-#[inline(always)]
-pub(super) fn limit(t: f64, low: f64, high: f64) -> f64 {
-    let t = if t > low { t } else { low };
-    if t < high { t } else { high }
 }
 
 impl Segment {

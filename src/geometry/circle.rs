@@ -1,7 +1,7 @@
 //! Round walls: the rim of a disc, seen from outside or, for a round arena, from inside.
 
-use super::segment::{Segment, along, cross, dot, minus};
-use crate::ir::world::Point;
+use super::segment::Segment;
+use super::vector::{Point, along, cross, dot, minus};
 
 /// A circle.
 #[derive(Clone, Copy, Debug, PartialEq)]
