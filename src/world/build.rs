@@ -2,13 +2,13 @@
 
 use super::atoms::Atoms;
 use super::body::Surroundings;
-use super::episode::Start;
+use super::compiled::Compiled;
 use super::error::BuildError;
 use super::motion::Motion;
-use super::programs::Programs;
 use super::scene::Scene;
 use super::sensing::Probe;
 use super::simulation::Simulation;
+use super::start::Start;
 use crate::eval::{Layout, Registers};
 use crate::geometry::{Point, Shape};
 use crate::ir::task::{self, StartLine, Task};
@@ -22,7 +22,7 @@ use std::f64::consts::PI;
 pub struct Simulator {
     pub(super) around: Surroundings,
     pub(super) motion: Motion,
-    pub(super) programs: Programs,
+    pub(super) compiled: Compiled,
     pub(super) atoms: Atoms,
     pub(super) history: task::History,
     pub(super) radius: f64,
@@ -73,8 +73,7 @@ impl Simulator {
         let mut random = Random::new(0, 0, 0);
         let free = find_free(&scene, radius, &mut random, TRIES).ok_or(BuildError::NoFreeArea)?;
         let mut layout = Layout::new(program)?;
-        let programs =
-            Programs::compile(program, task, starts, &atoms, scene.is_open(), &mut layout)?;
+        let compiled = Compiled::new(program, task, starts, &atoms, scene.is_open(), &mut layout)?;
         let states = program
             .states
             .iter()
@@ -90,7 +89,7 @@ impl Simulator {
                 scene,
             },
             motion: Motion::new(&world.robot, world.tick),
-            programs,
+            compiled,
             atoms,
             history: task.history,
             radius,

@@ -2,10 +2,10 @@
 
 use super::body::Body;
 use super::build::Simulator;
+use super::ending::NOT_QUIET;
 use super::history::History;
 use super::motion::Command;
 use super::pose::Pose;
-use super::programs::NOT_QUIET;
 use crate::eval::{Fixed, Registers, run};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
@@ -23,7 +23,7 @@ pub enum End {
 
 /// What a tick led to.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Outcome {
+pub struct Tick {
     /// Whether the minterm changed.
     pub changed: bool,
     /// Whether a behaviour terminated; see [`Simulation::terminations`].
@@ -64,7 +64,7 @@ pub struct Simulation<'a> {
 
 impl<'a> Simulation<'a> {
     pub(super) fn new(simulator: &'a Simulator) -> Self {
-        let behaviors = simulator.programs.routines.len();
+        let behaviors = simulator.compiled.routines.len();
         Self {
             simulator,
             registers: simulator.registers.clone(),
@@ -81,7 +81,7 @@ impl<'a> Simulation<'a> {
     }
 
     #[inline]
-    pub(super) fn tell_pose(&mut self) {
+    pub(super) fn publish_pose(&mut self) {
         let pose = &self.body.pose;
         self.registers.set(Fixed::X.register(), pose.position[0]);
         self.registers.set(Fixed::Y.register(), pose.position[1]);
@@ -116,7 +116,7 @@ impl<'a> Simulation<'a> {
         }
         self.body.tick();
         run(
-            &self.simulator.programs.each_tick,
+            &self.simulator.compiled.each_tick,
             &mut self.registers,
             &mut self.body,
         );
@@ -130,7 +130,7 @@ impl<'a> Simulation<'a> {
     #[inline]
     pub fn act(&mut self, behavior: Id<Behavior>) -> Status {
         let (Some(routine), Some(instance)) = (
-            self.simulator.programs.routines.get(behavior.index()),
+            self.simulator.compiled.routines.get(behavior.index()),
             self.instances.get_mut(behavior.index()),
         ) else {
             return Status::Failure;
@@ -171,49 +171,49 @@ impl<'a> Simulation<'a> {
     ///
     /// Events, rewards and `end on` read the state before effects.
     #[inline]
-    pub fn end_tick(&mut self) -> Outcome {
+    pub fn end_tick(&mut self) -> Tick {
         self.go();
         let quiet = self.terminations.is_empty();
         for &(behavior, status) in &self.terminations {
             self.history.record(behavior, status, &self.simulator.atoms);
         }
-        let programs = &self.simulator.programs;
+        let compiled = &self.simulator.compiled;
         self.body.atoms = self.history.bits;
-        let mut outcome = Outcome {
+        let mut tick = Tick {
             changed: false,
             terminated: !quiet,
             closed: false,
             reward: 0.0,
             end: None,
         };
-        if quiet && run(&programs.quiet, &mut self.registers, &mut self.body) != NOT_QUIET {
-            outcome.reward = match programs.otherwise {
+        if quiet && run(&compiled.quiet, &mut self.registers, &mut self.body) != NOT_QUIET {
+            tick.reward = match compiled.otherwise {
                 Some(value) => value,
                 None => self.registers.get(Fixed::Reward.register()),
             };
         } else {
-            self.end_in_full(&mut outcome);
+            self.end_in_full(&mut tick);
         }
-        outcome.changed = (self.atoms ^ self.body.atoms) & self.simulator.atoms.observed != 0;
+        tick.changed = (self.atoms ^ self.body.atoms) & self.simulator.atoms.observed != 0;
         self.atoms = self.body.atoms;
-        if outcome.end.is_none() && self.now >= self.limit {
-            outcome.end = Some(End::Cut);
+        if tick.end.is_none() && self.now >= self.limit {
+            tick.end = Some(End::Cut);
         }
-        outcome
+        tick
     }
 
     #[cold]
-    fn end_in_full(&mut self, outcome: &mut Outcome) {
+    fn end_in_full(&mut self, tick: &mut Tick) {
         self.body.atoms = self.history.bits;
         run(
-            &self.simulator.programs.full,
+            &self.simulator.compiled.full,
             &mut self.registers,
             &mut self.body,
         );
-        outcome.closed = self.registers.get(Fixed::Closed.register()) != 0.0;
-        outcome.reward = self.registers.get(Fixed::Reward.register());
+        tick.closed = self.registers.get(Fixed::Closed.register()) != 0.0;
+        tick.reward = self.registers.get(Fixed::Reward.register());
         let line = self.registers.get(Fixed::End.register()) as usize;
-        outcome.end = line.checked_sub(1).map(End::On);
+        tick.end = line.checked_sub(1).map(End::On);
         for &event in &self.body.fired {
             if let Some(count) = self.counts.get_mut(usize::from(event)) {
                 *count += 1;
@@ -240,7 +240,7 @@ impl<'a> Simulation<'a> {
         self.registers
             .set(Fixed::Touching.register(), f64::from(u8::from(touching)));
         if command != Command::default() {
-            self.tell_pose();
+            self.publish_pose();
         }
     }
 

@@ -2,11 +2,12 @@
 
 use super::build::any_heading;
 use super::pose::Pose;
-use super::programs::Step;
 use super::simulation::{Instance, Simulation};
-use crate::eval::{Fixed, run};
-use crate::ir::Id;
+use crate::eval::{Code, Compiler, Fixed, Layout, TooLarge, run};
+use crate::ir::law::{Block, Stmt};
+use crate::ir::task::StartLine;
 use crate::ir::tree::Status;
+use crate::ir::{Id, Pool};
 use crate::random::Random;
 
 /// How an episode starts.
@@ -39,6 +40,66 @@ impl Default for Start {
 /// How often the start lines are run until the robot is free where they put it.
 const TRIES: u32 = 10_000;
 
+/// What a start line does.
+#[derive(Clone, Debug)]
+pub(super) enum StartStep {
+    /// Any free pose.
+    Anywhere,
+    /// Sets the position or the heading.
+    Place(Code),
+    /// Sets a state.
+    Set(Code),
+    /// Sets the newest termination.
+    Remember(Code),
+}
+
+impl StartStep {
+    /// What a list of start lines does, in order.
+    pub(super) fn list(
+        pool: &Pool,
+        layout: &mut Layout,
+        lines: &[StartLine],
+    ) -> Result<Vec<Self>, TooLarge> {
+        let has = |test: fn(&StartLine) -> bool| lines.iter().any(test);
+        let placed = has(|line| matches!(line, StartLine::Anywhere))
+            || has(|line| matches!(line, StartLine::Position(..)))
+                && has(|line| matches!(line, StartLine::Heading(_)));
+        // What the lines leave open of the pose is drawn before them.
+        let mut steps = if placed {
+            Vec::new()
+        } else {
+            vec![Self::Anywhere]
+        };
+        for line in lines {
+            let mut compiler = Compiler::new(pool, layout, None);
+            let step: fn(Code) -> Self = match *line {
+                StartLine::Anywhere => {
+                    steps.push(Self::Anywhere);
+                    continue;
+                }
+                StartLine::Position(x, y) => {
+                    compiler.assign_all(&[(Fixed::X.register(), x), (Fixed::Y.register(), y)])?;
+                    Self::Place
+                }
+                StartLine::Heading(heading) => {
+                    compiler.assign_all(&[(Fixed::Heading.register(), heading)])?;
+                    Self::Place
+                }
+                StartLine::State(state, value) => {
+                    compiler.block(&Block(vec![Stmt::SetState(state, value)]))?;
+                    Self::Set
+                }
+                StartLine::History(code) => {
+                    compiler.assign_all(&[(Fixed::History.register(), code)])?;
+                    Self::Remember
+                }
+            };
+            steps.push(step(compiler.finish()?));
+        }
+        Ok(steps)
+    }
+}
+
 impl Simulation<'_> {
     /// Starts an episode. What it does depends on `start` and on nothing that happened before.
     ///
@@ -70,7 +131,7 @@ impl Simulation<'_> {
         }
         self.body.atoms = self.history.bits;
         run(
-            &self.simulator.programs.predicates,
+            &self.simulator.compiled.predicates,
             &mut self.registers,
             &mut self.body,
         );
@@ -85,17 +146,17 @@ impl Simulation<'_> {
         self.registers.set(Fixed::Touching.register(), 0.0);
         self.history.clear();
         self.body.tick();
-        let Some(steps) = self.simulator.programs.starts.get(lines) else {
+        let Some(steps) = self.simulator.compiled.starts.get(lines) else {
             self.place_anywhere();
             return;
         };
         for step in steps {
             match step {
-                Step::Anywhere => self.place_anywhere(),
-                Step::Set(code) => {
+                StartStep::Anywhere => self.place_anywhere(),
+                StartStep::Set(code) => {
                     run(code, &mut self.registers, &mut self.body);
                 }
-                Step::Place(code) => {
+                StartStep::Place(code) => {
                     run(code, &mut self.registers, &mut self.body);
                     let read = |fixed: Fixed| self.registers.get(fixed.register());
                     let heading = Some(read(Fixed::Heading)).filter(|h| h.is_finite());
@@ -105,7 +166,7 @@ impl Simulation<'_> {
                     );
                     self.place(pose);
                 }
-                Step::Remember(code) => {
+                StartStep::Remember(code) => {
                     run(code, &mut self.registers, &mut self.body);
                     let code = self.registers.get(Fixed::History.register());
                     self.history.clear();
@@ -134,6 +195,6 @@ impl Simulation<'_> {
     fn place(&mut self, pose: Pose) {
         self.body.pose = pose;
         self.slack = 0.0;
-        self.tell_pose();
+        self.publish_pose();
     }
 }

@@ -38,21 +38,21 @@ impl Simulation<'_> {
         loop {
             self.begin_tick();
             let status = self.act(behavior);
-            let outcome = self.end_tick();
+            let tick = self.end_tick();
             ticks += 1;
-            if outcome.terminated
-                || outcome.closed
-                || outcome.end.is_some()
+            if tick.terminated
+                || tick.closed
+                || tick.end.is_some()
                 || ticks >= patience
                 || (ticks >= dwell && self.key() != from)
             {
                 return Transition {
                     key: self.key(),
                     status,
-                    reward: outcome.reward,
+                    reward: tick.reward,
                     ticks,
-                    closed: outcome.closed,
-                    end: outcome.end,
+                    closed: tick.closed,
+                    end: tick.end,
                 };
             }
         }

@@ -1,0 +1,136 @@
+//! The code of a task: what its episodes and ticks run.
+
+use super::atoms::Atoms;
+use super::ending::Ending;
+use super::error::BuildError;
+use super::start::StartStep;
+use crate::eval::{Code, Compiler, Folding, Layout, TooLarge};
+use crate::ir::law::{Behavior, Law};
+use crate::ir::task::{StartLine, Task};
+use crate::ir::{Expr, Id, Pool, Program};
+
+/// The code of a task.
+#[derive(Clone, Debug)]
+pub(super) struct Compiled {
+    /// What every tick does.
+    pub(super) each_tick: Code,
+    /// The behaviours.
+    pub(super) routines: Vec<Routine>,
+    /// The end of a tick in which nothing has terminated. Answers 1, without having changed anything, where an event
+    /// happens nevertheless.
+    pub(super) quiet: Code,
+    /// The end of any tick.
+    pub(super) full: Code,
+    /// The predicates alone.
+    pub(super) predicates: Code,
+    /// The lists of start lines.
+    pub(super) starts: Vec<Vec<StartStep>>,
+    /// The reward of a tick without events where it is always the same.
+    pub(super) otherwise: Option<f64>,
+}
+
+/// A behaviour.
+#[derive(Clone, Debug)]
+pub(super) struct Routine {
+    /// Sets its variables.
+    pub(super) begin: Code,
+    /// Its tick.
+    pub(super) tick: Code,
+    /// Whether it asks how long it has run.
+    pub(super) timed: bool,
+}
+
+impl Compiled {
+    /// Compiles a task. `open`: nothing can come between the robot and what it looks at.
+    pub(super) fn new(
+        program: &Program,
+        task: &Task,
+        starts: &[&[StartLine]],
+        atoms: &Atoms,
+        open: bool,
+        layout: &mut Layout,
+    ) -> Result<Self, BuildError> {
+        let mut pool = program.pool.clone();
+        let ending = Ending::new(program, task, atoms, &mut pool)?;
+        let mut sight = Folding::new(&mut pool, |expr| match expr {
+            Expr::Visible(..) if open => Some(true),
+            _ => None,
+        });
+        let ending = ending.fold(&mut sight);
+        let each_tick = sight.block(&program.each_tick);
+        let laws: Vec<_> = program
+            .behaviors
+            .values()
+            .map(|behavior| behavior.law.as_ref().map(|law| sight.law(law)))
+            .collect();
+        let nothing = ending.fold(&mut Folding::new(&mut pool, |expr| match expr {
+            Expr::Ended(..) | Expr::Event(_) => Some(false),
+            _ => None,
+        }));
+
+        let otherwise = pool.constant(nothing.otherwise);
+        let predicates = piece(&pool, layout, |c| ending.read_predicates(c))?;
+        let full = piece(&pool, layout, |c| ending.compile(c))?;
+        let quiet = piece(&pool, layout, |c| {
+            nothing.compile_quiet(otherwise.is_none(), c)
+        })?;
+        let each_tick = piece(&pool, layout, |c| c.block(&each_tick))?;
+        let routines = laws
+            .iter()
+            .zip(program.behaviors.ids())
+            .map(|(law, id)| match law {
+                Some(law) => routine(&pool, layout, id, law),
+                None => Ok(Routine {
+                    begin: Code::default(),
+                    tick: piece(&pool, layout, |c| {
+                        c.fail();
+                        Ok(())
+                    })?,
+                    timed: false,
+                }),
+            })
+            .collect::<Result<_, TooLarge>>()?;
+        let starts = starts
+            .iter()
+            .map(|lines| StartStep::list(&pool, layout, lines))
+            .collect::<Result<_, TooLarge>>()?;
+        Ok(Self {
+            each_tick,
+            routines,
+            quiet,
+            full,
+            predicates,
+            starts,
+            otherwise,
+        })
+    }
+}
+
+fn piece<'a>(
+    pool: &'a Pool,
+    layout: &'a mut Layout,
+    fill: impl FnOnce(&mut Compiler<'a>) -> Result<(), TooLarge>,
+) -> Result<Code, TooLarge> {
+    let mut compiler = Compiler::new(pool, layout, None);
+    fill(&mut compiler)?;
+    compiler.finish()
+}
+
+fn routine(
+    pool: &Pool,
+    layout: &mut Layout,
+    id: Id<Behavior>,
+    law: &Law,
+) -> Result<Routine, TooLarge> {
+    let mut begin = Compiler::new(pool, layout, Some(id));
+    begin.locals(law)?;
+    let begin_timed = begin.is_timed();
+    let begin = begin.finish()?;
+    let mut tick = Compiler::new(pool, layout, Some(id));
+    tick.law(law)?;
+    Ok(Routine {
+        begin,
+        timed: begin_timed || tick.is_timed(),
+        tick: tick.finish()?,
+    })
+}
