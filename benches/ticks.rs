@@ -5,11 +5,10 @@
     reason = "a bench fails where it goes wrong"
 )]
 
-#[allow(dead_code, unreachable_pub, reason = "shared with the tests")]
-#[path = "../tests/it/world/delivery.rs"]
-mod world_delivery;
-
+use btc::driver::load::{Reader, load};
 use btc::geometry::Shape;
+use btc::ir::law::Behavior;
+use btc::ir::task::Task;
 use btc::ir::{Id, Program};
 use btc::random::Random;
 use btc::world::{Scene, Simulation, Simulator, Start};
@@ -21,8 +20,36 @@ use std::hint::black_box;
 
 const TICKS: u64 = 100_000;
 
-/// Runs so many ticks under a policy, one episode after the other.
-fn run(simulation: &mut Simulation, limit: u64, patience: Option<u64>, policy: fn(u128) -> usize) {
+struct NoFiles;
+
+impl Reader for NoFiles {
+    fn read(&mut self, path: &str) -> Result<Vec<u8>, String> {
+        Err(format!("{path} is not read here"))
+    }
+}
+
+fn program(text: &str) -> Program {
+    let loaded = load("example.bt", text.into(), &mut NoFiles);
+    assert!(!loaded.has_errors());
+    loaded.program
+}
+
+fn small() -> Program {
+    program(include_str!("../examples/delivery_small.bt"))
+}
+
+fn large() -> Program {
+    program(include_str!("../examples/delivery_large.bt"))
+}
+
+/// Runs [`TICKS`] ticks under a policy, one episode after the other.
+fn run(
+    simulation: &mut Simulation,
+    choose: &[Id<Behavior>],
+    limit: u64,
+    patience: Option<u64>,
+    policy: fn(u128) -> usize,
+) {
     let (mut left, mut episode) = (TICKS, 0);
     while left > 0 {
         episode += 1;
@@ -33,7 +60,7 @@ fn run(simulation: &mut Simulation, limit: u64, patience: Option<u64>, policy: f
             ..Start::default()
         });
         loop {
-            let behavior = Id::new(policy(simulation.key()));
+            let behavior = choose[policy(simulation.key())];
             let transition = simulation.run_option(behavior, patience, 0);
             left -= transition.ticks.min(left);
             if transition.end.is_some() {
@@ -73,15 +100,14 @@ fn ticks(c: &mut Criterion) {
     group.throughput(Throughput::Elements(TICKS));
     let mut world = |name: &str, program: &Program, limit, patience, policy: fn(u128) -> usize| {
         let task = Id::new(0);
-        let start = &program.tasks[task].start;
+        let Task { start, choose, .. } = &program.tasks[task];
         let simulator = Simulator::build(program, task, &[start], &[]).unwrap();
         let mut simulation = simulator.simulation();
         group.bench_function(name, |b| {
-            b.iter(|| run(&mut simulation, limit, patience, policy));
+            b.iter(|| run(&mut simulation, choose, limit, patience, policy));
         });
     };
-    let (small, _) = world_delivery::small();
-    let (large, _) = world_delivery::large();
+    let (small, large) = (small(), large());
     world("small, expert", &small, 5000, None, small_expert);
     world("large, expert", &large, 300, Some(600), large_expert);
     world("large, follow_wall", &large, 300, Some(600), |_| 4);
@@ -89,8 +115,8 @@ fn ticks(c: &mut Criterion) {
 }
 
 fn geometry(c: &mut Criterion) {
-    let (mut program, _) = world_delivery::large();
-    let world = program.world.as_mut().unwrap();
+    let program = large();
+    let world = program.world.as_ref().unwrap();
     let scene = Scene::new(world);
     let mut corners = Vec::new();
     let mut chains = vec![vec![

@@ -49,7 +49,7 @@ named! {
 }
 
 named! {
-    /// Names with arguments, besides the functions of numbers.
+    /// Names with arguments, besides the operators of [`crate::ir::expr`].
     Function {
         Clamp "clamp",
         Distance "distance",

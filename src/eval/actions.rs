@@ -17,7 +17,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 /// One thing that code does.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Action {
-    /// Makes a draw, anew each time.
+    /// Makes a draw, a new one each time.
     Draw(ExprId),
     /// Binds a name.
     Name(Id<Temp>, ExprId, Moment),

@@ -94,22 +94,22 @@ operators!(instructions);
 impl Op {
     /// Whether all it does is to set `dst`.
     pub(super) fn makes_a_value(self) -> bool {
-        match self {
+        !matches!(
+            self,
             Op::Jump
-            | Op::JumpIf
-            | Op::JumpUnless
-            | Op::JumpEq
-            | Op::JumpNe
-            | Op::JumpLt
-            | Op::JumpLe
-            | Op::JumpUnlessLt
-            | Op::JumpUnlessLe
-            | Op::Look
-            | Op::Fire
-            | Op::Atom
-            | Op::Exit => false,
-            _ => true,
-        }
+                | Op::JumpIf
+                | Op::JumpUnless
+                | Op::JumpEq
+                | Op::JumpNe
+                | Op::JumpLt
+                | Op::JumpLe
+                | Op::JumpUnlessLt
+                | Op::JumpUnlessLe
+                | Op::Look
+                | Op::Fire
+                | Op::Atom
+                | Op::Exit
+        )
     }
 }
 
@@ -134,11 +134,6 @@ impl Code {
     /// The instructions.
     pub fn instructions(&self) -> &[Instruction] {
         &self.0
-    }
-
-    /// Whether a run does nothing.
-    pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
     }
 }
 

@@ -103,7 +103,7 @@ impl<'a> Compiler<'a> {
         let before = self.code.len();
         let fresh = self.scratch;
         let value = self.value(id)?;
-        // The instruction that made the value may as well put it where it is wanted.
+        // Where the last instruction made the value, it writes straight to the register.
         if self.code.len() > before
             && self.label != self.code.len()
             && usize::from(value) >= fresh

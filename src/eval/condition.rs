@@ -7,7 +7,7 @@ use crate::ir::expr::{Binary, Unary};
 use crate::ir::{Expr, ExprId};
 
 impl Compiler<'_> {
-    /// Jumps to `target` where the expression has the value `when`, and goes on here elsewhere.
+    /// Jumps to `target` if the expression has the value `when`, and goes on here if not.
     ///
     /// The mark that it gives bounds what is known at `target`: what was computed before the first jump there.
     ///

@@ -45,27 +45,6 @@ pub trait Host {
     fn atom(&mut self, bit: u16, holds: bool);
 }
 
-/// A host without a world: nothing is seen, nothing is near; only draws work.
-#[derive(Clone, Debug)]
-pub struct Nowhere(pub Random);
-
-impl Host for Nowhere {
-    fn visible(&mut self, _: f64, _: f64) -> bool {
-        false
-    }
-    fn look(&mut self, _: u16) -> Option<Reading> {
-        None
-    }
-    fn inside(&mut self, _: u16) -> bool {
-        false
-    }
-    fn random(&mut self) -> &mut Random {
-        &mut self.0
-    }
-    fn fire(&mut self, _: u16) {}
-    fn atom(&mut self, _: u16, _: bool) {}
-}
-
 #[allow(
     clippy::indexing_slicing,
     reason = "a masked index is always within the array, so no check is compiled"

@@ -1,14 +1,14 @@
 //! Expressions and control laws, compiled once to a register code that one loop runs.
 //!
-//! A [`Layout`] gives every state, local, reading and constant of a program a register of its own; a [`Compiler`] turns
+//! A [`Layout`] gives each state, local, reading and constant of a program its register; a [`Compiler`] turns
 //! expressions and statements into [`Code`]; [`run`] runs it against a [`Host`], the world. Nothing is looked up by
 //! name and nothing is allocated while code runs.
 //!
 //! A value is computed where it is first needed, once on each path: the pool's shared nodes are shared registers, and
 //! what only one branch reads is computed in that branch.
 //!
-//! Arithmetic is that of IEEE 754: 1 / 0 is infinite, 0 / 0 is NaN. A comparison with NaN is false; a robot that is told
-//! to drive at NaN stands.
+//! Arithmetic is that of IEEE 754: 1 / 0 is infinite, 0 / 0 is NaN. A comparison with NaN is false; a robot commanded to
+//! drive at NaN stands still.
 
 mod actions;
 mod code;
@@ -25,4 +25,5 @@ pub use code::{Code, Instruction, Op, Register};
 pub use compiler::{Compiler, Label, TooLarge};
 pub use fold::Folding;
 pub use layout::{Fixed, Layout, Source};
-pub use machine::{Host, Nowhere, REGISTERS, Reading, Registers, run};
+pub use machine::{Host, Reading, Registers, run};
+pub use statement::status;

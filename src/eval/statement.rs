@@ -21,8 +21,7 @@ struct Branch {
 }
 
 impl Compiler<'_> {
-    /// A behaviour's tick: its partition in the order U, S, F, R, then its control law. The answer is the
-    /// [`Status`] as a number: success 0, failure 1, running 2.
+    /// A behaviour's tick: its partition in the order U, S, F, R, then its control law. [`status`] reads the answer.
     ///
     /// # Errors
     /// If registers run out.
@@ -32,21 +31,21 @@ impl Compiler<'_> {
         self.condition(law.succeed, true, &mut success)?;
         self.condition(law.fail, true, &mut failure)?;
         self.block(&law.control)?;
-        self.exit(answer(Status::Running));
+        self.exit(RUNNING);
         if success.is_used() {
             self.bind(success);
-            self.exit(answer(Status::Success));
+            self.exit(SUCCESS);
         }
         if failure.is_used() {
             self.bind(failure);
-            self.exit(answer(Status::Failure));
+            self.exit(FAILURE);
         }
         Ok(())
     }
 
     /// The tick of a behaviour that is declared only: failure.
     pub fn fail(&mut self) {
-        self.exit(answer(Status::Failure));
+        self.exit(FAILURE);
     }
 
     /// Sets a behaviour's variables as it starts.
@@ -150,7 +149,7 @@ impl Compiler<'_> {
         Ok(copy)
     }
 
-    /// Makes a draw, whatever it was before.
+    /// Makes a draw; a value drawn before is forgotten.
     fn redraw(&mut self, id: ExprId) -> Result<(), TooLarge> {
         self.forget(self.pool.get(id));
         self.value(id).map(|_| ())
@@ -164,11 +163,16 @@ impl Compiler<'_> {
     }
 }
 
-/// The number by which code answers with a status.
-fn answer(status: Status) -> u16 {
-    match status {
-        Status::Success => 0,
-        Status::Failure => 1,
-        Status::Running => 2,
+const SUCCESS: u16 = 0;
+const FAILURE: u16 = 1;
+const RUNNING: u16 = 2;
+
+/// The status that the code of a law answers with.
+#[inline]
+pub fn status(answer: u16) -> Status {
+    match answer {
+        SUCCESS => Status::Success,
+        FAILURE => Status::Failure,
+        _ => Status::Running,
     }
 }

@@ -80,9 +80,9 @@ pub enum Expr {
     Unary(Unary, ExprId),
     /// Two operands.
     Binary(Binary, ExprId, ExprId),
-    /// The second operand where the first holds, the third elsewhere.
+    /// The second operand if the first holds, else the third.
     Select(ExprId, ExprId, ExprId),
-    /// A random draw; every one in the text has a number of its own.
+    /// A random draw; each one in the text has its number.
     Draw(u32, Draw),
 }
 

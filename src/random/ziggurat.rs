@@ -5,9 +5,9 @@ use super::{Bits, fraction};
 use crate::math;
 use std::sync::LazyLock;
 
-/// How many layers there are.
+/// The number of layers.
 const LAYERS: usize = 128;
-/// Where the tail begins, for so many layers.
+/// Where the tail begins, for this number of layers.
 const TAIL: f64 = 3.442_619_855_899;
 /// The area of a layer under exp(−x²/2).
 const AREA: f64 = 9.912_563_035_262_17e-3;

@@ -59,7 +59,7 @@ impl<'a> Body<'a> {
         self.fresh = 0;
     }
 
-    /// A new tick: noise is drawn anew.
+    /// A new tick: its noise is still to be drawn.
     pub(super) fn tick(&mut self) {
         if self.noisy {
             self.fresh &= self.steady;

@@ -16,8 +16,8 @@ pub(super) struct Compiled {
     pub(super) each_tick: Code,
     /// The behaviours.
     pub(super) routines: Vec<Routine>,
-    /// The end of a tick in which nothing has terminated. Answers 1, without having changed anything, where an event
-    /// happens nevertheless.
+    /// The end of a tick in which nothing has terminated. If an event happens nevertheless it changes nothing and answers
+    /// [`NOT_QUIET`](super::ending::NOT_QUIET).
     pub(super) quiet: Code,
     /// The end of any tick.
     pub(super) full: Code,

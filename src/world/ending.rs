@@ -7,7 +7,7 @@ use crate::ir::law::{Block, Stmt};
 use crate::ir::task::Task;
 use crate::ir::{Expr, ExprId, Id, Pool, Program};
 
-/// The answer of the quiet end where it does not apply.
+/// The answer of the quiet end if an event happens after all.
 pub(super) const NOT_QUIET: u16 = 1;
 
 /// What the end of a tick computes.
@@ -42,8 +42,8 @@ impl Ending {
             let number = pool.num((i + 1) as f64);
             end = pool.select(line, number, end);
         }
-        // What effects depend on is looked at before the first of them. A plain event has been already, and folds
-        // where it cannot happen; any other condition is kept under a name.
+        // All conditions are evaluated before the first effect. A plain event has its value already, and folds where
+        // it cannot happen; any other condition gets a name.
         let (mut conditions, mut effects) = (Vec::new(), Vec::new());
         for (i, effect) in program.effects.iter().enumerate() {
             let mut condition = effect.on;

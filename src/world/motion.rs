@@ -11,7 +11,7 @@ use crate::ir::world::{Contact, Drive, DriveKind, Robot};
 use crate::math;
 use crate::random::Random;
 
-/// What the wheels are told.
+/// What the wheels are commanded to do.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Command {
     /// Forward speed in m/s.

@@ -15,7 +15,7 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// The pose at a position with a heading, which need not be in [−π, π).
+    /// The pose at a position with a heading, which may be any angle.
     pub fn new(position: Point, heading: f64) -> Self {
         let heading = math::wrap(heading);
         let (sin, cos) = math::sin_cos(heading);

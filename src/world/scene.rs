@@ -19,7 +19,7 @@ pub struct Scene {
     solids: Vec<Shape>,
     /// The parts of each wall.
     walls: Vec<(Vec<Segment>, Option<Circle>)>,
-    /// Whether the arena's boundary can come between two points of the arena.
+    /// Whether the arena's boundary never comes between two points of the arena.
     convex: bool,
 }
 
@@ -144,7 +144,7 @@ impl Scene {
             let right = turned(heading, right);
             let left = turned(heading, left);
             for segment in self.boundary.iter().chain(&self.segments) {
-                // Most segments need not be clipped: they are too far as a whole, or nearest within the sector.
+                // Few segments are clipped: most are too far, or their nearest point is in the sector.
                 let whole = segment.nearest(p);
                 if dot(whole, whole) >= best.square {
                     continue;

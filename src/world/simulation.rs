@@ -6,7 +6,7 @@ use super::ending::NOT_QUIET;
 use super::history::History;
 use super::motion::Command;
 use super::pose::Pose;
-use crate::eval::{Fixed, Registers, run};
+use crate::eval::{Fixed, Registers, run, status};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::program::{Event, State};
@@ -89,7 +89,7 @@ impl<'a> Simulation<'a> {
         self.body.moved();
     }
 
-    /// Forgets what the last tick's behaviours and events said.
+    /// Clears the terminations and events of the last tick.
     pub(super) fn clear_tick(&mut self) {
         let layout = &self.simulator.layout;
         for &(behavior, status) in &self.terminations {
@@ -126,7 +126,7 @@ impl<'a> Simulation<'a> {
     /// same world; at most one may drive.
     ///
     /// A behaviour that was running in this tick or the tick before resumes; any other starts, with its variables
-    /// set anew. A termination ends the instance. A behaviour without a law fails.
+    /// set to their initial values. A termination ends the instance. A behaviour without a law fails.
     #[inline]
     pub fn act(&mut self, behavior: Id<Behavior>) -> Status {
         let (Some(routine), Some(instance)) = (
@@ -147,12 +147,10 @@ impl<'a> Simulation<'a> {
         if starts {
             run(&routine.begin, &mut self.registers, &mut self.body);
         }
-        let status = match run(&routine.tick, &mut self.registers, &mut self.body) {
-            0 => Status::Success,
-            1 => Status::Failure,
-            _ => return Status::Running,
-        };
-        self.terminate(behavior, status);
+        let status = status(run(&routine.tick, &mut self.registers, &mut self.body));
+        if status != Status::Running {
+            self.terminate(behavior, status);
+        }
         status
     }
 
@@ -221,7 +219,7 @@ impl<'a> Simulation<'a> {
         }
     }
 
-    /// Moves the robot as it was told.
+    /// Moves the robot by the commands of this tick.
     #[inline]
     fn go(&mut self) {
         let read = |fixed: Fixed| self.registers.get(fixed.register());

@@ -1,6 +1,6 @@
 //! The geometry of the inner loop beside parry's, on random worlds.
 
-use btc::geometry::{Point, Shape};
+use btc::geometry::{Point, Shape, crosses_itself, doubled_area};
 use btc::ir::world::{Contact, Drive, DriveKind, Robot, Wall, World};
 use btc::ir::{Name, Table};
 use btc::random::Random;
@@ -8,6 +8,7 @@ use btc::world::Scene;
 use parry2d_f64::math::{Pose, Rotation, Vector};
 use parry2d_f64::query::{PointQuery, Ray, intersection_test};
 use parry2d_f64::shape::{Ball, Capsule, ConvexPolygon, Polyline, Segment, SharedShape};
+use parry2d_f64::utils::point_in_poly2d;
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 
@@ -277,6 +278,75 @@ proptest! {
             prop_assert!(free != thin || free != thick, "from {p:?} to {q:?}: free {free}, {thin}, {thick}");
         }
     }
+}
+
+proptest! {
+    #[test]
+    fn a_polygon_contains_what_parrys_contains(seed: u64) {
+        let random = &mut Random::new(seed, 0, 0);
+        let corners = polygon(random, [0.3, -0.2], 2.0, 8, true);
+        let twin: Vec<Vector> = corners.iter().map(|&p| vector(p)).collect();
+        let shape = Shape::Polygon(corners);
+        for _ in 0..50 {
+            let p = [random.uniform(-2.0, 2.5), random.uniform(-2.5, 2.0)];
+            prop_assert_eq!(shape.contains(p), point_in_poly2d(vector(p), &twin), "{:?}", p);
+        }
+        prop_assert!(!shape.is_convex());
+        let [x, y] = shape.center();
+        prop_assert!(close(x, 0.3) && close(y, -0.2), "the centre is {x}, {y}");
+    }
+
+    /// A regular polygon crosses itself once two neighbours among its corners are exchanged.
+    #[test]
+    fn exchanged_corners_cross(seed: u64) {
+        let random = &mut Random::new(seed, 0, 0);
+        let n = 4 + random.below(6);
+        let mut corners = polygon(random, [1.0, 1.0], 1.5, n, false);
+        prop_assert!(!crosses_itself(&corners));
+        prop_assert!(doubled_area(&corners) > 0.0);
+        corners.swap(1, 2);
+        prop_assert!(crosses_itself(&corners));
+    }
+}
+
+#[test]
+fn polygons_that_touch_themselves_cross() {
+    let spike = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [1.0, 0.0], [0.0, 2.0]];
+    assert!(crosses_itself(&spike));
+    let twice = [
+        [0.0, 0.0],
+        [2.0, 0.0],
+        [2.0, 1.0],
+        [1.5, 0.0],
+        [0.5, 0.0],
+        [0.0, 1.0],
+    ];
+    assert!(crosses_itself(&twice));
+}
+
+#[test]
+fn extents() {
+    let rectangle = Shape::Rect {
+        min: [1.0, 0.0],
+        max: [3.0, 1.0],
+    };
+    assert_eq!(rectangle.bounds(), ([1.0, 0.0], [3.0, 1.0]));
+    assert_eq!(rectangle.reach(PI), 1.0);
+    assert!(close(rectangle.reach(PI / 4.0), 0.5f64.sqrt()));
+    let disc = Shape::Disc {
+        center: [1.0, 2.0],
+        radius: 0.5,
+    };
+    assert_eq!(disc.bounds(), ([0.5, 1.5], [1.5, 2.5]));
+    assert_eq!(disc.reach(2.0), 0.5);
+    // The centroid is not the middle of the rectangle around it.
+    let corner = Shape::Polygon(vec![[0.0, 0.0], [3.0, 0.0], [0.0, 3.0]]);
+    assert_eq!(corner.center(), [1.0, 1.0]);
+    assert_eq!(corner.reach(0.0), 2.0);
+    // A line is as thin as it is.
+    let line = Shape::Polyline(vec![[0.0, 1.0], [4.0, 1.0]]);
+    assert_eq!(line.bounds(), ([0.0, 1.0], [4.0, 1.0]));
+    assert_eq!((line.reach(0.0), line.reach(PI / 2.0)), (2.0, 0.0));
 }
 
 /// A rectangle turned by parry is the polygon of its corners.

@@ -1,6 +1,5 @@
 //! What sensors read, through a running program.
 
-use super::delivery::Maker;
 use super::ticks::small_program;
 use btc::geometry::Shape;
 use btc::ir::expr::Echo;
@@ -23,12 +22,12 @@ fn read(heading: f64, sensor: SensorKind, source: fn(Echo) -> Expr) -> (f64, f64
     let ahead = &mut world.robot.sensors[Id::new(0)];
     ahead.kind = sensor;
     ahead.noise = 0.0;
-    let mut m = Maker(&mut program.pool);
-    let heading = m.num(heading);
+    let pool = &mut program.pool;
+    let heading = pool.num(heading);
     let statements = [Echo::Distance, Echo::Direction, Echo::Seen]
         .into_iter()
         .enumerate()
-        .map(|(i, echo)| Stmt::SetState(Id::new(i), m.leaf(source(echo))))
+        .map(|(i, echo)| Stmt::SetState(Id::new(i), pool.leaf(source(echo))))
         .collect();
     program.each_tick = Block(statements);
     let task = Id::new(0);

@@ -1,15 +1,16 @@
 //! What a tick means.
 
-use super::delivery::{self, Maker};
+use crate::examples::example;
+use crate::program::{named, shown};
 use btc::geometry::Shape;
-use btc::ir::expr::{Binary, Draw, Echo, Local};
-use btc::ir::law::{Behavior, Block, Law, Stmt};
-use btc::ir::program::{Effect, Event, Predicate, State, ValueKind};
-use btc::ir::task::{History, RewardLine, StartLine, Task};
+use btc::ir::expr::{Draw, Echo};
+use btc::ir::law::{Behavior, Stmt};
+use btc::ir::task::{History, StartLine};
 use btc::ir::tree::{Atom, Status};
-use btc::ir::world::{Contact, Drive, DriveKind, Robot, Sensor, SensorKind, Wall, World};
-use btc::ir::{Expr, ExprId, Id, Name, Program, Table};
+use btc::ir::world::Wall;
+use btc::ir::{Expr, Id, Name, Program};
 use btc::world::{BuildError, End, Simulation, Simulator, Start};
+use std::path::Path;
 
 /// One world is shared between threads.
 #[test]
@@ -18,12 +19,18 @@ fn a_simulator_can_be_shared() {
     shared::<Simulator>();
 }
 
+/// The simulator of an example's task, and the behaviours to choose from.
+fn delivery(program: &Program) -> (Simulator, &[Id<Behavior>]) {
+    let task = &program.tasks[Id::new(0)];
+    let simulator = Simulator::build(program, Id::new(0), &[&task.start], &[]).unwrap();
+    (simulator, &task.choose)
+}
+
 /// The expert of the paper's Figure 8 delivers for thousands of ticks without dying.
 #[test]
 fn an_expert_delivers_in_the_small_world() {
-    let (program, task) = delivery::small();
-    let start = &program.tasks[task].start;
-    let simulator = Simulator::build(&program, task, &[start], &[]).unwrap();
+    let program = example("delivery_small").program;
+    let (simulator, choose) = delivery(&program);
     let mut simulation = simulator.simulation();
     let (mut deliveries, mut deaths) = (0, 0);
     for episode in 0..20 {
@@ -41,7 +48,7 @@ fn an_expert_delivers_in_the_small_world() {
                 (true, _) => 1,
                 _ => 0,
             };
-            let transition = simulation.run_option(Id::new(behavior), None, 0);
+            let transition = simulation.run_option(choose[behavior], None, 0);
             if let Some(end) = transition.end {
                 deaths += u32::from(end == End::On(0));
                 break;
@@ -53,10 +60,10 @@ fn an_expert_delivers_in_the_small_world() {
     assert!(deliveries > 200, "{deliveries}");
 }
 
-// The behaviours of the program below.
+// The behaviours of `small_program`.
 const DONE: usize = 0;
 const REFUSED: usize = 1;
-const COUNT: usize = 2;
+const TALLY: usize = 2;
 const LOOK: usize = 3;
 const GO: usize = 4;
 
@@ -66,171 +73,27 @@ const BATTERY: usize = 1;
 const SEEN: usize = 2;
 const AGAIN: usize = 3;
 
-/// A program of behaviours that each show one thing:
-/// `done` succeeds at once, `refused` fails outright, `count` counts its ticks in a local and copies it to a state,
-/// `look` copies a noisy sensor to two states, `go` drives.
+/// A program of behaviours that each show one thing; see the file. `tally` copies its local and how long it has run to
+/// two states, `look` a noisy sensor to both, which only the IR can say.
 pub(crate) fn small_program() -> Program {
-    let mut program = Program::default();
-    let mut m = Maker(&mut program.pool);
-    let (no, yes) = (m.truth(false), m.truth(true));
-    let (zero, one) = (m.num(0.0), m.num(1.0));
-    let mut state = |name: &str, initial| {
-        let kind = ValueKind::Quantity;
-        let name = name.into();
-        program.states.push(State {
-            name,
-            kind,
-            initial,
-        })
-    };
-    let (carrying, battery) = (state("carrying", no), state("battery", one));
-    let (seen, again) = (state("seen", zero), state("again", zero));
-
-    let mut locals = Table::default();
-    let n = locals.push(Local {
-        name: "n".into(),
-        initial: zero,
-    });
-    let count = m.leaf(Expr::Local(n));
-    let next = m.add(count, one);
-    let distance = m.leaf(Expr::Sensor(Id::new(0), Echo::Distance));
-    let elapsed = m.leaf(Expr::Elapsed);
-    let drive = Stmt::Drive {
-        speed: one,
-        strafe: zero,
-        turn: zero,
-    };
-    let mut law = |requires, succeed, control| {
-        let law = Some(Law {
-            locals: locals.clone(),
-            requires,
-            succeed,
-            fail: no,
-            control: Block(control),
-        });
-        let name = Name::default();
-        program.behaviors.push(Behavior { name, law })
-    };
-    let done = law(yes, yes, vec![]);
-    law(no, yes, vec![]);
-    law(
-        yes,
-        no,
-        vec![
-            Stmt::SetLocal(n, next),
-            Stmt::SetState(seen, count),
-            Stmt::SetState(again, elapsed),
-        ],
-    );
-    law(
-        yes,
-        no,
-        vec![
-            Stmt::SetState(seen, distance),
-            Stmt::SetState(again, distance),
-        ],
-    );
-    law(yes, no, vec![drive]);
-
-    let ended = m.leaf(Expr::Ended(done, Status::Success));
-    let is_carrying = m.leaf(Expr::State(carrying));
-    let charge = m.leaf(Expr::State(battery));
-    let empty = m.0.not(is_carrying);
-    let pickup = m.0.and(ended, empty);
-    let dropoff = m.0.and(ended, is_carrying);
-    let dead = m.le(charge, zero);
-    let mut event = |name: &str, when| {
-        let name = name.into();
-        program.events.push(Event { name, when })
-    };
-    let events = [
-        event("pickup", pickup),
-        event("dropoff", dropoff),
-        event("dead", dead),
-    ]
-    .map(|id| m.leaf(Expr::Event(id)));
-    let quarter = m.num(0.25);
-    let drained = m.sub(charge, quarter);
-    program.each_tick = Block(vec![Stmt::SetState(battery, drained)]);
-    program.effects = vec![
-        effect(events[0], carrying, yes),
-        // Looked at before the first effect, although it comes after it.
-        effect(dropoff, carrying, no),
-    ];
-    let low = m.lt(charge, quarter);
-    for (name, when) in [("carrying", is_carrying), ("low", low)] {
-        program.predicates.push(Predicate {
-            name: name.into(),
-            when: Some(when),
-        });
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/cases/world/ticks.bt");
+    let loaded = named("ticks.bt", Path::new(path));
+    assert!(!loaded.has_errors(), "{}", shown(&loaded));
+    let mut program = loaded.program;
+    // `low` is there to be asked for besides the task's atoms.
+    program.tasks[Id::new(0)].observe.truncate(1);
+    let ahead = Expr::Sensor(Id::new(0), Echo::Distance);
+    for (behavior, shows) in [
+        (TALLY, [Expr::Local(Id::new(0)), Expr::Elapsed]),
+        (LOOK, [ahead, ahead]),
+    ] {
+        let law = program.behaviors[Id::new(behavior)].law.as_mut().unwrap();
+        for (state, leaf) in [SEEN, AGAIN].into_iter().zip(shows) {
+            let value = program.pool.leaf(leaf);
+            law.control.0.push(Stmt::SetState(Id::new(state), value));
+        }
     }
-    let position = (m.num(1.0), m.num(2.0));
-    let (punished, rewarded) = (m.num(-5.0), m.add(is_carrying, one));
-    let line = |event, value| RewardLine {
-        name: String::new(),
-        event,
-        value,
-    };
-    let otherwise = m.num(-0.1);
-    program.tasks.push(Task {
-        name: "task".into(),
-        observe: vec![Id::new(0)],
-        choose: (0..5).map(Id::new).collect(),
-        history: History {
-            window: 1,
-            success: true,
-            failure: false,
-        },
-        patience: None,
-        start: vec![
-            StartLine::Position(position.0, position.1),
-            StartLine::Heading(zero),
-        ],
-        end_on: vec![events[2]],
-        end_after: 100,
-        reward: vec![line(events[2], punished), line(events[0], rewarded)],
-        otherwise,
-    });
-    program.world = Some(World {
-        name: Name::default(),
-        tick: 0.5,
-        arena: Shape::Rect {
-            min: [0.0, 0.0],
-            max: [4.0, 4.0],
-        },
-        walls: Table::default(),
-        places: Table::default(),
-        robot: Robot {
-            name: Name::default(),
-            radius: 0.2,
-            drive: Drive {
-                kind: DriveKind::Differential,
-                max_speed: 1.0,
-                max_turn: 1.0,
-                speed_noise: 0.0,
-                turn_noise: 0.0,
-            },
-            contact: Contact::Stop,
-            sensors: [Sensor {
-                name: "ahead".into(),
-                kind: SensorKind::RangeFinder {
-                    at: 0.0,
-                    range: 9.0,
-                },
-                noise: 0.1,
-            }]
-            .into_iter()
-            .collect(),
-        },
-    });
     program
-}
-
-fn effect(on: ExprId, state: Id<State>, value: ExprId) -> Effect {
-    Effect {
-        on,
-        block: Block(vec![Stmt::SetState(state, value)]),
-    }
 }
 
 fn build(program: &Program) -> Result<Simulator, BuildError> {
@@ -318,12 +181,12 @@ fn locals_live_as_long_as_every_tick_ticks_their_behaviour() {
         simulation.end_tick();
         (state(&simulation, SEEN), state(&simulation, AGAIN))
     };
-    assert_eq!(tick(&[COUNT]), (1.0, 0.0));
-    assert_eq!(tick(&[COUNT]), (2.0, 0.5));
+    assert_eq!(tick(&[TALLY]), (1.0, 0.0));
+    assert_eq!(tick(&[TALLY]), (2.0, 0.5));
     // A tree may try something else first in the same tick.
-    assert_eq!(tick(&[REFUSED, COUNT]), (3.0, 1.0));
+    assert_eq!(tick(&[REFUSED, TALLY]), (3.0, 1.0));
     assert_eq!(tick(&[GO]), (3.0, 1.0));
-    assert_eq!(tick(&[COUNT]), (1.0, 0.0));
+    assert_eq!(tick(&[TALLY]), (1.0, 0.0));
 }
 
 #[test]
@@ -392,7 +255,7 @@ fn a_blocked_robot_touches_for_a_tick() {
     let mut simulation = simulator.simulation();
     simulation.start(Start::default());
     let mut touches = Vec::new();
-    for behavior in [GO, GO, GO, GO, GO, GO, COUNT] {
+    for behavior in [GO, GO, GO, GO, GO, GO, TALLY] {
         option(&mut simulation, behavior);
         touches.push(simulation.is_touching());
     }
@@ -444,10 +307,9 @@ fn atoms_beyond_the_tasks_can_be_asked_for() {
 }
 
 #[test]
-fn an_episode_is_the_same_whatever_ran_before_it() {
-    let (program, task) = delivery::large();
-    let start = &program.tasks[task].start;
-    let simulator = Simulator::build(&program, task, &[start], &[]).unwrap();
+fn an_episode_does_not_depend_on_what_ran_before_it() {
+    let program = example("delivery_large").program;
+    let (simulator, choose) = delivery(&program);
     let trace = |simulation: &mut Simulation, episode| {
         simulation.start(Start {
             seed: 7,
@@ -458,7 +320,7 @@ fn an_episode_is_the_same_whatever_ran_before_it() {
         });
         let mut trace = Vec::new();
         for i in 0.. {
-            let transition = simulation.run_option(Id::new(4 + i % 2), Some(50), 0);
+            let transition = simulation.run_option(choose[4 + i % 2], Some(50), 0);
             let pose = simulation.pose();
             trace.push((transition.key, pose.position.map(f64::to_bits)));
             if transition.end.is_some() {
@@ -488,11 +350,11 @@ fn what_cannot_run_is_refused_when_it_is_built() {
     assert_eq!(edit(|p| p.world = None), Some(BuildError::NoWorld));
     assert_eq!(
         edit(|p| p.behaviors[Id::new(GO)].law = None),
-        Some(BuildError::Declared(Name::default()))
+        Some(BuildError::Declared("go".into()))
     );
     assert_eq!(
         edit(|p| p.predicates[Id::new(0)].when = None),
-        Some(BuildError::Declared("carrying".into()))
+        Some(BuildError::Declared("loaded".into()))
     );
     assert_eq!(
         edit(|p| p.world.as_mut().unwrap().robot.radius = 2.1),
@@ -527,12 +389,10 @@ fn what_cannot_run_is_refused_when_it_is_built() {
 #[test]
 fn a_start_is_drawn_again_until_it_is_free() {
     let mut program = small_program();
-    let mut m = Maker(&mut program.pool);
-    let (low, high) = (m.num(-4.0), m.num(4.0));
-    let x = m.0.draw(Draw::Uniform(low, high));
-    let y = m.bin(Binary::Max, low, high);
-    let y = m.bin(Binary::Div, y, high);
-    program.tasks[Id::new(0)].start = vec![StartLine::Position(x, y)];
+    let pool = &mut program.pool;
+    let (low, high, one) = (pool.num(-4.0), pool.num(4.0), pool.num(1.0));
+    let x = pool.draw(Draw::Uniform(low, high));
+    program.tasks[Id::new(0)].start = vec![StartLine::Position(x, one)];
     let simulator = build(&program).unwrap();
     let mut simulation = simulator.simulation();
     for episode in 0..100 {
@@ -561,9 +421,8 @@ fn a_declared_behavior_fails() {
 /// The same bits on every machine and in every build.
 #[test]
 fn a_seed_is_a_course_to_the_last_bit() {
-    let (program, task) = delivery::large();
-    let start = &program.tasks[task].start;
-    let simulator = Simulator::build(&program, task, &[start], &[]).unwrap();
+    let program = example("delivery_large").program;
+    let (simulator, choose) = delivery(&program);
     let mut simulation = simulator.simulation();
     simulation.start(Start {
         seed: 1,
@@ -572,7 +431,7 @@ fn a_seed_is_a_course_to_the_last_bit() {
     });
     let mut course = 0u64;
     for i in 0.. {
-        let transition = simulation.run_option(Id::new(i % 6), Some(40), 0);
+        let transition = simulation.run_option(choose[i % 6], Some(40), 0);
         let pose = simulation.pose();
         for value in [pose.position[0], pose.position[1], pose.heading] {
             course = course.rotate_left(5) ^ value.to_bits();
