@@ -1,4 +1,4 @@
-//! How long the stages of minimisation take, and what planted lists come to.
+//! The time of each stage of minimisation, and the size of the lists that are found for planted ones.
 #![allow(
     clippy::unwrap_used,
     clippy::indexing_slicing,
@@ -96,7 +96,7 @@ fn complements(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// Decision lists; what they come to is printed.
+/// Decision lists; their sizes are printed.
 fn lists(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("list");
     group.sample_size(10);

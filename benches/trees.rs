@@ -1,4 +1,4 @@
-//! How fast trees come out of tables: the proof, Algorithm 1 and the search, beside planted lists of rules.
+//! The time from a table to its tree: the proof, Algorithm 1 and the search, on planted lists of rules.
 #![allow(
     clippy::unwrap_used,
     clippy::indexing_slicing,

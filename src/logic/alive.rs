@@ -1,4 +1,4 @@
-//! A set of rows that shrinks: only its words that still have rows are gone through.
+//! A set of rows that shrinks: only the words that still have rows are read.
 
 use super::bits::Bits;
 
@@ -37,7 +37,7 @@ impl Alive {
         Some(*place as usize * 64 + word.trailing_zeros() as usize)
     }
 
-    /// How many of the rows do not have the bit `value` in a column, as far as every `stride`-th word tells.
+    /// How many of the rows do not have the bit `value` in a column, counted in every `stride`-th word.
     pub(super) fn count_out(&self, (column, value): (&Bits, bool), stride: usize) -> usize {
         let flip = if value { u64::MAX } else { 0 };
         let column = column.words();

@@ -3,11 +3,11 @@
 use super::packed::Packed;
 use std::collections::BTreeSet;
 
-/// Cubes that may be gone through for each cube that the complement may have.
+/// Cubes that may be read for each cube that the complement may have.
 const WORK: usize = 64;
 
-/// Cubes that hold exactly where none of `cubes` does, over `atoms` atoms; `None` where there are more than `limit`, or
-/// where that many cannot be found out with reasonable work.
+/// Cubes over `atoms` atoms that hold exactly where none of `cubes` does; `None` if there are more than `limit`, or if it
+/// takes too much work to find them.
 ///
 /// By Shannon expansion about the atom that most cubes fix, of those that are fixed to both values. About an atom that is
 /// fixed to one value only, one half of the complement holds whatever the atom is (Brayton, Hachtel, McMullen and
@@ -38,7 +38,7 @@ impl Complement {
             [only] => return Some(self.of_one(only)),
             _ => {}
         }
-        // Every cube fixes some atom, or it were the universe.
+        // Every cube fixes some atom; the universe alone does not.
         let (atom, unate) = split(self.atoms, &cubes)?;
         let complement = match unate {
             // Where the atom has the other value fewer cubes hold, so the complement of this half is in that one's.

@@ -1,4 +1,4 @@
-//! Decision lists: classes of rows one after the other, each told from those after it.
+//! Decision lists: classes of rows from the left, each with a cover against those that follow.
 
 mod exchange;
 mod learned;
@@ -26,8 +26,8 @@ pub enum Order {
     Rarest,
 }
 
-/// Covers of the classes from the left: each contains the rows of its class and meets none of a class to its right, so
-/// that the first cover that holds tells the class. The last one holds everywhere. Classes without rows are left out.
+/// Covers of the classes from the left. Each contains the rows of its class and meets none of a class to its right, so
+/// the first cover that holds gives the class. The last one holds everywhere. Classes without rows are left out.
 ///
 /// The classes are disjoint sets of rows, and no row of one meets a row of another.
 pub fn list(
@@ -73,7 +73,7 @@ impl Entry<'_> {
     }
 }
 
-/// Number of literals, then of cubes: what the order is chosen by.
+/// What the order is chosen by: literals, then cubes.
 type Cost = (usize, usize);
 
 fn cost(cover: &Cover) -> Cost {
@@ -100,7 +100,7 @@ fn union<'a>(columns: &Columns, sets: impl Iterator<Item = &'a Bits>) -> Bits {
     })
 }
 
-/// The cover of a class against the rows of those after it, or `None` once it looks dearer than `limit`.
+/// The cover of a class against the rows of those that follow; `None` as soon as it seems to cost more than `limit`.
 fn within(
     columns: &Columns,
     class: Class,

@@ -1,7 +1,7 @@
 //! Two-level logic: cubes, covers, and the smallest cover that holds on some rows of a table and on none of others.
 //!
-//! A table holds rows transposed, a column of bits per atom. Rows that are neither in the ON set nor in the OFF set are
-//! free; so is every minterm that no row holds. Don't-cares are never built.
+//! A table holds its rows transposed, one column of bits per atom. Rows that are neither in the ON set nor in the OFF set
+//! are free, and so is every minterm of no row: the don't-care set is never built.
 
 mod alive;
 pub mod bits;

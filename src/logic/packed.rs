@@ -104,8 +104,8 @@ impl Packed {
 
     /// Whether the two have a minterm in common.
     pub fn meets(&self, other: &Self) -> bool {
-        let apart = |a: &[u64], b: &[u64]| a.iter().zip(b).any(|(a, b)| a & b != 0);
-        !apart(&self.ones, &other.zeros) && !apart(&self.zeros, &other.ones)
+        let conflict = |a: &[u64], b: &[u64]| a.iter().zip(b).any(|(a, b)| a & b != 0);
+        !conflict(&self.ones, &other.zeros) && !conflict(&self.zeros, &other.ones)
     }
 
     /// Whether all minterms of the other lie in this one.

@@ -1,9 +1,9 @@
 //! Policies to trees (paper, section VII).
 
 mod beam;
-mod covers;
 mod list;
 mod memory;
+mod minimiser;
 mod orders;
 mod pairs;
 mod paper;
@@ -20,7 +20,7 @@ use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::{Node, Status};
 use crate::policy::{Minterm, Policy, Row};
-use covers::{Covers, LARGE};
+use minimiser::{LARGE, Minimiser};
 use problem::Problem;
 use serde::Serialize;
 use std::borrow::Cow;
@@ -55,17 +55,17 @@ pub enum Care {
     Reachable,
 }
 
-/// What is asked of a tree.
+/// How a tree is searched for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// How it is found.
+    /// The method.
     pub method: Method,
-    /// Where it has to take the policy's decisions.
+    /// The care set.
     pub care: Care,
-    /// In which order the search lets its units stand.
+    /// The order of the units.
     pub order: Order,
-    /// How much work the search may take beyond the list that it starts from, in millions of units. A unit is a word of
-    /// a set of rows, looked at once; the minimisation of a row counts as 256.
+    /// The work that the search may do beyond the list that it starts from, in millions of units. A unit is one word of a
+    /// set of rows, read once; minimising a row counts as 256.
     pub effort: u64,
 }
 
@@ -85,7 +85,7 @@ impl Default for Options {
 pub struct Decanonicalised {
     /// The tree.
     pub root: Node,
-    /// What was proved of it.
+    /// Its proof.
     pub proof: Proof,
     /// Its size.
     pub size: Size,
@@ -95,16 +95,16 @@ pub struct Decanonicalised {
     pub failing: Vec<Failing>,
 }
 
-/// A decision that was seen to fail. There the tree may go on to another behaviour in the same tick.
+/// A decision that was seen to fail. There the tree may tick another behaviour in the same tick.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Failing {
     /// Where.
     pub minterm: Minterm,
     /// What fails.
     pub behavior: Id<Behavior>,
-    /// How often it did.
+    /// How many times it failed.
     pub count: u64,
-    /// In how many of these the minterm stayed as it was, so that the policy repeats the decision.
+    /// How many of these times the minterm stayed the same, so that the policy repeats the decision.
     pub repeated: u64,
     /// What the tree may tick next in the same tick; `None` is nothing.
     pub then: Vec<Option<Id<Behavior>>>,
@@ -118,7 +118,7 @@ pub fn decanonicalise(policy: &Policy, options: &Options) -> Result<Decanonicali
     let policy = &*cared(policy, options.care);
     let split = by_minterms(policy);
     let problem = Problem::new(split.as_ref().unwrap_or(policy));
-    let paper = || paper::tree(&Covers::new(&problem, u64::MAX));
+    let paper = || paper::tree(&Minimiser::new(&problem, u64::MAX));
     let runs_paper = options.method == Method::Paper || problem.policy.rows.len() <= LARGE;
     let first = runs_paper.then(paper);
     let found = match options.method {

@@ -1,4 +1,4 @@
-//! The order that is learned: the cheapest first.
+//! The learned order: the cheapest first.
 
 use super::exchange::exchange;
 use super::{Class, Entry, cost, union};
@@ -32,10 +32,10 @@ pub(super) fn list<'a>(
     list
 }
 
-/// Which class is told most cheaply from the others, and its cover.
+/// The class with the cheapest cover against all others, and this cover.
 ///
-/// A cover of a core costs about what a cover of all rows costs, or less. So the class that looks cheapest is refined
-/// until one that holds on all of its rows looks cheapest: the others are never minimised in full.
+/// A cover of a core costs about as much as a cover of all rows, or less. So the class that seems cheapest is refined
+/// until the cover that seems cheapest is right on all rows. The others are never minimised in full.
 fn cheapest(columns: &Columns, classes: &[Class], left: &Bits, effort: &Effort) -> (usize, Cover) {
     let quick = effort.quick();
     let offs: Vec<Bits> = classes.par_iter().map(|c| left.minus(c.rows)).collect();

@@ -10,10 +10,10 @@ use super::{Effort, Solution, solve};
 use crate::logic::bits::Bits;
 use crate::logic::columns::Columns;
 
-/// Rows up to which a problem is its own core, and rows of ON and of OFF in the first core of a larger one.
+/// The most rows of a problem that is its own core, and the ON and the OFF rows in the first core of a larger one.
 const WHOLE: usize = 512;
 const FIRST: usize = 128;
-/// Rounds after which the core is all rows.
+/// Rounds after which the core becomes all rows.
 const ROUNDS: usize = 24;
 
 /// A problem with its core.
@@ -59,7 +59,7 @@ impl<'a> Core<'a> {
         &self.solution
     }
 
-    /// A solution for all rows under a greater effort, on the core that this one came to.
+    /// A solution for all rows under a greater effort, starting from the present core.
     pub(in crate::logic) fn finish(&self, effort: &'a Effort) -> Solution {
         let mut core = Self {
             effort,
@@ -70,7 +70,7 @@ impl<'a> Core<'a> {
         core.solution
     }
 
-    /// Solves the core, and has the rows for which the cover is wrong join it. Whether there are none.
+    /// Solves the core and adds rows for which the cover is wrong; true if there are none.
     pub(in crate::logic) fn refine(&mut self) -> bool {
         let rows = |bits: &Bits| bits.iter().collect::<Vec<usize>>();
         let problem = Problem::new(self.columns, &rows(&self.core_on), &rows(&self.core_off));

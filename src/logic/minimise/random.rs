@@ -1,4 +1,4 @@
-//! Numbers that look random and are the same everywhere.
+//! Pseudorandom numbers, the same on every machine.
 
 /// The next of a sequence (splitmix64: Steele, Lea and Flood 2014).
 #[derive(Clone, Debug)]
@@ -28,8 +28,8 @@ impl Random {
     }
 }
 
-/// So many of the numbers, spread evenly, or all where there are no more. Within its stretch one is taken at random, so
-/// that no period shows.
+/// `size` of the numbers, spread evenly, or all if there are no more. Of each stretch one is taken at random, so that no
+/// period in the numbers shows.
 pub(super) fn sample(
     numbers: impl Iterator<Item = usize>,
     count: usize,

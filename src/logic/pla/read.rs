@@ -4,7 +4,7 @@ use super::error::{PlaError, PlaErrorKind};
 use super::{Kind, Part, Pla};
 use std::ops::Range;
 
-/// The most mistakes that are told of one file.
+/// The most mistakes that are reported for one file.
 const MISTAKES: usize = 20;
 
 /// The PLA in a text.

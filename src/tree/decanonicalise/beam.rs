@@ -44,8 +44,8 @@
 //! selector { low => selector { near => dock, go }, carrying => deliver, fetch }
 //! ```
 
-use super::covers::Covers;
 use super::list::{Child, List, Stock};
+use super::minimiser::Minimiser;
 use super::rules::{Applied, Rules};
 use super::subunit::Subunit;
 use crate::ir::tree::Node;
@@ -94,13 +94,13 @@ pub(super) struct Beam<'a, 'p> {
 
 impl<'a, 'p> Beam<'a, 'p> {
     pub(super) fn new(
-        covers: &'a Covers<'p>,
+        minimiser: &'a Minimiser<'p>,
         subunits: &'a [Subunit],
         rules: Rules,
         shape: Shape,
     ) -> Self {
         Self {
-            stock: Stock::new(covers, subunits, rules),
+            stock: Stock::new(minimiser, subunits, rules),
             shape,
             rests: FxHashMap::default(),
             groups: FxHashMap::default(),
@@ -109,7 +109,7 @@ impl<'a, 'p> Beam<'a, 'p> {
 
     /// The best trees for all rows, cheapest first.
     pub(super) fn trees(&mut self) -> Vec<Node> {
-        let all = self.stock.covers.problem.all();
+        let all = self.stock.minimiser.problem.all();
         let lists = self.lists(&all, self.shape.width, self.shape.depth);
         lists.iter().map(|list| self.stock.node(list)).collect()
     }
@@ -159,12 +159,12 @@ impl<'a, 'p> Beam<'a, 'p> {
 
     /// Every child that may stand next: subunits with all of their rows left, rules, and groups.
     fn next(&mut self, left: &Bits, depth: usize) -> Vec<Next> {
-        let covers = self.stock.covers;
-        if self.sole(left).is_some() || !covers.affords(0) {
+        let minimiser = self.stock.minimiser;
+        if self.sole(left).is_some() || !minimiser.affords(0) {
             return Vec::new();
         }
         let subunits = self.stock.subunits;
-        let mut applied = self.stock.rules.applied(covers, subunits, left);
+        let mut applied = self.stock.rules.applied(minimiser, subunits, left);
         let mut found = Vec::new();
         for number in 0..subunits.len() {
             self.whole_subunits(number, left, &applied, depth, &mut found);
@@ -191,7 +191,7 @@ impl<'a, 'p> Beam<'a, 'p> {
         depth: usize,
         found: &mut Vec<Next>,
     ) {
-        let covers = self.stock.covers;
+        let minimiser = self.stock.minimiser;
         let Some(subunit) = self.stock.subunits.get(number) else {
             return;
         };
@@ -218,9 +218,11 @@ impl<'a, 'p> Beam<'a, 'p> {
             push(Child::Ruled(number, rules));
         }
         let off = left.minus(&own);
-        if depth == self.shape.depth && covers.may_minimise(&own, &off) {
-            push(Child::Guarded(number, covers.guard(&own, &off)));
-            self.stock.rules.learn(covers, &covers.cover(&own, &off));
+        if depth == self.shape.depth && minimiser.may_minimise(&own, &off) {
+            push(Child::Guarded(number, minimiser.guard(&own, &off)));
+            self.stock
+                .rules
+                .learn(minimiser, &minimiser.cover(&own, &off));
         }
     }
 
@@ -228,10 +230,10 @@ impl<'a, 'p> Beam<'a, 'p> {
     fn next_groups(&mut self, left: &Bits, depth: usize) -> Vec<Next> {
         let mut promising: Vec<(Price, Literal, Bits)> = Vec::new();
         for literal in self.stock.rules.literals_asked() {
-            let covers = self.stock.covers;
-            covers.spend(covers.words() * 4);
+            let minimiser = self.stock.minimiser;
+            minimiser.spend(minimiser.words() * 4);
             let mut through = left.clone();
-            covers.problem.columns().restrict(&mut through, literal);
+            minimiser.problem.columns().restrict(&mut through, literal);
             if through.is_empty()
                 || through == *left
                 || self.sole(&through).is_some()
@@ -287,11 +289,11 @@ impl<'a, 'p> Beam<'a, 'p> {
     }
 
     fn greedy(&self, rows: &Bits) -> Option<List> {
-        let (stock, covers) = (&self.stock, self.stock.covers);
+        let (stock, minimiser) = (&self.stock, self.stock.minimiser);
         let mut list = List::default();
         let mut left = rows.clone();
         while !left.is_empty() {
-            let applied = || stock.rules.applied(covers, stock.subunits, &left);
+            let applied = || stock.rules.applied(minimiser, stock.subunits, &left);
             let (child, rows) = match self.sole(&left) {
                 Some(sole) => (Child::Bare(sole), left.clone()),
                 None => match applied().into_iter().min_by_key(|a| self.order(a)) {
@@ -308,7 +310,7 @@ impl<'a, 'p> Beam<'a, 'p> {
 
     /// The first subunit that may decide all of its rows left at once, for rows to which no rule applies.
     fn first_whole(&self, left: &Bits) -> Option<(Child, Bits)> {
-        let covers = self.stock.covers;
+        let minimiser = self.stock.minimiser;
         let mut subunits = self.stock.subunits.iter().enumerate();
         subunits.find_map(|(number, subunit)| {
             let own = subunit.rows.and(left);
@@ -317,8 +319,8 @@ impl<'a, 'p> Beam<'a, 'p> {
                 _ if own.is_empty() => return None,
                 true if own != subunit.rows => return None,
                 true => Child::Bare(number),
-                false if !covers.may_minimise(&own, &off) => return None,
-                false => Child::Guarded(number, covers.guard(&own, &off)),
+                false if !minimiser.may_minimise(&own, &off) => return None,
+                false => Child::Guarded(number, minimiser.guard(&own, &off)),
             };
             Some((child, own))
         })
@@ -345,7 +347,7 @@ mod tests {
     use crate::ir::Id;
     use crate::ir::tree::{Atom, Guard, Node};
     use crate::policy::{Minterm, Policy, Row};
-    use crate::tree::decanonicalise::covers::Covers;
+    use crate::tree::decanonicalise::minimiser::Minimiser;
     use crate::tree::decanonicalise::problem::Problem;
     use crate::tree::decanonicalise::rules::Rules;
     use crate::tree::decanonicalise::subunit::behaviors;
@@ -387,15 +389,15 @@ mod tests {
     fn the_group_of_the_example_saves_a_literal() {
         let policy = example();
         let problem = Problem::new(&policy);
-        let covers = Covers::new(&problem, u64::MAX);
+        let minimiser = Minimiser::new(&problem, u64::MAX);
         let subunits = behaviors(&problem);
-        let rules = Rules::new(&covers, std::iter::empty());
+        let rules = Rules::new(&minimiser, std::iter::empty());
         let shape = Shape {
             width: 8,
             inner: 2,
             depth: 2,
         };
-        let mut beam = Beam::new(&covers, &subunits, rules, shape);
+        let mut beam = Beam::new(&minimiser, &subunits, rules, shape);
         let [low, carrying, near] = [0, 1, 2].map(|i| Guard::Atom(policy.atoms[i]));
         let leaf = |behavior| Node::Behavior(Id::new(behavior));
 

@@ -1,6 +1,6 @@
-//! Selectors as they are searched: lists of children.
+//! Selectors as the beam builds them: lists of children with their price.
 
-use super::covers::{Covers, Priced};
+use super::minimiser::{Minimiser, Priced};
 use super::rules::Rules;
 use super::subunit::Subunit;
 use crate::ir::tree::Node;
@@ -14,7 +14,7 @@ use std::rc::Rc;
 /// A child of a selector.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Child {
-    /// A subunit that takes all that comes to it.
+    /// A subunit that takes all rows left.
     Bare(usize),
     /// A subunit behind one of these rules.
     Ruled(usize, Vec<usize>),
@@ -24,7 +24,7 @@ pub(super) enum Child {
     Group(Literal, Rc<List>),
 }
 
-/// Children from the left that decide all rows that come to them.
+/// Children from the left.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct List {
     pub(super) children: Vec<Rc<Child>>,
@@ -61,19 +61,19 @@ impl List {
     }
 }
 
-/// What children are made of.
+/// What lists are made of: subunits, and rules to put before them.
 pub(super) struct Stock<'a, 'p> {
-    pub(super) covers: &'a Covers<'p>,
+    pub(super) minimiser: &'a Minimiser<'p>,
     pub(super) subunits: &'a [Subunit],
     pub(super) rules: Rules,
     bodies: Vec<Price>,
 }
 
 impl<'a, 'p> Stock<'a, 'p> {
-    pub(super) fn new(covers: &'a Covers<'p>, subunits: &'a [Subunit], rules: Rules) -> Self {
+    pub(super) fn new(minimiser: &'a Minimiser<'p>, subunits: &'a [Subunit], rules: Rules) -> Self {
         let body = |subunit: &Subunit| Size::of(&subunit.body).price();
         Self {
-            covers,
+            minimiser,
             subunits,
             rules,
             bodies: subunits.iter().map(body).collect(),
@@ -88,7 +88,7 @@ impl<'a, 'p> Stock<'a, 'p> {
             Child::Ruled(subunit, rules) => {
                 let guard = match rules.as_slice() {
                     [rule] => Price::literals(self.rules.literals(*rule)),
-                    rules => self.rules.guard(self.covers, rules).price,
+                    rules => self.rules.guard(self.minimiser, rules).price,
                 };
                 Price::COMPOSITE + guard + body(subunit)
             }
@@ -97,7 +97,7 @@ impl<'a, 'p> Stock<'a, 'p> {
         }
     }
 
-    /// The list with neighbouring rules of one subunit under one guard where that costs less.
+    /// The list with neighbouring rules of one subunit under one guard where that is cheaper.
     pub(super) fn merged(&self, list: &List) -> List {
         let mut merged = List::default();
         let mut at = 0;
@@ -135,7 +135,7 @@ impl<'a, 'p> Stock<'a, 'p> {
     }
 
     fn child(&self, child: &Child) -> Node {
-        let atoms = &self.covers.problem.policy.atoms;
+        let atoms = &self.minimiser.problem.policy.atoms;
         let body = |subunit: &usize| {
             let subunit = self.subunits.get(*subunit);
             subunit.map_or_else(|| selector(Vec::new()), |subunit| subunit.body.clone())
@@ -143,7 +143,7 @@ impl<'a, 'p> Stock<'a, 'p> {
         match child {
             Child::Bare(subunit) => body(subunit),
             Child::Ruled(subunit, rules) => {
-                guarded(self.rules.guard(self.covers, rules).guard, body(subunit))
+                guarded(self.rules.guard(self.minimiser, rules).guard, body(subunit))
             }
             Child::Guarded(subunit, priced) => guarded(priced.guard.clone(), body(subunit)),
             Child::Group(literal, list) => {

@@ -1,27 +1,28 @@
-//! Which behaviours stand in memory nodes: configurations of subunits, each proved.
+//! Which behaviours memory nodes join: configurations of subunits, each proved.
 
-use super::covers::Covers;
+use super::minimiser::Minimiser;
 use super::pairs::{Pair, followers};
 use super::subunit::{Subunit, behaviors, canonical, replace};
 use crate::ir::tree::Node;
 
 /// Configurations that are kept.
 const CONFIGURATIONS: usize = 12;
-/// Memory nodes that are put to the proof.
+/// Memory nodes whose proof is tried.
 const ATTEMPTS: usize = 400;
 
-type Form = fn(&Pair, &Covers, &[Subunit]) -> Option<Subunit>;
+type Form = fn(&Pair, &Minimiser, &[Subunit]) -> Option<Subunit>;
 
-/// The behaviours alone, and what comes of joining pairs of subunits by memory nodes, as far as each is proved.
+/// The behaviours alone, and configurations in which memory nodes join pairs of subunits, each proved.
 ///
-/// Chains are grown to their full length first, in either form; then every step on the way there and aside is tried.
-pub(super) fn configurations(covers: &Covers) -> Vec<Vec<Subunit>> {
-    let alone = behaviors(covers.problem);
+/// First chains are grown to their full length, in either form. Then every configuration on the way there is joined
+/// further in other ways.
+pub(super) fn configurations(minimiser: &Minimiser) -> Vec<Vec<Subunit>> {
+    let alone = behaviors(minimiser.problem);
     let mut joins = Joins {
-        covers,
+        minimiser,
         tried: Vec::new(),
     };
-    if covers.problem.wide {
+    if minimiser.problem.wide {
         return vec![alone];
     }
     let mut found = vec![alone.clone()];
@@ -51,22 +52,22 @@ pub(super) fn configurations(covers: &Covers) -> Vec<Vec<Subunit>> {
     found
 }
 
-/// What was tried so far.
+/// The joins that were tried.
 struct Joins<'a, 'p> {
-    covers: &'a Covers<'p>,
+    minimiser: &'a Minimiser<'p>,
     tried: Vec<Vec<Node>>,
 }
 
 impl Joins<'_, '_> {
     /// The first join of two subunits that is new and proved.
     fn next(&mut self, subunits: &[Subunit], forms: &[Form]) -> Option<Vec<Subunit>> {
-        let problem = self.covers.problem;
+        let problem = self.minimiser.problem;
         for pair in followers(problem, subunits) {
             if !pair.entered_properly(problem, subunits) {
                 continue;
             }
             for form in forms {
-                let Some(subunit) = form(&pair, self.covers, subunits) else {
+                let Some(subunit) = form(&pair, self.minimiser, subunits) else {
                     continue;
                 };
                 let joined = replace(subunits, pair.first, pair.second, subunit);
@@ -75,7 +76,7 @@ impl Joins<'_, '_> {
                     continue;
                 }
                 self.tried.push(bodies);
-                if problem.proves(&canonical(self.covers, &joined)) {
+                if problem.proves(&canonical(self.minimiser, &joined)) {
                     return Some(joined);
                 }
             }

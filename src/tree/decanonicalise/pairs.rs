@@ -1,6 +1,6 @@
 //! Pairs of subunits that a memory node joins (paper, Figure 6: X and Y).
 
-use super::covers::Covers;
+use super::minimiser::Minimiser;
 use super::problem::Problem;
 use super::subunit::Subunit;
 use crate::ir::tree::{Atom, Composite, Node, Status};
@@ -9,18 +9,18 @@ use crate::policy::Minterm;
 use crate::tree::guard::cover;
 use crate::tree::unit::{guarded, memory};
 
-/// Two subunits that a history literal tells apart, with the way in which a memory node joins them.
+/// Two subunits that a memory node may join: a history literal holds on all rows of the second.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Pair {
     pub(super) first: usize,
     pub(super) second: usize,
-    /// The termination of the first by which the second follows.
+    /// The termination of the first after which the second follows.
     pub(super) by: Status,
 }
 
-/// The pairs that a history literal c tells apart: all minterms of the first have ¬c, all of the second have c.
+/// The pairs that a history literal c discriminates: all minterms of the first have ¬c, all of the second have c.
 ///
-/// Those whose first is nobody's second stand first, so that chains grow from their first member.
+/// Pairs whose first is no other pair's second come first, so that chains grow from their first member.
 pub(super) fn pairs(problem: &Problem, subunits: &[Subunit]) -> Vec<Pair> {
     let mut pairs = following(problem, subunits);
     pairs.retain(|pair| {
@@ -33,8 +33,8 @@ pub(super) fn pairs(problem: &Problem, subunits: &[Subunit]) -> Vec<Pair> {
     from_the_first(pairs)
 }
 
-/// The pairs of which all minterms of the second have c, in the same order. A window of several terminations may show c
-/// in the first as well: from the last time.
+/// The pairs in which all minterms of the second have c, in the same order. In a window of several terminations, c may
+/// still hold in the first from an earlier time.
 pub(super) fn followers(problem: &Problem, subunits: &[Subunit]) -> Vec<Pair> {
     from_the_first(following(problem, subunits))
 }
@@ -81,35 +81,35 @@ impl Pair {
         })
     }
 
-    /// What is left of both guards without the literal, c_i and c_j: each told from the others on its own side of c.
-    fn remainders(&self, covers: &Covers, subunits: &[Subunit]) -> Option<(Sided, Sided)> {
+    /// Both guards without the literal, c_i and c_j, as ON and OFF rows: each is minimised on its own side of c.
+    fn remainders(&self, minimiser: &Minimiser, subunits: &[Subunit]) -> Option<(Sided, Sided)> {
         let (first, second) = self.of(subunits)?;
-        let column = self.column(covers.problem, subunits)?;
-        let off = |rows: &Bits| covers.problem.all().minus(rows);
+        let column = self.column(minimiser.problem, subunits)?;
+        let off = |rows: &Bits| minimiser.problem.all().minus(rows);
         let first = (first.rows.clone(), off(&first.rows).minus(column));
         let second = (second.rows.clone(), off(&second.rows).and(column));
         Some((first, second))
     }
 
     /// X: one guard for both, a memory node in it. `None` if the remainders are not equal.
-    pub(super) fn x(&self, covers: &Covers, subunits: &[Subunit]) -> Option<Subunit> {
+    pub(super) fn x(&self, minimiser: &Minimiser, subunits: &[Subunit]) -> Option<Subunit> {
         let (first, second) = self.of(subunits)?;
-        let (c_i, c_j) = self.remainders(covers, subunits)?;
+        let (c_i, c_j) = self.remainders(minimiser, subunits)?;
         // Smallest covers are not unique: one that serves both sides makes the remainders equal.
-        let problem = covers.problem;
+        let problem = minimiser.problem;
         let rows = first.rows.or(&second.rows);
         let exact = |(on, off): &Sided| {
-            let cover = covers.cover(on, off);
+            let cover = minimiser.cover(on, off);
             problem.columns().cover_rows(&cover, &problem.all()) == rows
         };
         if !exact(&c_i) && !exact(&c_j) {
             return None;
         }
-        self.joined(covers, subunits)
+        self.joined(minimiser, subunits)
     }
 
-    /// X where both have any guard in common: that of the union, which always exists.
-    pub(super) fn joined(&self, _: &Covers, subunits: &[Subunit]) -> Option<Subunit> {
+    /// X under any guard that both share: that of the union always exists.
+    pub(super) fn joined(&self, _: &Minimiser, subunits: &[Subunit]) -> Option<Subunit> {
         let (first, second) = self.of(subunits)?;
         let bodies = [first.body.clone(), second.body.clone()];
         Some(self.memory(first, second, bodies, false))
@@ -117,15 +117,18 @@ impl Pair {
 
     /// Y: a memory sequence of two units. `None` where, after the first has ended, its guard would let it start over
     /// outside the second's minterms.
-    pub(super) fn y(&self, covers: &Covers, subunits: &[Subunit]) -> Option<Subunit> {
+    pub(super) fn y(&self, minimiser: &Minimiser, subunits: &[Subunit]) -> Option<Subunit> {
         // A memory selector goes past a unit whose guard does not hold, which the history does not tell.
         if self.by == Status::Failure {
             return None;
         }
-        let problem = covers.problem;
+        let problem = minimiser.problem;
         let (first, second) = self.of(subunits)?;
-        let (c_i, c_j) = self.remainders(covers, subunits)?;
-        let (c_i, c_j) = (covers.cover(&c_i.0, &c_i.1), covers.cover(&c_j.0, &c_j.1));
+        let (c_i, c_j) = self.remainders(minimiser, subunits)?;
+        let (c_i, c_j) = (
+            minimiser.cover(&c_i.0, &c_i.1),
+            minimiser.cover(&c_j.0, &c_j.1),
+        );
         let column = self.column(problem, subunits)?;
         let after = problem.columns().cover_rows(&c_i, column);
         if !after.is_subset(&second.rows) {
@@ -136,15 +139,15 @@ impl Pair {
         Some(self.memory(first, second, bodies, true))
     }
 
-    /// A memory node under one guard, the second behind a guard of its own: both in the place of Y where the first is
-    /// ended by failures, whose memory node may pass nothing but its last child.
-    pub(super) fn inner(&self, covers: &Covers, subunits: &[Subunit]) -> Option<Subunit> {
+    /// X with the second behind a guard of its own. Where the first ends by a failure this replaces Y: a memory selector
+    /// may pass nothing but its last child.
+    pub(super) fn inner(&self, minimiser: &Minimiser, subunits: &[Subunit]) -> Option<Subunit> {
         let (first, second) = self.of(subunits)?;
-        let (_, (on, off)) = self.remainders(covers, subunits)?;
+        let (_, (on, off)) = self.remainders(minimiser, subunits)?;
         if off.is_empty() {
             return None;
         }
-        let guard = covers.guard(&on, &off).guard.clone();
+        let guard = minimiser.guard(&on, &off).guard.clone();
         let bodies = [first.body.clone(), guarded(guard, second.body.clone())];
         Some(self.memory(first, second, bodies, false))
     }
@@ -168,7 +171,7 @@ impl Pair {
         }
     }
 
-    /// What X and Y need of the environment: the second is entered from the pair alone, never at a start, and by no
+    /// What X and Y require of the environment: the second is entered only from the pair, never at a start, and not by a
     /// termination of its own that starts the memory node over.
     pub(super) fn entered_properly(&self, problem: &Problem, subunits: &[Subunit]) -> bool {
         let Some((first, second)) = self.of(subunits) else {
@@ -197,5 +200,5 @@ impl Pair {
     }
 }
 
-/// Rows to be told from others.
+/// ON rows and OFF rows.
 type Sided = (Bits, Bits);

@@ -1,6 +1,6 @@
 //! Algorithm 1, made definite.
 
-use super::covers::Covers;
+use super::minimiser::Minimiser;
 use super::pairs::{Pair, pairs};
 use super::subunit::{Subunit, behaviors, canonical, replace};
 use crate::ir::tree::Node;
@@ -10,21 +10,20 @@ use crate::tree::guard::literal;
 use crate::tree::unit::{guarded, selector};
 use std::rc::Rc;
 
-/// Rounds of ordering and minimising after which the last is taken.
+/// The most rounds of ordering and minimising.
 const ROUNDS: usize = 32;
 
 /// The tree that Algorithm 1 finds.
 ///
-/// Memory nodes that are refuted once all parts are in their places are given up, the latest first; without any, the
-/// tree is right by its guards.
-pub(super) fn tree(covers: &Covers) -> Node {
+/// If the finished tree is refuted, memory nodes are given up, the latest first. Without any, its guards make it right.
+pub(super) fn tree(minimiser: &Minimiser) -> Node {
     let mut refused: Vec<(Bits, Bits)> = Vec::new();
     loop {
         let mut joined = Vec::new();
-        let subunits = rewrite(covers, &refused, &mut joined);
-        let root = place(covers, &subunits);
+        let subunits = rewrite(minimiser, &refused, &mut joined);
+        let root = place(minimiser, &subunits);
         match joined.pop() {
-            Some(last) if !covers.problem.proves(&root) => refused.push(last),
+            Some(last) if !minimiser.problem.proves(&root) => refused.push(last),
             _ => return root,
         }
     }
@@ -32,19 +31,19 @@ pub(super) fn tree(covers: &Covers) -> Node {
 
 /// Lines 2–15: X, Y and Z while there are any.
 fn rewrite(
-    covers: &Covers,
+    minimiser: &Minimiser,
     refused: &[(Bits, Bits)],
     joined: &mut Vec<(Bits, Bits)>,
 ) -> Vec<Subunit> {
-    let mut subunits = behaviors(covers.problem);
-    if covers.problem.wide {
+    let mut subunits = behaviors(minimiser.problem);
+    if minimiser.problem.wide {
         // A row that leaves a literal free stands on both of its sides.
         return subunits;
     }
     loop {
-        let next = memory(covers, &subunits, refused, joined, Pair::x)
-            .or_else(|| memory(covers, &subunits, refused, joined, Pair::y))
-            .or_else(|| z(covers, &subunits));
+        let next = memory(minimiser, &subunits, refused, joined, Pair::x)
+            .or_else(|| memory(minimiser, &subunits, refused, joined, Pair::y))
+            .or_else(|| z(minimiser, &subunits));
         match next {
             Some(next) => subunits = next,
             None => return subunits,
@@ -54,23 +53,23 @@ fn rewrite(
 
 /// The first X or Y that is proved.
 fn memory(
-    covers: &Covers,
+    minimiser: &Minimiser,
     subunits: &[Subunit],
     refused: &[(Bits, Bits)],
     joined: &mut Vec<(Bits, Bits)>,
-    form: impl Fn(&Pair, &Covers, &[Subunit]) -> Option<Subunit>,
+    form: impl Fn(&Pair, &Minimiser, &[Subunit]) -> Option<Subunit>,
 ) -> Option<Vec<Subunit>> {
-    for pair in pairs(covers.problem, subunits) {
+    for pair in pairs(minimiser.problem, subunits) {
         let (first, second) = pair.of(subunits)?;
         let key = (first.rows.clone(), second.rows.clone());
-        if refused.contains(&key) || !pair.entered_properly(covers.problem, subunits) {
+        if refused.contains(&key) || !pair.entered_properly(minimiser.problem, subunits) {
             continue;
         }
-        let Some(subunit) = form(&pair, covers, subunits) else {
+        let Some(subunit) = form(&pair, minimiser, subunits) else {
             continue;
         };
         let next = replace(subunits, pair.first, pair.second, subunit);
-        if covers.problem.proves(&canonical(covers, &next)) {
+        if minimiser.problem.proves(&canonical(minimiser, &next)) {
             joined.push(key);
             return Some(next);
         }
@@ -78,24 +77,24 @@ fn memory(
     None
 }
 
-/// Z: `selector { c => B_j, B_i }` for the first literal that tells two subunits apart.
-fn z(covers: &Covers, subunits: &[Subunit]) -> Option<Vec<Subunit>> {
+/// Z: `selector { c => B_j, B_i }` for the first literal that discriminates two subunits.
+fn z(minimiser: &Minimiser, subunits: &[Subunit]) -> Option<Vec<Subunit>> {
     for (i, first) in subunits.iter().enumerate() {
         for (j, second) in subunits.iter().enumerate() {
             if i == j {
                 continue;
             }
-            let apart =
+            let discriminates =
                 |column: &Bits| first.rows.is_disjoint(column) && second.rows.is_subset(column);
-            let mut columns = covers.problem.columns().iter();
-            let Some((atom, _)) = columns.find(|(_, column)| apart(column)) else {
+            let mut columns = minimiser.problem.columns().iter();
+            let Some((atom, _)) = columns.find(|(_, column)| discriminates(column)) else {
                 continue;
             };
             let c = Literal {
                 atom,
                 positive: true,
             };
-            let guard = literal(c, &covers.problem.policy.atoms);
+            let guard = literal(c, &minimiser.problem.policy.atoms);
             let subunit = Subunit {
                 body: selector(vec![
                     guarded(guard, second.body.clone()),
@@ -113,14 +112,14 @@ fn z(covers: &Covers, subunits: &[Subunit]) -> Option<Vec<Subunit>> {
 
 /// Lines 16–22: orders the subunits by the length of their guards and minimises them from the left, where what is
 /// already decided is free, until nothing changes.
-fn place(covers: &Covers, subunits: &[Subunit]) -> Node {
+fn place(minimiser: &Minimiser, subunits: &[Subunit]) -> Node {
     let against = |subunit: &Subunit, off: &Bits| match subunit.guards_itself {
         true => Rc::new(Cover::new([Cube::default()])),
-        false => covers.cover(&subunit.rows, off),
+        false => minimiser.cover(&subunit.rows, off),
     };
     let mut units: Vec<(Rc<Cover>, &Subunit)> = subunits
         .iter()
-        .map(|s| (against(s, &covers.problem.all().minus(&s.rows)), s))
+        .map(|s| (against(s, &minimiser.problem.all().minus(&s.rows)), s))
         .collect();
     for _ in 0..ROUNDS {
         let before: Vec<Rc<Cover>> = units.iter().map(|(guard, _)| guard.clone()).collect();
@@ -128,7 +127,7 @@ fn place(covers: &Covers, subunits: &[Subunit]) -> Node {
             true => Size::of(&subunit.body).literals,
             false => guard.literals(),
         });
-        let mut left = covers.problem.all();
+        let mut left = minimiser.problem.all();
         for (guard, subunit) in &mut units {
             left = left.minus(&subunit.rows);
             *guard = against(subunit, &left);
@@ -138,5 +137,5 @@ fn place(covers: &Covers, subunits: &[Subunit]) -> Node {
         }
     }
     let units = units.iter();
-    selector(units.map(|(guard, subunit)| subunit.under(covers.problem, guard)))
+    selector(units.map(|(guard, subunit)| subunit.under(minimiser.problem, guard)))
 }

@@ -1,14 +1,14 @@
-//! Rules: cubes that may let a subunit through.
+//! Rules: cubes that may stand before a subunit.
 
-use super::covers::{Covers, Priced};
+use super::minimiser::{Minimiser, Priced};
 use super::subunit::Subunit;
 use crate::logic::{Bits, Cover, Cube, Literal};
 use crate::tree::guard::factored;
 use std::collections::BTreeSet;
 
-/// Literals of the cubes that are all tried while there is work left.
+/// The most literals of cubes that are all made rules.
 const SHORT: usize = 3;
-/// Short cubes up to which all are rules, and the part of the work that looking at them once may take.
+/// The most short cubes that are made rules; reading them all may take this part of the work.
 const MOST: usize = 600;
 const SHARE: u64 = 1024;
 
@@ -28,7 +28,7 @@ pub(super) struct Applied {
     pub(super) rows: Bits,
 }
 
-/// Cubes that were found to be of use, and short ones.
+/// The cubes of covers that were found, and short ones.
 #[derive(Default)]
 pub(super) struct Rules {
     rules: Vec<Rule>,
@@ -38,13 +38,13 @@ pub(super) struct Rules {
 
 impl Rules {
     /// The rules of these covers and the short cubes over their atoms.
-    pub(super) fn new<'c>(covers: &Covers, useful: impl Iterator<Item = &'c Cover>) -> Self {
+    pub(super) fn new<'c>(minimiser: &Minimiser, useful: impl Iterator<Item = &'c Cover>) -> Self {
         let mut rules = Self::default();
         for cover in useful {
-            rules.learn(covers, cover);
+            rules.learn(minimiser, cover);
         }
-        let words = covers.words();
-        let columns = covers.problem.columns();
+        let words = minimiser.words();
+        let columns = minimiser.problem.columns();
         // Where all atoms are too many, those that the covers ask.
         let every: Vec<usize> = (0..columns.atoms()).collect();
         let asked: Vec<usize> = rules.asked.iter().copied().collect();
@@ -52,9 +52,9 @@ impl Rules {
             for length in (1..=SHORT).rev() {
                 let count = short(atoms.len(), length);
                 if count <= MOST
-                    && covers.affords((count as u64).saturating_mul(words).saturating_mul(SHARE))
+                    && minimiser.affords((count as u64).saturating_mul(words).saturating_mul(SHARE))
                 {
-                    rules.short(covers, &atoms, length);
+                    rules.short(minimiser, &atoms, length);
                     return rules;
                 }
             }
@@ -63,18 +63,18 @@ impl Rules {
     }
 
     /// Adds the cubes of a cover.
-    pub(super) fn learn(&mut self, covers: &Covers, cover: &Cover) {
+    pub(super) fn learn(&mut self, minimiser: &Minimiser, cover: &Cover) {
         for cube in cover.cubes() {
-            self.add(covers, cube);
+            self.add(minimiser, cube);
         }
     }
 
-    fn add(&mut self, covers: &Covers, cube: &Cube) {
+    fn add(&mut self, minimiser: &Minimiser, cube: &Cube) {
         if cube.literals().is_empty() || self.known.contains(cube) {
             return;
         }
-        let problem = covers.problem;
-        covers.spend(covers.words() * cube.literals().len() as u64);
+        let problem = minimiser.problem;
+        minimiser.spend(minimiser.words() * cube.literals().len() as u64);
         let rows = problem.columns().cube_rows(cube, &problem.all());
         self.known.insert(cube.clone());
         let atoms = cube.literals().iter().map(|literal| literal.atom);
@@ -88,7 +88,7 @@ impl Rules {
     }
 
     /// All cubes over these atoms up to a length.
-    fn short(&mut self, covers: &Covers, atoms: &[usize], length: usize) {
+    fn short(&mut self, minimiser: &Minimiser, atoms: &[usize], length: usize) {
         let mut open: Vec<(usize, Vec<Literal>)> = vec![(0, Vec::new())];
         for _ in 0..length {
             let mut longer = Vec::new();
@@ -101,7 +101,7 @@ impl Rules {
                         };
                         let literals: Vec<Literal> =
                             literals.iter().copied().chain([more]).collect();
-                        self.add(covers, &Cube::new(literals.clone()));
+                        self.add(minimiser, &Cube::new(literals.clone()));
                         longer.push((i + 1, literals));
                     }
                 }
@@ -130,11 +130,11 @@ impl Rules {
     /// The rules that apply among the rows left.
     pub(super) fn applied(
         &self,
-        covers: &Covers,
+        minimiser: &Minimiser,
         subunits: &[Subunit],
         left: &Bits,
     ) -> Vec<Applied> {
-        covers.spend(self.rules.len() as u64 * 2 * covers.words());
+        minimiser.spend(self.rules.len() as u64 * 2 * minimiser.words());
         let applied = self.rules.iter().enumerate().filter_map(|(at, rule)| {
             let first = rule.rows.first_of_both(left)?;
             let own = |(_, subunit): &(usize, &Subunit)| subunit.rows.contains(first);
@@ -188,14 +188,14 @@ impl Rules {
     }
 
     /// These rules as one guard.
-    pub(super) fn guard(&self, covers: &Covers, rules: &[usize]) -> Priced {
+    pub(super) fn guard(&self, minimiser: &Minimiser, rules: &[usize]) -> Priced {
         let cubes = rules.iter().filter_map(|rule| self.get(*rule));
         let cover = Cover::new(cubes.map(|rule| rule.cube.clone()));
-        Priced::new(factored(&cover, &covers.problem.policy.atoms))
+        Priced::new(factored(&cover, &minimiser.problem.policy.atoms))
     }
 }
 
-/// How many cubes of up to so many literals there are.
+/// The number of cubes of one to `length` literals.
 fn short(atoms: usize, length: usize) -> usize {
     let mut all = 0_usize;
     let mut of_length = 1_usize;

@@ -1,13 +1,13 @@
 //! The search for a smaller tree than Algorithm 1 finds.
 //!
-//! Which memory nodes to use is tried out first ([`super::memory`]). For each configuration the subunits are put in the
-//! order that is asked for ([`super::orders`]); where it is to be learned, that list is where a beam search begins
+//! First it is decided which behaviours memory nodes join ([`super::memory`]). The subunits of each such configuration form
+//! a list in the wanted order ([`super::orders`]). If the order is to be learned, a beam search starts from that list
 //! ([`super::beam`]). Work is counted, not timed, and each search has its own share of it, so that every machine finds
 //! the same tree on any number of threads.
 
 use super::beam::{Beam, Shape};
-use super::covers::{Covers, LARGE};
 use super::memory::configurations;
+use super::minimiser::{LARGE, Minimiser};
 use super::orders::{in_order, tree as listed};
 use super::problem::Problem;
 use super::rules::Rules;
@@ -18,7 +18,7 @@ use crate::logic::Order;
 use crate::tree::Size;
 use rayon::prelude::*;
 
-/// Beams that are tried: of children that stand side by side, and with groups.
+/// The beams: one without groups, and one with groups.
 const SHAPES: [Shape; 2] = [
     Shape {
         width: 24,
@@ -31,18 +31,18 @@ const SHAPES: [Shape; 2] = [
         depth: 3,
     },
 ];
-/// Trees that are put to the proof, smallest first.
+/// The most trees whose proof is tried, smallest first.
 const PROOFS: usize = 256;
 
-/// The smallest tree that was found and proved; `None` if none was proved. Where the order is to be learned, that of
-/// Algorithm 1 is the first to be found, if it is known.
+/// The smallest tree that was found and proved; `None` if none was proved. If the order is to be learned, the tree of
+/// Algorithm 1 is among them.
 pub(super) fn tree(
     problem: &Problem,
     paper: Option<&Node>,
     order: Order,
     effort: u64,
 ) -> Option<Node> {
-    let configurations = configurations(&Covers::new(problem, u64::MAX));
+    let configurations = configurations(&Minimiser::new(problem, u64::MAX));
     let share = effort / configurations.len().max(1) as u64;
     let found: Vec<Vec<Node>> = configurations
         .par_iter()
@@ -65,27 +65,27 @@ pub(super) fn tree(
 
 /// Trees over the subunits of one configuration.
 fn trees(problem: &Problem, subunits: &[Subunit], order: Order, effort: u64) -> Vec<Node> {
-    let covers = Covers::new(problem, effort / SHAPES.len() as u64);
+    let minimiser = Minimiser::new(problem, effort / SHAPES.len() as u64);
     let searches = order == Order::Learned && !problem.wide;
-    // While tables are small, the lists in other orders are places to begin as well.
+    // In a small table the search starts from lists in other orders as well.
     let orders = match searches && problem.policy.rows.len() <= LARGE {
         true => vec![order, Order::Given, Order::Rarest],
         false => vec![order],
     };
     let lists = orders.into_iter();
     let lists: Vec<_> = lists
-        .map(|order| in_order(&covers, subunits, order))
+        .map(|order| in_order(&minimiser, subunits, order))
         .collect();
-    let bases = lists.iter().map(|list| listed(&covers, subunits, list));
+    let bases = lists.iter().map(|list| listed(&minimiser, subunits, list));
     let bases: Vec<Node> = bases.collect();
     if !searches {
         return bases;
     }
     let searched = SHAPES.par_iter().map(|shape| {
-        let covers = Covers::new(problem, effort / SHAPES.len() as u64);
+        let minimiser = Minimiser::new(problem, effort / SHAPES.len() as u64);
         let useful = lists.iter().flatten().map(|(_, cover)| cover);
-        let rules = Rules::new(&covers, useful);
-        Beam::new(&covers, subunits, rules, *shape).trees()
+        let rules = Rules::new(&minimiser, useful);
+        Beam::new(&minimiser, subunits, rules, *shape).trees()
     });
     let searched: Vec<Vec<Node>> = searched.collect();
     let all = bases.into_iter().chain(searched.into_iter().flatten());

@@ -1,6 +1,6 @@
 //! Subunits: what Algorithm 1 rewrites (paper, Figure 6).
 
-use super::covers::Covers;
+use super::minimiser::Minimiser;
 use super::problem::Problem;
 use crate::ir::Id;
 use crate::ir::law::Behavior;
@@ -13,11 +13,11 @@ use crate::tree::unit::{guarded, selector};
 #[derive(Clone, Debug)]
 pub(super) struct Subunit {
     pub(super) body: Node,
-    /// minterms of all behaviours in it.
+    /// The minterms of all behaviours in it.
     pub(super) rows: Bits,
     /// The behaviour whose termination is the subunit's: a chain's last.
     pub(super) last: Option<Id<Behavior>>,
-    /// Y brings its guards along and fails by itself outside its rows.
+    /// Whether its own guards make it fail outside its rows, as those of Y do.
     pub(super) guards_itself: bool,
 }
 
@@ -34,10 +34,10 @@ pub(super) fn behaviors(problem: &Problem) -> Vec<Subunit> {
 }
 
 /// The selector of all subunits, each under its exact guard.
-pub(super) fn canonical(covers: &Covers, subunits: &[Subunit]) -> Node {
+pub(super) fn canonical(minimiser: &Minimiser, subunits: &[Subunit]) -> Node {
     let units = subunits.iter().map(|subunit| {
-        let off = covers.problem.all().minus(&subunit.rows);
-        subunit.under(covers.problem, &covers.cover(&subunit.rows, &off))
+        let off = minimiser.problem.all().minus(&subunit.rows);
+        subunit.under(minimiser.problem, &minimiser.cover(&subunit.rows, &off))
     });
     selector(units)
 }
@@ -58,7 +58,7 @@ impl Subunit {
     }
 }
 
-/// Replaces two subunits by one, in the place of the earlier.
+/// Replaces two subunits by one, which stands where the earlier stood.
 pub(super) fn replace(subunits: &[Subunit], i: usize, j: usize, by: Subunit) -> Vec<Subunit> {
     let mut by = Some(by);
     let mut left = Vec::new();

@@ -50,7 +50,7 @@ fn a_unit_that_is_shifted_gets_the_negation_of_the_guard_that_shifts_it() {
     let permuted = permute(&canonical, &ids(&[0, 1])).unwrap();
     let shifted = Guard::And(vec![not(p(1)), p(0)]);
     assert_eq!(permuted.units, [unit(shifted, 0), unit(p(1), 1)]);
-    // Behind the other, it need not ask what that has taken.
+    // Behind the other unit, it does not ask for what that one has taken.
     let back = permute(&permuted, &ids(&[1, 0])).unwrap();
     assert_eq!(back, canonical);
 }

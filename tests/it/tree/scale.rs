@@ -11,7 +11,7 @@ use btc::tree::decanonicalise::{Decanonicalised, Method, Options, Order, decanon
 use btc::tree::prove::prove;
 use rayon::prelude::*;
 
-/// A table over so many predicates.
+/// A table over this many predicates.
 fn table(atoms: usize, behaviors: usize, rows: impl Iterator<Item = (Minterm, usize)>) -> Policy {
     let mut rows: Vec<Row> = rows
         .map(|(minterm, does)| Row {

@@ -1,4 +1,4 @@
-//! Guards for sets of rows, each minimised once, the work counted.
+//! Covers and guards for sets of rows, each minimised once, within an effort.
 
 use super::problem::Problem;
 use crate::ir::tree::{Composite, Guard};
@@ -9,11 +9,11 @@ use rustc_hash::FxHashMap;
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
-/// Work that the minimisation of a row is counted as. A unit of work is a word of a set of rows, looked at once.
+/// The work of minimising a row. The unit of work is one word of a set of rows, read once.
 const ROW: u64 = 256;
 
-/// Rows up to which a table is small. In larger ones covers are not improved any more once they are right, the search
-/// makes do with the rules of the list that it starts from, and Algorithm 1 is not run beside it.
+/// The most rows of a small table. In a larger one covers are not improved once they are right, the search has only the
+/// rules of the list that it starts from, and Algorithm 1 is not run as well.
 pub(super) const LARGE: usize = 4096;
 
 /// A guard with its price under a sequence.
@@ -32,8 +32,8 @@ impl Priced {
     }
 }
 
-/// What was minimised so far, and what it took.
-pub(super) struct Covers<'a> {
+/// A minimiser that remembers what it found and counts its work.
+pub(super) struct Minimiser<'a> {
     pub(super) problem: &'a Problem<'a>,
     known: RefCell<FxHashMap<(Bits, Bits), Rc<Cover>>>,
     priced: RefCell<FxHashMap<(Bits, Bits), Rc<Priced>>>,
@@ -41,8 +41,8 @@ pub(super) struct Covers<'a> {
     limit: u64,
 }
 
-impl<'a> Covers<'a> {
-    /// Covers for so much work.
+impl<'a> Minimiser<'a> {
+    /// A minimiser that may do `limit` work.
     pub(super) fn new(problem: &'a Problem<'a>, limit: u64) -> Self {
         Self {
             problem,
@@ -53,7 +53,7 @@ impl<'a> Covers<'a> {
         }
     }
 
-    /// The words of a set of rows.
+    /// The words of one set of rows.
     pub(super) fn words(&self) -> u64 {
         1 + self.problem.columns().rows() as u64 / 64
     }
@@ -63,17 +63,17 @@ impl<'a> Covers<'a> {
         self.work.set(self.work.get().saturating_add(work));
     }
 
-    /// Whether the search may minimise these.
+    /// Whether the search may minimise `on` against `off`.
     pub(super) fn may_minimise(&self, on: &Bits, off: &Bits) -> bool {
         self.problem.policy.rows.len() <= LARGE && self.affords(self.price(on, off))
     }
 
-    /// Whether so much more work is within the limit.
+    /// Whether this much more work is within the limit.
     pub(super) fn affords(&self, work: u64) -> bool {
         self.work.get().saturating_add(work) <= self.limit
     }
 
-    /// What minimising these takes.
+    /// The work of minimising `on` against `off`; none if the cover is known.
     fn price(&self, on: &Bits, off: &Bits) -> u64 {
         match self.known.borrow().contains_key(&(on.clone(), off.clone())) {
             true => 0,
@@ -101,7 +101,7 @@ impl<'a> Covers<'a> {
         cover
     }
 
-    /// A smallest guard: the cover with common literals taken out, or the negated cover of `off`.
+    /// A small guard: the factored cover of `on`, or the negation of that of `off`, whichever is smaller.
     pub(super) fn guard(&self, on: &Bits, off: &Bits) -> Rc<Priced> {
         let key = (on.clone(), off.clone());
         if let Some(priced) = self.priced.borrow().get(&key) {
