@@ -1,5 +1,6 @@
 //! Minimisation, seen from outside.
 
+mod covers;
 mod espresso;
 mod lists;
 mod minimize;
