@@ -74,7 +74,7 @@ pub enum TableErrorKind {
     },
     /// A minterm without a row among the decisions.
     Unseen,
-    /// A row with so many `-` that it stands for too many minterms.
+    /// A row that stands for too many minterms because of its `-`.
     Wide,
 }
 

@@ -31,7 +31,7 @@ pub fn write(policy: &Policy, program: &Program) -> String {
     sheet::write(std::iter::once(header).chain(rows))
 }
 
-/// Reads evidence into a policy, in the place of what it has.
+/// Reads evidence into a policy; it replaces what the policy has.
 ///
 /// # Errors
 /// What is wrong with the table, with the place.

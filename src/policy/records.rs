@@ -7,7 +7,7 @@ use std::ops::Range;
 /// The byte-order mark that some programs write before a text.
 const MARK: &[u8] = b"\xef\xbb\xbf";
 
-/// Goes through the records of a text.
+/// Reads the records of a text one by one.
 pub(super) struct Records<'t> {
     text: &'t [u8],
     at: usize,

@@ -30,7 +30,7 @@ use rows::{Draft, Rows, Truth};
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// After so many mistakes the rest of a table is not looked at.
+/// The most mistakes that are reported for one table; the rest of it is not read.
 pub const MISTAKES: usize = 20;
 
 /// How a table is written.
@@ -134,8 +134,8 @@ impl Table {
         place(&self.rows, text, row)
     }
 
-    /// The rows as a policy, whose minterms have these atoms in the place of the table's and whose behaviours are
-    /// `ids` for those of the table, chosen in the order of `behaviors`.
+    /// The rows as a policy over these atoms, one for each of the table's. `ids` are the table's behaviours, and
+    /// `behaviors` those that could be chosen, in their order.
     pub fn policy(
         &self,
         atoms: Vec<Atom>,

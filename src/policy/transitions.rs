@@ -44,7 +44,7 @@ pub fn write(policy: &Policy, program: &Program) -> String {
     sheet::write(std::iter::once(header).chain(starts).chain(transitions))
 }
 
-/// Reads start minterms and greedy transitions into a policy, in the place of those that it has.
+/// Reads start minterms and greedy transitions into a policy; they replace those that it has.
 ///
 /// # Errors
 /// What is wrong with the table, with the place.

@@ -25,7 +25,7 @@ pub(super) enum Role {
 }
 
 impl Reading {
-    /// What the columns of these names say. Mistakes are told; a column with one says nothing.
+    /// The roles of the columns of these names. Mistakes are reported; a column with one is ignored.
     pub(super) fn columns(
         &mut self,
         columns: Vec<(String, Range<usize>)>,

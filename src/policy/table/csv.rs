@@ -56,8 +56,8 @@ pub(super) fn read(text: &[u8], reading: &mut Reading) {
     }
 }
 
-/// Reads the first cells of the row that starts at a byte, `count` atoms, as far as each is `0` or `1` and nothing else,
-/// and says where the cells behind them start. This is what nearly all of a large table is.
+/// Reads the first `count` cells of the row that starts at a byte and gives the start of the cell after them; `None` if
+/// one is not just `0` or `1`. Nearly all of a large table is read here.
 fn packed(text: &[u8], start: usize, count: usize, reading: &mut Reading) -> Option<usize> {
     let end = start + 2 * count;
     let cells = text.get(start..end).filter(|_| count > 0)?;

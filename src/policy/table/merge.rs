@@ -1,4 +1,4 @@
-//! Rows that say the same become one; rows that contradict each other are told.
+//! Rows that say the same become one; rows that contradict each other are reported.
 
 use super::rows::Rows;
 use std::cmp::Ordering;

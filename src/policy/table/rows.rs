@@ -95,7 +95,7 @@ impl Draft {
 }
 
 impl Rows {
-    /// No rows over so many atoms, with so many values each.
+    /// No rows yet, over `atoms` atoms and with `values` values each.
     pub(super) fn new(atoms: usize, values: usize) -> Self {
         Self {
             atoms,
@@ -201,7 +201,7 @@ impl Rows {
     }
 }
 
-/// The part of a row in a list with so many entries a row.
+/// The entries of a row in a list with `width` entries a row.
 fn slice<T>(all: &[T], width: usize, row: usize) -> &[T] {
     let start = row * width;
     all.get(start..start + width).unwrap_or_default()
