@@ -2,11 +2,11 @@
 //!
 //! A problem takes this way:
 //!
-//! 1. [`split`]: ON cubes become their minterms where these are few, since several primes may cover one cube together.
-//! 2. [`core`]: a large table is minimised by a sample of its rows, which grows by the rows that the cover gets wrong.
-//! 3. [`problem`]: the rows of the sample, ON and OFF apart, and the pool of the primes that are found for them.
-//! 4. [`exact`], for small problems: all primes, and the cheapest choice among them.
-//! 5. [`expand`] and [`improve`], for all others: a cover of some primes, parts of which are found anew.
+//! 1. `split`: ON cubes become their minterms where these are few, since several primes may cover one cube together.
+//! 2. `core`: a large table is minimised by a sample of its rows, which grows by the rows that the cover gets wrong.
+//! 3. `problem`: the rows of the sample, ON and OFF apart, and the pool of the primes that are found for them.
+//! 4. `exact`, for small problems: all primes, and the cheapest choice among them.
+//! 5. `expand` and `improve`, for all others: a cover of some primes, parts of which are found anew.
 
 pub(super) mod core;
 mod exact;
