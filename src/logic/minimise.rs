@@ -1,10 +1,10 @@
 //! Two-level minimisation from an ON set and an OFF set.
 //!
-//! A problem takes this way:
+//! A problem takes these steps:
 //!
 //! 1. `split`: ON cubes become their minterms where these are few, since several primes may cover one cube together.
 //! 2. `core`: a large table is minimised by a sample of its rows, which grows by the rows that the cover gets wrong.
-//! 3. `problem`: the rows of the sample, ON and OFF apart, and the pool of the primes that are found for them.
+//! 3. `instance`: the rows of the sample, ON and OFF apart, and the pool of the primes that are found for them.
 //! 4. `exact`, for small problems: all primes, and the cheapest choice among them.
 //! 5. `expand` and `improve`, for all others: a cover of some primes, parts of which are found anew.
 
@@ -12,7 +12,7 @@ pub(super) mod core;
 mod exact;
 mod expand;
 mod improve;
-mod problem;
+mod instance;
 mod random;
 mod split;
 
@@ -20,7 +20,7 @@ use super::bits::Bits;
 use super::columns::Columns;
 use super::cube::{Cover, Cube};
 use core::Core;
-use problem::Problem;
+use instance::Instance;
 
 /// The work that a minimisation may take. It is counted, never timed, so that every machine finds the same cover.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -94,20 +94,20 @@ fn by_core(columns: &Columns, on: &Bits, off: &Bits, effort: &Effort) -> Solutio
     core.finish(effort)
 }
 
-/// A cover of a problem as a whole.
-fn solve(problem: &Problem, effort: &Effort) -> Solution {
+/// A cover of an instance as a whole.
+fn solve(instance: &Instance, effort: &Effort) -> Solution {
     let trivial = |cover| Solution {
         cover,
         proved: true,
     };
-    if problem.on.rows() == 0 {
+    if instance.on.rows() == 0 {
         return trivial(Cover::default());
     }
-    if problem.off.rows() == 0 {
+    if instance.off.rows() == 0 {
         return trivial(Cover::new([Cube::default()]));
     }
-    let (pool, chosen, proved) = exact::exact(problem, effort).unwrap_or_else(|| {
-        let (pool, chosen) = improve::heuristic(problem, effort);
+    let (pool, chosen, proved) = exact::exact(instance, effort).unwrap_or_else(|| {
+        let (pool, chosen) = improve::heuristic(instance, effort);
         (pool, chosen, false)
     });
     let primes = pool.among(&chosen);

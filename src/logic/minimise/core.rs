@@ -4,7 +4,7 @@
 //! of all rows, and the rows for which the guess is wrong join the core. A cover of the core that is proved smallest and
 //! is right on all rows is proved smallest for all rows.
 
-use super::problem::Problem;
+use super::instance::Instance;
 use super::random::{self, Random};
 use super::{Effort, Solution, solve};
 use crate::logic::bits::Bits;
@@ -73,8 +73,8 @@ impl<'a> Core<'a> {
     /// Solves the core and adds rows for which the cover is wrong; true if there are none.
     pub(in crate::logic) fn refine(&mut self) -> bool {
         let rows = |bits: &Bits| bits.iter().collect::<Vec<usize>>();
-        let problem = Problem::new(self.columns, &rows(&self.core_on), &rows(&self.core_off));
-        self.solution = solve(&problem, self.effort);
+        let instance = Instance::new(self.columns, &rows(&self.core_on), &rows(&self.core_off));
+        self.solution = solve(&instance, self.effort);
         self.rounds += 1;
         let cover = &self.solution.cover;
         let missed = self.on.minus(&self.columns.cover_rows(cover, self.on));
@@ -82,7 +82,7 @@ impl<'a> Core<'a> {
         if missed.is_empty() && met.is_empty() {
             return true;
         }
-        let size = problem.rows();
+        let size = instance.rows();
         self.core_on.unite(&sample(&missed, size / 2));
         self.core_off.unite(&sample(&met, size / 2));
         let all = self.on.count() + self.off.count();

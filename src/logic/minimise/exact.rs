@@ -3,7 +3,7 @@
 //! A prime is a cube that holds on some ON rows and on no OFF row, and of which no literal can be dropped.
 
 use super::Effort;
-use super::problem::{Cost, Pool, Prime, Problem};
+use super::instance::{Cost, Instance, Pool, Prime};
 use crate::logic::bits::Bits;
 use crate::logic::cube::{Cube, Literal};
 use std::cmp::Reverse;
@@ -13,25 +13,25 @@ const PRIMES: usize = 1_500;
 
 /// A cover of fewest cubes, then fewest literals, with the pool of its primes, and whether it is proved to be; `None`
 /// where there are too many rows or primes.
-pub(super) fn exact(problem: &Problem, effort: &Effort) -> Option<(Pool, Vec<usize>, bool)> {
-    if problem.rows() > effort.exact_rows {
+pub(super) fn exact(instance: &Instance, effort: &Effort) -> Option<(Pool, Vec<usize>, bool)> {
+    if instance.rows() > effort.exact_rows {
         return None;
     }
     let mut pool = Pool::default();
     let mut budget = effort.prime_steps;
-    for seed in 0..problem.on.rows() {
-        for cube in all_through(problem, seed, &mut budget)? {
-            pool.add(problem, cube);
+    for seed in 0..instance.on.rows() {
+        for cube in all_through(instance, seed, &mut budget)? {
+            pool.add(instance, cube);
         }
         if pool.len() > PRIMES {
             return None;
         }
     }
-    let step = problem.on.rows() * (1 + pool.len() / 8);
+    let step = instance.on.rows() * (1 + pool.len() / 8);
     let steps = (effort.cover_work / step).clamp(20, effort.cover_steps);
-    let (chosen, is_cheapest) = cheapest(problem, &pool, steps);
+    let (chosen, is_cheapest) = cheapest(instance, &pool, steps);
     // Several primes may cover a cube together, which the choice does not see.
-    let proved = is_cheapest && problem.on.are_minterms();
+    let proved = is_cheapest && instance.on.are_minterms();
     Some((pool, chosen, proved))
 }
 
@@ -39,9 +39,9 @@ pub(super) fn exact(problem: &Problem, effort: &Effort) -> Option<(Pool, Vec<usi
 ///
 /// A prime through the seed is a minimal set of the seed's literals that excludes every OFF row: a minimal hitting set
 /// of the sets of literals that exclude one.
-fn all_through(problem: &Problem, seed: usize, budget: &mut usize) -> Option<Vec<Cube>> {
-    let literals: Vec<Literal> = problem.on.literals_of(seed).collect();
-    let differences = differences(problem, &literals);
+fn all_through(instance: &Instance, seed: usize, budget: &mut usize) -> Option<Vec<Cube>> {
+    let literals: Vec<Literal> = instance.on.literals_of(seed).collect();
+    let differences = differences(instance, &literals);
     let mut search = Hitting {
         hits: vec![0; differences.len()],
         open: Bits::full(literals.len()),
@@ -59,15 +59,15 @@ fn all_through(problem: &Problem, seed: usize, budget: &mut usize) -> Option<Vec
 }
 
 /// For each OFF row the literals that exclude it. Sets that contain another are left out: what hits that one hits them.
-fn differences(problem: &Problem, literals: &[Literal]) -> Vec<Bits> {
-    let excluding = literals.iter().map(|literal| problem.excluded(*literal));
+fn differences(instance: &Instance, literals: &[Literal]) -> Vec<Bits> {
+    let excluding = literals.iter().map(|literal| instance.excluded(*literal));
     let excluding: Vec<Bits> = excluding.collect();
     let row = |row| {
         let literals = excluding.iter().enumerate();
         let differ = literals.filter(|(_, rows)| rows.contains(row));
         Bits::collect(excluding.len(), differ.map(|(i, _)| i))
     };
-    let mut all: Vec<Bits> = (0..problem.off.rows()).map(row).collect();
+    let mut all: Vec<Bits> = (0..instance.off.rows()).map(row).collect();
     all.sort_by_cached_key(|set| (set.count(), set.clone()));
     all.dedup();
     let mut minimal: Vec<Bits> = Vec::new();
@@ -141,8 +141,8 @@ impl Hitting<'_> {
 
 /// The cheapest choice of primes that covers all ON rows, found by branch and bound from a greedy one. Whether it is
 /// proved to be the cheapest: the search ended within `budget` steps.
-fn cheapest(problem: &Problem, pool: &Pool, budget: usize) -> (Vec<usize>, bool) {
-    let rows = problem.all_on();
+fn cheapest(instance: &Instance, pool: &Pool, budget: usize) -> (Vec<usize>, bool) {
+    let rows = instance.all_on();
     let best = irredundant(&rows, pool, pool.greedy(&rows));
     let useful = undominated(pool.primes());
     let mut through: Vec<(usize, Vec<usize>)> = rows

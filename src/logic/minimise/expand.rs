@@ -1,6 +1,6 @@
 //! EXPAND: from an ON row to a prime that holds on it; and covers built of such primes, the widest first.
 
-use super::problem::{Pool, Problem};
+use super::instance::{Instance, Pool};
 use super::random::{Random, sample};
 use crate::logic::alive::Alive;
 use crate::logic::bits::Bits;
@@ -41,8 +41,8 @@ impl Scoring {
 
 /// A prime of these literals, all of which hold on some rows of `on`. To the cube without literals the one that scores
 /// best is added until no OFF row is met; then literals are dropped as long as none is met again.
-fn expand(problem: &Problem, mut open: Vec<Literal>, on: &Bits, scoring: Scoring) -> Cube {
-    let (mut kept, mut left) = (Alive::new(on), Alive::new(&problem.all_off()));
+fn expand(instance: &Instance, mut open: Vec<Literal>, on: &Bits, scoring: Scoring) -> Cube {
+    let (mut kept, mut left) = (Alive::new(on), Alive::new(&instance.all_off()));
     let mut chosen = Vec::new();
     let mut enough = ENOUGH;
     while !left.is_empty() {
@@ -50,7 +50,7 @@ fn expand(problem: &Problem, mut open: Vec<Literal>, on: &Bits, scoring: Scoring
         let (on_stride, off_stride) = (stride(&kept), stride(&left));
         let mut best: Option<((u64, u64), Literal)> = None;
         open.retain(|literal| {
-            let (Some(inside), Some(meeting)) = tests(problem, *literal) else {
+            let (Some(inside), Some(meeting)) = tests(instance, *literal) else {
                 return false;
             };
             let gone = left.count_out(meeting, off_stride);
@@ -72,22 +72,22 @@ fn expand(problem: &Problem, mut open: Vec<Literal>, on: &Bits, scoring: Scoring
             enough = usize::MAX;
             continue;
         };
-        if let (Some(inside), Some(meeting)) = tests(problem, literal) {
+        if let (Some(inside), Some(meeting)) = tests(instance, literal) {
             kept.keep(inside);
             left.keep(meeting);
         }
         open.retain(|l| *l != literal);
         chosen.push(literal);
     }
-    prune(problem, Cube::new(chosen), on)
+    prune(instance, Cube::new(chosen), on)
 }
 
 /// A column with the bit that it has where a literal holds.
 type Test<'a> = (&'a Bits, bool);
 
-fn tests(problem: &Problem, literal: Literal) -> (Option<Test<'_>>, Option<Test<'_>>) {
-    let (inside, holds) = problem.on.inside(literal);
-    let (meeting, meets) = problem.off.meeting(literal);
+fn tests(instance: &Instance, literal: Literal) -> (Option<Test<'_>>, Option<Test<'_>>) {
+    let (inside, holds) = instance.on.inside(literal);
+    let (meeting, meets) = instance.off.meeting(literal);
     (
         inside.map(|column| (column, holds)),
         meeting.map(|column| (column, meets)),
@@ -95,12 +95,12 @@ fn tests(problem: &Problem, literal: Literal) -> (Option<Test<'_>>, Option<Test<
 }
 
 /// The cube without superfluous literals; those that cost most rows of `on` go first.
-fn prune(problem: &Problem, mut cube: Cube, on: &Bits) -> Cube {
+fn prune(instance: &Instance, mut cube: Cube, on: &Bits) -> Cube {
     loop {
-        let idle = idle(problem, &cube);
+        let idle = idle(instance, &cube);
         let shorter = idle.into_iter().map(|literal| {
             let shorter = cube.without(literal);
-            (problem.on.cube_rows(&shorter, on).count(), shorter)
+            (instance.on.cube_rows(&shorter, on).count(), shorter)
         });
         // Of equal counts the first.
         let best = shorter.reduce(|best, next| if next.0 > best.0 { next } else { best });
@@ -112,18 +112,18 @@ fn prune(problem: &Problem, mut cube: Cube, on: &Bits) -> Cube {
 }
 
 /// The literals that exclude no OFF row alone.
-fn idle(problem: &Problem, cube: &Cube) -> Vec<Literal> {
-    let mut once = Bits::empty(problem.off.rows());
+fn idle(instance: &Instance, cube: &Cube) -> Vec<Literal> {
+    let mut once = Bits::empty(instance.off.rows());
     let mut twice = once.clone();
     for literal in cube.literals() {
-        let rows = problem.excluded(*literal);
+        let rows = instance.excluded(*literal);
         twice.unite(&once.and(&rows));
         once.unite(&rows);
     }
     once.subtract(&twice);
     let literals = cube.literals().iter();
     literals
-        .filter(|literal| problem.excluded(**literal).is_disjoint(&once))
+        .filter(|literal| instance.excluded(**literal).is_disjoint(&once))
         .copied()
         .collect()
 }
@@ -134,7 +134,7 @@ fn idle(problem: &Problem, cube: &Cube) -> Vec<Literal> {
 /// round some open rows are seeds of EXPAND. Of the primes found the widest is taken, then those that cover more than
 /// half as many of the rows left.
 pub(super) fn sweep(
-    problem: &Problem,
+    instance: &Instance,
     pool: &mut Pool,
     rows: &Bits,
     seeds: usize,
@@ -145,9 +145,9 @@ pub(super) fn sweep(
     let mut cover = Vec::new();
     while !open.is_empty() {
         let seeds = sample(open.iter(), open.count(), seeds, random);
-        let mut found: Vec<usize> = expansions(problem, &seeds, &open, scorings)
+        let mut found: Vec<usize> = expansions(instance, &seeds, &open, scorings)
             .into_iter()
-            .map(|cube| pool.add(problem, cube))
+            .map(|cube| pool.add(instance, cube))
             .collect();
         found.sort_unstable();
         found.dedup();
@@ -171,15 +171,20 @@ pub(super) fn sweep(
 }
 
 /// A prime for each seed and scoring, in this order on any number of threads.
-fn expansions(problem: &Problem, seeds: &[usize], open: &Bits, scorings: &[Scoring]) -> Vec<Cube> {
+fn expansions(
+    instance: &Instance,
+    seeds: &[usize],
+    open: &Bits,
+    scorings: &[Scoring],
+) -> Vec<Cube> {
     let one = |(seed, scoring): (usize, Scoring)| {
-        let literals: Vec<Literal> = problem.on.literals_of(seed).collect();
-        expand(problem, literals, open, scoring)
+        let literals: Vec<Literal> = instance.on.literals_of(seed).collect();
+        expand(instance, literals, open, scoring)
     };
     let pairs = seeds
         .iter()
         .flat_map(|seed| scorings.iter().map(|s| (*seed, *s)));
-    if problem.words() < PARALLEL {
+    if instance.words() < PARALLEL {
         return pairs.map(one).collect();
     }
     pairs.collect::<Vec<_>>().into_par_iter().map(one).collect()

@@ -6,7 +6,7 @@
 
 use super::Effort;
 use super::expand::{Scoring, sweep};
-use super::problem::{Pool, Prime, Problem};
+use super::instance::{Instance, Pool, Prime};
 use super::random::Random;
 use crate::logic::bits::Bits;
 use crate::logic::cube::{Cube, Literal};
@@ -16,13 +16,13 @@ use std::cmp::Reverse;
 const SHORTEST: usize = 32;
 
 /// A cover, and the pool of its primes.
-pub(super) fn heuristic(problem: &Problem, effort: &Effort) -> (Pool, Vec<usize>) {
+pub(super) fn heuristic(instance: &Instance, effort: &Effort) -> (Pool, Vec<usize>) {
     let mut pool = Pool::default();
     let mut random = Random::new(0);
-    let on = problem.all_on();
+    let on = instance.all_on();
     let all = &Scoring::ALL;
-    let cover = sweep(problem, &mut pool, &on, effort.seeds, all, &mut random);
-    let cover = improve(problem, &mut pool, cover, effort, &mut random);
+    let cover = sweep(instance, &mut pool, &on, effort.seeds, all, &mut random);
+    let cover = improve(instance, &mut pool, cover, effort, &mut random);
     (pool, cover)
 }
 
@@ -65,13 +65,13 @@ fn irredundant(pool: &Pool, cover: &mut Vec<usize>, rows: usize) {
 
 /// Tries some changes, and as many again after each that makes the cover cheaper, within the work that is allowed.
 fn improve(
-    problem: &Problem,
+    instance: &Instance,
     pool: &mut Pool,
     mut cover: Vec<usize>,
     effort: &Effort,
     random: &mut Random,
 ) -> Vec<usize> {
-    let rows = problem.on.rows();
+    let rows = instance.on.rows();
     let words = rows.div_ceil(64);
     irredundant(pool, &mut cover, rows);
     let mut best = pool.cost(&cover);
@@ -80,15 +80,15 @@ fn improve(
     let mut left = rounds;
     while left > 0 && cover.len() > 1 {
         left -= 1;
-        match work.checked_sub((pool.len() + cover.len()) * words + 2 * problem.words()) {
+        match work.checked_sub((pool.len() + cover.len()) * words + 2 * instance.words()) {
             Some(less) => work = less,
             None => break,
         }
         let mut next = cover.clone();
         let removed = ruin(&mut next, random);
-        let mut open = problem.all_on();
+        let mut open = instance.all_on();
         pool.among(&next).for_each(|p| open.subtract(&p.covers));
-        next.extend(recreate(problem, pool, &open, &removed, random, &mut work));
+        next.extend(recreate(instance, pool, &open, &removed, random, &mut work));
         irredundant(pool, &mut next, rows);
         next.sort_unstable();
         let reached = pool.cost(&next);
@@ -114,27 +114,27 @@ fn ruin(cover: &mut Vec<usize>, random: &mut Random) -> Vec<usize> {
 }
 
 /// The literals that hold on all of the rows.
-fn shared(problem: &Problem, rows: &Bits) -> Option<Vec<Literal>> {
+fn shared(instance: &Instance, rows: &Bits) -> Option<Vec<Literal>> {
     let first = rows.first()?;
-    let holds = |literal: &Literal| match problem.on.inside(*literal) {
+    let holds = |literal: &Literal| match instance.on.inside(*literal) {
         (Some(column), true) => rows.is_subset(column),
         (Some(column), false) => rows.is_disjoint(column),
         (None, _) => false,
     };
-    Some(problem.on.literals_of(first).filter(holds).collect())
+    Some(instance.on.literals_of(first).filter(holds).collect())
 }
 
 /// Primes for the open rows: one for all if there is one shorter than the one removed; else new ones or, if they are
 /// cheaper, those of the pool.
 fn recreate(
-    problem: &Problem,
+    instance: &Instance,
     pool: &mut Pool,
     open: &Bits,
     removed: &[usize],
     random: &mut Random,
     work: &mut usize,
 ) -> Vec<usize> {
-    let Some(shared) = shared(problem, open) else {
+    let Some(shared) = shared(instance, open) else {
         return Vec::new();
     };
     let (_, literals) = pool.cost(removed);
@@ -142,17 +142,17 @@ fn recreate(
         [_] => literals,
         _ => usize::MAX,
     };
-    let granted = (SHORTEST * problem.words()).min(*work);
+    let granted = (SHORTEST * instance.words()).min(*work);
     let mut left = granted;
-    let short = shortest(problem, &shared, limit, &mut left);
+    let short = shortest(instance, &shared, limit, &mut left);
     *work -= granted - left;
     if let Some(cube) = short {
-        return vec![pool.add(problem, cube)];
+        return vec![pool.add(instance, cube)];
     }
     let all = Scoring::ALL;
     let scoring = random.below(all.len());
     let scoring = all.get(scoring).copied().unwrap_or(Scoring::Ratio);
-    let fresh = sweep(problem, pool, open, 2, &[scoring], random);
+    let fresh = sweep(instance, pool, open, 2, &[scoring], random);
     let chosen = pool.greedy(open);
     match pool.cost(&chosen) < pool.cost(&fresh) {
         true => chosen,
@@ -165,17 +165,17 @@ fn recreate(
 ///
 /// It is a smallest set of literals that contains, for every OFF row, one that excludes it.
 fn shortest(
-    problem: &Problem,
+    instance: &Instance,
     literals: &[Literal],
     limit: usize,
     budget: &mut usize,
 ) -> Option<Cube> {
     let all = Cube::new(literals.iter().copied());
-    let met = problem.off.cube_meets(&all, &problem.all_off());
+    let met = instance.off.cube_meets(&all, &instance.all_off());
     if !met.is_empty() {
         return None;
     }
-    let excludes = literals.iter().map(|literal| problem.excluded(*literal));
+    let excludes = literals.iter().map(|literal| instance.excluded(*literal));
     let mut search = Shortest {
         excludes: excludes.collect(),
         chosen: Vec::new(),
@@ -183,7 +183,7 @@ fn shortest(
         limit,
         budget,
     };
-    search.extend(&problem.all_off(), &Bits::full(literals.len()));
+    search.extend(&instance.all_off(), &Bits::full(literals.len()));
     let best = search.best?;
     let chosen = best.into_iter().filter_map(|i| literals.get(i).copied());
     Some(Cube::new(chosen))

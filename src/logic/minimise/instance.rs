@@ -8,14 +8,14 @@ use std::cmp::Reverse;
 
 /// A problem of minimisation: the rows on which a cover holds, and those that it does not meet.
 #[derive(Clone, Debug)]
-pub(super) struct Problem {
+pub(super) struct Instance {
     /// The rows that lie in the cover.
     pub(super) on: Columns,
     /// The rows that the cover does not meet.
     pub(super) off: Columns,
 }
 
-impl Problem {
+impl Instance {
     /// The problem over these rows of a table.
     pub(super) fn new(columns: &Columns, on: &[usize], off: &[usize]) -> Self {
         Self {
@@ -82,11 +82,11 @@ pub(super) type Cost = (usize, usize);
 
 impl Pool {
     /// Adds a prime that is not known yet, and gives its number.
-    pub(super) fn add(&mut self, problem: &Problem, cube: Cube) -> usize {
+    pub(super) fn add(&mut self, instance: &Instance, cube: Cube) -> usize {
         let next = self.primes.len();
         let at = *self.known.entry(cube.clone()).or_insert(next);
         if at == next {
-            let covers = problem.on.cube_rows(&cube, &problem.all_on());
+            let covers = instance.on.cube_rows(&cube, &instance.all_on());
             self.primes.push(Prime { cube, covers });
         }
         at
