@@ -3,7 +3,7 @@
 //! The literals of a guard stand as children under the sequence of `guard => node`; each `or` is a selector, each of
 //! its alternatives with several literals a sequence; a negated literal is one leaf.
 
-use super::guard::Form;
+use super::guard::View;
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::{Atom, Composite, Decorator, Guard, Node};
@@ -82,10 +82,10 @@ impl Drawing {
     /// A guard, negated unless `positive`: how it joins its parts, and these; a leaf is a sequence of one.
     fn guard(guard: &Guard, positive: bool) -> (Composite, Vec<Self>) {
         let leaf = |shape| (Composite::Sequence, vec![Self::leaf(shape)]);
-        match Form::of(guard, positive) {
-            Form::Const(value) => leaf(Shape::Const(value)),
-            Form::Literal(atom, value) => leaf(Shape::Literal(atom, value)),
-            Form::Join(kind, parts, positive) => {
+        match View::of(guard, positive) {
+            View::Const(value) => leaf(Shape::Const(value)),
+            View::Literal(atom, value) => leaf(Shape::Literal(atom, value)),
+            View::Join(kind, parts, positive) => {
                 let parts = parts.iter().map(|part| Self::guard(part, positive));
                 let parts = parts.flat_map(|part| Self::under(kind, part));
                 (kind, parts.collect())

@@ -76,9 +76,9 @@ pub fn cover(cover: &Cover, atoms: &[Atom]) -> Guard {
     }
 }
 
-/// A guard, or its negation, with the negation pushed down one level.
+/// A guard, or its negation, seen with the negation pushed down one level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form<'g> {
+pub enum View<'g> {
     /// Always, or never.
     Const(bool),
     /// An atom, negated if `false`.
@@ -87,8 +87,8 @@ pub enum Form<'g> {
     Join(Composite, &'g [Guard], bool),
 }
 
-impl<'g> Form<'g> {
-    /// The form of a guard, negated unless `positive`.
+impl<'g> View<'g> {
+    /// The view of a guard, negated unless `positive`.
     pub fn of(guard: &'g Guard, positive: bool) -> Self {
         match (guard, positive) {
             (Guard::Const(value), _) => Self::Const(*value == positive),
@@ -106,8 +106,8 @@ impl<'g> Form<'g> {
 
 /// The atom of a literal; `None` for any other guard.
 pub fn atom(guard: &Guard) -> Option<Atom> {
-    match Form::of(guard, true) {
-        Form::Literal(atom, _) => Some(atom),
+    match View::of(guard, true) {
+        View::Literal(atom, _) => Some(atom),
         _ => None,
     }
 }

@@ -1,7 +1,7 @@
 //! The size of a tree, the figure in every report.
 
 use super::drawing::{Drawing, Shape};
-use super::guard::Form;
+use super::guard::View;
 use crate::ir::tree::{Composite, Guard, Node};
 use serde::Serialize;
 use std::iter::Sum;
@@ -75,19 +75,19 @@ impl Price {
 
     /// A guard as it is drawn under a composite of this kind.
     pub fn of_guard(guard: &Guard, under: Composite) -> Self {
-        Self::of_form(Form::of(guard, true), under)
+        Self::of_view(View::of(guard, true), under)
     }
 
-    fn of_form(form: Form, under: Composite) -> Self {
-        match form {
-            Form::Const(_) => Self {
+    fn of_view(view: View, under: Composite) -> Self {
+        match view {
+            View::Const(_) => Self {
                 nodes: 1,
                 literals: 0,
             },
-            Form::Literal(..) => Self::literals(1),
-            Form::Join(kind, parts, positive) => {
-                let parts = parts.iter().map(|part| Form::of(part, positive));
-                let parts = parts.map(|part| Self::of_form(part, kind)).sum();
+            View::Literal(..) => Self::literals(1),
+            View::Join(kind, parts, positive) => {
+                let parts = parts.iter().map(|part| View::of(part, positive));
+                let parts = parts.map(|part| Self::of_view(part, kind)).sum();
                 match kind == under {
                     true => parts,
                     false => Self::COMPOSITE + parts,

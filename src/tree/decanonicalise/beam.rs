@@ -56,7 +56,7 @@ use std::rc::Rc;
 
 /// How wide and how deep a beam is.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Shape {
+pub(super) struct Bounds {
     /// Partial lists that are kept after each step at the root.
     pub(super) width: usize,
     /// The same within groups.
@@ -85,7 +85,7 @@ struct Next {
 
 pub(super) struct Beam<'a, 'p> {
     stock: Stock<'a, 'p>,
-    shape: Shape,
+    bounds: Bounds,
     /// The rest of each set of rows.
     rests: FxHashMap<Bits, Option<Rc<List>>>,
     /// The best selector in a group, by its rows and its depth.
@@ -97,11 +97,11 @@ impl<'a, 'p> Beam<'a, 'p> {
         minimiser: &'a Minimiser<'p>,
         subunits: &'a [Subunit],
         rules: Rules,
-        shape: Shape,
+        bounds: Bounds,
     ) -> Self {
         Self {
             stock: Stock::new(minimiser, subunits, rules),
-            shape,
+            bounds,
             rests: FxHashMap::default(),
             groups: FxHashMap::default(),
         }
@@ -110,7 +110,7 @@ impl<'a, 'p> Beam<'a, 'p> {
     /// The best trees for all rows, cheapest first.
     pub(super) fn trees(&mut self) -> Vec<Node> {
         let all = self.stock.minimiser.problem.all();
-        let lists = self.lists(&all, self.shape.width, self.shape.depth);
+        let lists = self.lists(&all, self.bounds.width, self.bounds.depth);
         lists.iter().map(|list| self.stock.node(list)).collect()
     }
 
@@ -218,7 +218,7 @@ impl<'a, 'p> Beam<'a, 'p> {
             push(Child::Ruled(number, rules));
         }
         let off = left.minus(&own);
-        if depth == self.shape.depth && minimiser.may_minimise(&own, &off) {
+        if depth == self.bounds.depth && minimiser.may_minimise(&own, &off) {
             push(Child::Guarded(number, minimiser.guard(&own, &off)));
             self.stock
                 .rules
@@ -272,7 +272,7 @@ impl<'a, 'p> Beam<'a, 'p> {
         if let Some(known) = self.groups.get(&key) {
             return known.clone();
         }
-        let found = self.lists(rows, self.shape.inner, depth);
+        let found = self.lists(rows, self.bounds.inner, depth);
         let best = found.into_iter().next().map(Rc::new);
         self.groups.insert(key, best.clone());
         best
@@ -343,7 +343,7 @@ impl<'a, 'p> Beam<'a, 'p> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Beam, Shape};
+    use super::{Beam, Bounds};
     use crate::ir::Id;
     use crate::ir::tree::{Atom, Guard, Node};
     use crate::policy::{Minterm, Policy, Row};
@@ -392,12 +392,12 @@ mod tests {
         let minimiser = Minimiser::new(&problem, u64::MAX);
         let subunits = behaviors(&problem);
         let rules = Rules::new(&minimiser, std::iter::empty());
-        let shape = Shape {
+        let bounds = Bounds {
             width: 8,
             inner: 2,
             depth: 2,
         };
-        let mut beam = Beam::new(&minimiser, &subunits, rules, shape);
+        let mut beam = Beam::new(&minimiser, &subunits, rules, bounds);
         let [low, carrying, near] = [0, 1, 2].map(|i| Guard::Atom(policy.atoms[i]));
         let leaf = |behavior| Node::Behavior(Id::new(behavior));
 

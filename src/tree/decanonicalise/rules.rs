@@ -50,11 +50,11 @@ impl Rules {
         let asked: Vec<usize> = rules.asked.iter().copied().collect();
         for atoms in [every, asked] {
             for length in (1..=SHORT).rev() {
-                let count = short(atoms.len(), length);
+                let count = count_short(atoms.len(), length);
                 if count <= MOST
                     && minimiser.affords((count as u64).saturating_mul(words).saturating_mul(SHARE))
                 {
-                    rules.short(minimiser, &atoms, length);
+                    rules.add_short(minimiser, &atoms, length);
                     return rules;
                 }
             }
@@ -87,8 +87,8 @@ impl Rules {
         }
     }
 
-    /// All cubes over these atoms up to a length.
-    fn short(&mut self, minimiser: &Minimiser, atoms: &[usize], length: usize) {
+    /// Adds all cubes of up to `length` literals over these atoms.
+    fn add_short(&mut self, minimiser: &Minimiser, atoms: &[usize], length: usize) {
         let mut open: Vec<(usize, Vec<Literal>)> = vec![(0, Vec::new())];
         for _ in 0..length {
             let mut longer = Vec::new();
@@ -196,7 +196,7 @@ impl Rules {
 }
 
 /// The number of cubes of one to `length` literals.
-fn short(atoms: usize, length: usize) -> usize {
+fn count_short(atoms: usize, length: usize) -> usize {
     let mut all = 0_usize;
     let mut of_length = 1_usize;
     for i in 0..length.min(atoms) {

@@ -5,7 +5,7 @@
 //! ([`super::beam`]). Work is counted, not timed, and each search has its own share of it, so that every machine finds
 //! the same tree on any number of threads.
 
-use super::beam::{Beam, Shape};
+use super::beam::{Beam, Bounds};
 use super::memory::configurations;
 use super::minimiser::{LARGE, Minimiser};
 use super::orders::{in_order, tree as listed};
@@ -19,13 +19,13 @@ use crate::tree::Size;
 use rayon::prelude::*;
 
 /// The beams: one without groups, and one with groups.
-const SHAPES: [Shape; 2] = [
-    Shape {
+const BEAMS: [Bounds; 2] = [
+    Bounds {
         width: 24,
         inner: 1,
         depth: 1,
     },
-    Shape {
+    Bounds {
         width: 8,
         inner: 2,
         depth: 3,
@@ -65,7 +65,7 @@ pub(super) fn tree(
 
 /// Trees over the subunits of one configuration.
 fn trees(problem: &Problem, subunits: &[Subunit], order: Order, effort: u64) -> Vec<Node> {
-    let minimiser = Minimiser::new(problem, effort / SHAPES.len() as u64);
+    let minimiser = Minimiser::new(problem, effort / BEAMS.len() as u64);
     let searches = order == Order::Learned && !problem.wide;
     // In a small table the search starts from lists in other orders as well.
     let orders = match searches && problem.policy.rows.len() <= LARGE {
@@ -81,11 +81,11 @@ fn trees(problem: &Problem, subunits: &[Subunit], order: Order, effort: u64) -> 
     if !searches {
         return bases;
     }
-    let searched = SHAPES.par_iter().map(|shape| {
-        let minimiser = Minimiser::new(problem, effort / SHAPES.len() as u64);
+    let searched = BEAMS.par_iter().map(|bounds| {
+        let minimiser = Minimiser::new(problem, effort / BEAMS.len() as u64);
         let useful = lists.iter().flatten().map(|(_, cover)| cover);
         let rules = Rules::new(&minimiser, useful);
-        Beam::new(&minimiser, subunits, rules, *shape).trees()
+        Beam::new(&minimiser, subunits, rules, *bounds).trees()
     });
     let searched: Vec<Vec<Node>> = searched.collect();
     let all = bases.into_iter().chain(searched.into_iter().flatten());
