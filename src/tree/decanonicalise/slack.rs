@@ -11,7 +11,8 @@ use crate::ir::tree::Atom;
 use crate::policy::{Policy, Row};
 use crate::tree::canonicalise::canonicalise;
 
-/// Rounds in which single rows in which a tree takes a behaviour that is not allowed are fixed; after them all such rows are fixed at once.
+/// Rounds in which the rows that a tree may not decide as it does are fixed one after the other; after the last round all
+/// rows are fixed.
 const ROUNDS: usize = 6;
 
 /// The effort of the search for one of many trees is the whole effort divided by this.
