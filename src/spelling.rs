@@ -41,6 +41,26 @@ pub fn spelled(name: &str) -> Cow<'_, str> {
     }
 }
 
+/// The name that a text spells, in backquotes or without.
+pub fn bare(text: &str) -> &str {
+    let text = text.trim();
+    let inside = text.strip_prefix('`').and_then(|t| t.strip_suffix('`'));
+    inside.filter(|name| !name.contains('`')).unwrap_or(text)
+}
+
+/// Why the language cannot spell a name, not even in backquotes; `None` if it can.
+pub fn unusable(name: &str) -> Option<&'static str> {
+    if name.is_empty() {
+        Some("a name has at least one character")
+    } else if name.contains('`') {
+        Some("a backquote ends a name")
+    } else if name.contains(char::is_control) {
+        Some("a name stands on one line, without control characters")
+    } else {
+        None
+    }
+}
+
 /// A name in backquotes.
 pub fn quoted(name: &str) -> String {
     format!("`{name}`")

@@ -3,7 +3,9 @@
 use super::report::Reporter;
 use super::{Failure, files};
 use crate::driver::compile::{self, Form};
-use clap::Args;
+use crate::emit::form::TreeForm;
+use clap::builder::PossibleValue;
+use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -29,4 +31,27 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
             .map_err(|refused| say.refused(&refused))?,
     };
     files::put(arguments.output.as_deref(), &text)
+}
+
+impl ValueEnum for Form {
+    fn value_variants<'a>() -> &'a [Self] {
+        &[
+            Self::Ast,
+            Self::Ir,
+            Self::Tree(TreeForm::Bt),
+            Self::Tree(TreeForm::Dot),
+            Self::Tree(TreeForm::Json),
+            Self::Tree(TreeForm::Svg),
+            Self::Tree(TreeForm::BtCpp),
+            Self::Tree(TreeForm::PyTrees),
+        ]
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        match self {
+            Self::Ast => Some(PossibleValue::new("ast").help("The syntax tree")),
+            Self::Ir => Some(PossibleValue::new("ir").help("The checked program")),
+            Self::Tree(form) => form.to_possible_value(),
+        }
+    }
 }

@@ -4,12 +4,12 @@ use super::files::File;
 use super::progress::Progress;
 use super::report::{Reporter, tell};
 use super::{Failure, files};
-use crate::driver::compile::Form;
 use crate::driver::decanonicalize::{self, Options};
 use crate::driver::table::Recorded;
+use crate::emit::form::TreeForm;
+use crate::spelling;
 use crate::tree::decanonicalise::{self, Method, Order};
-use clap::builder::{PossibleValuesParser, TypedValueParser};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -41,8 +41,8 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "NAME", default_value = "learned", value_parser = name)]
     name: String,
     /// The form to write.
-    #[arg(long, value_name = "FORM", default_value = "bt", value_parser = forms())]
-    emit: Form,
+    #[arg(long, value_name = "FORM", default_value = "bt")]
+    emit: TreeForm,
     /// The file to write to instead of standard output.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -60,15 +60,6 @@ JSON Lines: an object a line with the same names as keys. A predicate is 0, 1, f
 either; values may stand in an object under q:
   {\"low\": true, \"near\": null, \"behavior\": \"dock\", \"visits\": 12, \"q\": {\"dock\": 1.5, \"wander\": 0.2}}";
 
-/// The forms that trees are written in.
-fn forms() -> impl TypedValueParser<Value = Form> {
-    let forms = Form::value_variants()
-        .iter()
-        .filter(|form| form.is_of_trees());
-    let values = forms.filter_map(ValueEnum::to_possible_value);
-    PossibleValuesParser::new(values).try_map(|name| Form::from_str(&name, false))
-}
-
 fn slack(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(slack) if slack >= 0.0 && f64::is_finite(slack) => Ok(slack),
@@ -77,11 +68,9 @@ fn slack(text: &str) -> Result<f64, String> {
 }
 
 fn name(text: &str) -> Result<String, String> {
-    let name = text.trim_matches('`');
-    if name.is_empty() || name.contains('`') || name.contains(char::is_control) {
-        return Err("a name has no backquote, and stands on one line".to_owned());
-    }
-    Ok(name.to_owned())
+    let name = spelling::bare(text);
+    let why = spelling::unusable(name);
+    why.map_or_else(|| Ok(name.to_owned()), |why| Err(why.to_owned()))
 }
 
 pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {

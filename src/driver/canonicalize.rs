@@ -5,7 +5,7 @@ use super::load::Loaded;
 use super::refused::Refused;
 use super::target;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::emit;
+use crate::emit::bt;
 use crate::ir::tree::{Atom, Node, Tree};
 use crate::ir::{Name, Program};
 use crate::policy::{Minterm, Policy, Row, decisions};
@@ -67,9 +67,9 @@ fn file(loaded: &Loaded, tree: &Tree, canonical: &Canonical, path: Option<&str>)
     if is_declared_only(program) {
         let mut program = program.clone();
         program.trees = std::iter::once(canonical).collect();
-        return emit::bt::declared(&program, &["Made by `btc canonicalize`.".to_owned()]);
+        return bt::declared(&program, &["Made by `btc canonicalize`.".to_owned()]);
     }
-    let item = emit::bt::tree(program, &canonical);
+    let item = bt::tree(program, &canonical);
     match path {
         Some(path) => format!("//! Made by `btc canonicalize`.\nuse \"{path}\"\n\n{item}"),
         None => {
@@ -83,8 +83,14 @@ fn file(loaded: &Loaded, tree: &Tree, canonical: &Canonical, path: Option<&str>)
 fn is_declared_only(program: &Program) -> bool {
     program.world.is_none()
         && program.tasks.is_empty()
-        && program.predicates.values().all(|p| p.when.is_none())
-        && program.behaviors.values().all(|b| b.law.is_none())
+        && program
+            .predicates
+            .values()
+            .all(|p| p.when.is_none() && p.name.as_word().is_some())
+        && program
+            .behaviors
+            .values()
+            .all(|b| b.law.is_none() && b.name.as_word().is_some())
 }
 
 /// The policy table of a tree.

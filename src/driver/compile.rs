@@ -1,11 +1,12 @@
 //! `btc compile`: what was built, as a summary or in another form.
 
-use super::export::{self, Runtime};
+use super::export;
 use super::load::Loaded;
 use super::refused::Refused;
 use super::target;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::emit;
+use crate::emit::form::TreeForm;
 use crate::ir::Id;
 use crate::ir::name;
 use crate::ir::tree::Tree;
@@ -14,41 +15,18 @@ use crate::syntax::print;
 
 /// The forms that a program or a tree can be written in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Form {
     /// The syntax tree.
     Ast,
     /// The checked program.
     Ir,
-    /// The language, laid out.
-    Bt,
-    /// Graphviz.
-    Dot,
-    /// JSON.
-    Json,
-    /// A picture.
-    Svg,
-    /// XML for BehaviorTree.CPP 4, Groot2 and Nav2.
-    #[cfg_attr(feature = "cli", value(name = "btcpp"))]
-    BtCpp,
-    /// A Python module for py_trees 2.
-    #[cfg_attr(feature = "cli", value(name = "py_trees"))]
-    PyTrees,
+    /// One of the forms of trees; the language and JSON are forms of a whole program, too.
+    Tree(TreeForm),
 }
 
-impl Form {
-    /// Whether a single tree has this form; the others are of a whole program.
-    pub fn is_of_trees(self) -> bool {
-        !matches!(self, Self::Ast | Self::Ir)
-    }
-}
-
-impl From<Runtime> for Form {
-    fn from(runtime: Runtime) -> Self {
-        match runtime {
-            Runtime::BtCpp => Self::BtCpp,
-            Runtime::PyTrees => Self::PyTrees,
-        }
+impl From<TreeForm> for Form {
+    fn from(form: TreeForm) -> Self {
+        Self::Tree(form)
     }
 }
 
@@ -59,30 +37,16 @@ impl From<Runtime> for Form {
 pub fn emit(loaded: &Loaded, form: Form, tree: Option<&str>) -> Result<String, Refused> {
     let program = &loaded.program;
     let named = tree.map(|name| target::tree(loaded, name)).transpose()?;
-    Ok(match (form, named) {
-        (Form::Ast, _) => emit::ast::file(&loaded.ast),
-        (Form::Ir, _) => emit::ir::program(program),
-        (Form::Bt, None) => {
+    match (form, named) {
+        (Form::Ast, _) => Ok(emit::ast::file(&loaded.ast)),
+        (Form::Ir, _) => Ok(emit::ir::program(program)),
+        (Form::Tree(TreeForm::Bt), None) => {
             let text = loaded.sources.get(loaded.main).map(|s| s.text.as_str());
-            print::file(&loaded.ast, text)
+            Ok(print::file(&loaded.ast, text))
         }
-        (Form::Bt, Some(id)) => emit::bt::tree(program, &program.trees[id]),
-        (Form::Dot, named) => {
-            let tree = &program.trees[one_tree(loaded, named)?];
-            emit::dot::tree(program, tree)
-        }
-        (Form::Svg, named) => {
-            let tree = &program.trees[one_tree(loaded, named)?];
-            emit::svg::tree::tree(program, tree)
-        }
-        (Form::BtCpp, named) => {
-            export::of_program(loaded, one_tree(loaded, named)?, Runtime::BtCpp)?
-        }
-        (Form::PyTrees, named) => {
-            export::of_program(loaded, one_tree(loaded, named)?, Runtime::PyTrees)?
-        }
-        (Form::Json, named) => emit::json::program(program, named),
-    })
+        (Form::Tree(TreeForm::Json), None) => Ok(emit::json::program(program)),
+        (Form::Tree(form), named) => export::of_program(loaded, one_tree(loaded, named)?, form),
+    }
 }
 
 fn one_tree(loaded: &Loaded, named: Option<Id<Tree>>) -> Result<Id<Tree>, Refused> {

@@ -1,12 +1,12 @@
 //! `btc decanonicalize`: from a policy table of any origin to a proved tree, in a program that declares its names.
 
-use super::compile::{self, Form};
-use super::load::{self, Loaded, Reader};
+use super::export;
 use super::refused::Refused;
 use super::table::{self, Recorded};
 use super::text::Text;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::emit;
+use crate::emit::bt;
+use crate::emit::form::TreeForm;
 use crate::ir::tree::Tree;
 use crate::ir::{Name, Program};
 use crate::policy::table::{AtomName, Table};
@@ -32,7 +32,7 @@ pub struct Options<'o> {
     /// The name of the tree.
     pub name: &'o str,
     /// The form to write.
-    pub form: Form,
+    pub form: TreeForm,
 }
 
 /// A policy with a program that declares its names. The texts that it was read from are no longer needed.
@@ -105,11 +105,11 @@ fn names(table: &Table, name: &str) -> Option<&'static str> {
     }
 }
 
-/// The last part of a path; standard input has none.
+/// The last part of a path, on one line; standard input has none.
 fn called(name: &str) -> String {
     match name.rsplit('/').next() {
         Some("<stdin>") | None => "a table".to_owned(),
-        Some(last) => last.to_owned(),
+        Some(last) => last.replace(char::is_control, " "),
     }
 }
 
@@ -138,18 +138,22 @@ pub fn decanonicalize(asked: Asked, options: &Options) -> Result<Made, Refused> 
     };
     let found = slack.as_ref().map_or(&exact, |slack| &slack.found);
     let docs = vec![doc(&source, &policy, found, slack.as_ref(), options.slack)];
-    program.trees.push(Tree {
+    let id = program.trees.push(Tree {
         name: Name::word(options.name),
         docs,
         task: None,
         root: found.root.clone(),
     });
-    let file = emit::bt::declared(
-        &program,
-        &[format!("Made by `btc decanonicalize` from {source}.")],
-    );
-    let loaded = load::load(options.name, file.clone().into_bytes(), &mut Alone);
-    let text = written(&loaded, file, options)?;
+    let text = match options.form {
+        TreeForm::Bt => {
+            let origin = format!("Made by `btc decanonicalize` from {source}.");
+            bt::declared(&program, &[origin])
+        }
+        form => {
+            let written = export::tree(&program, &program.trees[id], form, |_| Span::default());
+            written.map_err(|mistake| Refused::text(nothing(&source), |_| vec![mistake]))?
+        }
+    };
     let subject = report::Subject {
         program: &program,
         policy: &policy,
@@ -162,17 +166,6 @@ pub fn decanonicalize(asked: Asked, options: &Options) -> Result<Made, Refused> 
         warnings: subject.warnings(),
         report: subject.lines(),
     })
-}
-
-/// The program in its form.
-fn written(loaded: &Loaded, file: String, options: &Options) -> Result<String, Refused> {
-    if loaded.has_errors() {
-        return Err(Refused::program(loaded, loaded.diagnostics.clone()));
-    }
-    match options.form {
-        Form::Bt => Ok(file),
-        form => compile::emit(loaded, form, Some(options.name)),
-    }
 }
 
 /// Where the tree comes from and what was proved of it.
@@ -196,26 +189,21 @@ fn doc(
     )
 }
 
-/// A reader for programs that use no other file.
-struct Alone;
-
-impl Reader for Alone {
-    fn read(&mut self, _: &str) -> Result<Vec<u8>, String> {
-        Err("no other file is needed".to_owned())
-    }
-}
-
 /// A bug of btc.
 fn internal(source: &str, why: &str) -> Refused {
-    let nothing = Text {
-        name: source,
-        bytes: b"",
-    };
-    Refused::text(nothing, |file| {
+    Refused::text(nothing(source), |file| {
         let message = format!("the tree that was found is not equal to the table: {why}");
         vec![
             Diagnostic::new(Code::E0609, Span::new(file, 0, 0), message)
                 .note("this is a mistake of btc itself; please report it with the table"),
         ]
     })
+}
+
+/// The text of a table that is no longer at hand.
+fn nothing(source: &str) -> Text<'_> {
+    Text {
+        name: source,
+        bytes: b"",
+    }
 }

@@ -1,51 +1,39 @@
-//! Trees for robots: BehaviorTree.CPP and py_trees.
+//! Trees in their forms; a node that a robot's library has no counterpart for becomes a diagnostic.
 
 use super::load::Loaded;
 use super::refused::Refused;
 use super::target;
 use crate::diagnostic::{Code, Diagnostic};
+use crate::emit::form::TreeForm;
 use crate::emit::refusal::{Reason, Refusal};
-use crate::emit::{btcpp, py_trees};
 use crate::ir::tree::Tree;
 use crate::ir::{Id, Program};
 use crate::source::Span;
 use crate::syntax::ast::{ItemKind, Node, NodeKind};
 
-/// What runs the tree.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Runtime {
-    /// BehaviorTree.CPP 4, in XML.
-    BtCpp,
-    /// py_trees 2, in Python.
-    PyTrees,
-}
-
-/// A tree as a file for a robot. It may be a tree that the program does not have; the program gives the names. `place`
-/// gives the place in the text of the node at a path of child positions, for a node that has no counterpart.
+/// A tree in a form. It may be a tree that the program does not have; the program gives the names. `place` gives the
+/// place in the text of the node at a path of child positions, for a node that has no counterpart.
 ///
 /// # Errors
-/// A node that the runtime has no counterpart for.
+/// A node that the form has no counterpart for.
 pub fn tree(
     program: &Program,
     tree: &Tree,
-    runtime: Runtime,
+    form: TreeForm,
     place: impl Fn(&[usize]) -> Span,
 ) -> Result<String, Diagnostic> {
-    let written = match runtime {
-        Runtime::BtCpp => btcpp::tree(program, tree),
-        Runtime::PyTrees => py_trees::tree(program, tree),
-    };
+    let written = form.write(program, tree);
     written.map_err(|refusal| refused(&refusal, place(&refusal.path)))
 }
 
-/// A tree of the program as a file for a robot.
+/// A tree of the program in a form.
 ///
 /// # Errors
-/// A node that the runtime has no counterpart for.
-pub fn of_program(loaded: &Loaded, id: Id<Tree>, runtime: Runtime) -> Result<String, Refused> {
+/// A node that the form has no counterpart for.
+pub fn of_program(loaded: &Loaded, id: Id<Tree>, form: TreeForm) -> Result<String, Refused> {
     let exported = &loaded.program.trees[id];
     let place = |path: &[usize]| place(loaded, exported, path);
-    tree(&loaded.program, exported, runtime, place)
+    tree(&loaded.program, exported, form, place)
         .map_err(|mistake| Refused::program(loaded, [mistake]))
 }
 

@@ -1,154 +1,234 @@
-//! Trees as text of the language; laid out by the formatter, so that what is printed parses back.
+//! Trees in the language: a syntax tree is made of the IR, and the formatter prints it.
+//!
+//! What is made here stands in no file, so its spans are empty.
 
 use crate::ir::Program;
+use crate::ir::name::{Given, Name};
 use crate::ir::tree::{Composite, Decorator, Guard, Node, Tree};
-use crate::source::FileId;
-use crate::syntax;
+use crate::source::Span;
+use crate::syntax::ast::{
+    self, Arg, ArgKind, BehaviorBody, BinaryOp, Expr, ExprKind, Ident, Item, ItemKind, Literal,
+    NodeKind, Ref, Spanned, UnaryOp, Unit, Word,
+};
+use crate::syntax::print;
 
 /// A tree as an item of the language, with its documentation.
 pub fn tree(program: &Program, tree: &Tree) -> String {
-    let mut text = String::new();
-    for line in &tree.docs {
-        text.push_str(&format!("/// {line}\n"));
-    }
-    text.push_str(&format!("tree {}", tree.name));
-    if let Some(task) = tree.task {
-        text.push_str(&format!(" for {}", program.tasks[task].name));
-    }
-    text.push_str(" = ");
-    node(program, &tree.root, &mut text);
-    text.push('\n');
-    laid_out(text)
+    print::item(&tree_item(program, tree))
 }
 
 /// A program of declared names and its trees as a file, with a `//!` line each of `docs`.
 pub fn declared(program: &Program, docs: &[String]) -> String {
-    let mut text = String::new();
-    for line in docs {
-        text.push_str(&format!("//! {line}\n"));
-    }
-    for predicate in program.predicates.values() {
-        text.push_str(&format!("\npredicate {}", predicate.name));
-    }
-    text.push('\n');
-    for behavior in program.behaviors.values() {
-        text.push_str(&format!("\nbehavior {}", behavior.name));
-    }
-    text.push('\n');
-    for tree in program.trees.values() {
-        text.push('\n');
-        text.push_str(&self::tree(program, tree));
-    }
-    laid_out(text)
+    let predicates = program.predicates.values().map(|predicate| {
+        item(ItemKind::Predicate(ast::Predicate {
+            name: ident(&predicate.name.bare()),
+            params: None,
+            value: None,
+        }))
+    });
+    let behaviors = program.behaviors.values().map(|behavior| {
+        item(ItemKind::Behavior(ast::Behavior {
+            name: ident(&behavior.name.bare()),
+            params: None,
+            body: BehaviorBody::Declared,
+        }))
+    });
+    let trees = program.trees.values().map(|tree| tree_item(program, tree));
+    let file = ast::File {
+        items: predicates.chain(behaviors).chain(trees).collect(),
+        ..ast::File::default()
+    };
+    let docs: String = docs.iter().map(|line| format!("//! {line}\n")).collect();
+    format!("{docs}\n{}", print::file(&file, None))
 }
 
 /// A guard on one line.
 pub fn guard(program: &Program, guard: &Guard) -> String {
-    let mut text = String::new();
-    formula(program, guard, 0, &mut text);
-    text
+    print::expr(&formula(program, guard))
 }
 
-/// The text as the formatter lays it out.
-fn laid_out(text: String) -> String {
-    let (file, mistakes) = syntax::parse(FileId::default(), &text);
-    if mistakes.is_empty() {
-        syntax::print::file(&file, Some(&text))
-    } else {
-        text
+fn tree_item(program: &Program, tree: &Tree) -> Item {
+    let task = tree.task.map(|task| &program.tasks[task].name);
+    Item {
+        docs: tree.docs.clone(),
+        ..item(ItemKind::Tree(ast::Tree {
+            name: ident(&tree.name.bare()),
+            params: None,
+            task: task.map(|task| ident(&task.bare())),
+            root: node(program, &tree.root),
+        }))
     }
 }
 
-fn node(program: &Program, at: &Node, text: &mut String) {
-    match at {
-        Node::Condition(guard) => formula(program, guard, 0, text),
-        Node::Behavior(id) => text.push_str(&program.behaviors[*id].name.to_string()),
-        Node::Composite {
-            kind: Composite::Sequence,
-            memory: false,
-            children,
-        } if is_unit(children) => {
-            for (i, child) in children.iter().enumerate() {
-                if i > 0 {
-                    text.push_str(" => ");
-                }
-                node(program, child, text);
-            }
-        }
+fn item(kind: ItemKind) -> Item {
+    Item {
+        docs: Vec::new(),
+        kind,
+        span: Span::default(),
+    }
+}
+
+fn node(program: &Program, at: &Node) -> ast::Node {
+    let kind = match at {
+        Node::Condition(guard) => NodeKind::Leaf(formula(program, guard)),
+        Node::Behavior(id) => NodeKind::Leaf(reference(&program.behaviors[*id].name)),
         Node::Composite {
             kind,
             memory,
             children,
-        } => {
-            if *memory {
-                text.push_str("memory ");
+        } => match (kind, children.as_slice()) {
+            (Composite::Sequence, [Node::Condition(guard), child])
+                if !memory && !matches!(child, Node::Condition(_)) =>
+            {
+                NodeKind::Guarded {
+                    guard: formula(program, guard),
+                    node: Box::new(node(program, child)),
+                }
             }
-            text.push_str(match kind {
-                Composite::Selector => "selector",
-                Composite::Sequence => "sequence",
-            });
-            list(program, children, text);
-        }
+            _ => {
+                let word = match kind {
+                    Composite::Selector => Word::Selector,
+                    Composite::Sequence => Word::Sequence,
+                };
+                composite(program, *memory, word, None, children)
+            }
+        },
         Node::Parallel {
             successes,
             children,
         } => {
-            text.push_str(&format!("parallel({successes})"));
-            list(program, children, text);
+            let argument = Some(literal(*successes, None));
+            composite(program, false, Word::Parallel, argument, children)
         }
         Node::Decorator { kind, child } => {
-            match kind {
-                Decorator::Invert => text.push_str("invert"),
-                Decorator::Succeed => text.push_str("succeed"),
-                Decorator::Fail => text.push_str("fail"),
-                Decorator::Retry(n) => text.push_str(&format!("retry({n})")),
-                Decorator::Repeat(n) => text.push_str(&format!("repeat({n})")),
-                Decorator::Timeout(ticks) => text.push_str(&format!("timeout({ticks} ticks)")),
-            }
-            list(program, std::slice::from_ref(child), text);
+            let (word, argument) = match kind {
+                Decorator::Invert => (Word::Invert, None),
+                Decorator::Succeed => (Word::Succeed, None),
+                Decorator::Fail => (Word::Fail, None),
+                Decorator::Retry(times) => (Word::Retry, Some(literal(*times, None))),
+                Decorator::Repeat(times) => (Word::Repeat, Some(literal(*times, None))),
+                Decorator::Timeout(ticks) => (Word::Timeout, Some(literal(*ticks, Some("ticks")))),
+            };
+            composite(program, false, word, argument, std::slice::from_ref(child))
         }
-    }
-}
-
-/// Whether a reactive sequence is a unit of the paper, `guard => node`.
-fn is_unit(children: &[Node]) -> bool {
-    matches!(children, [Node::Condition(_), second] if !matches!(second, Node::Condition(_)))
-}
-
-fn list(program: &Program, children: &[Node], text: &mut String) {
-    text.push_str(" { ");
-    for (i, child) in children.iter().enumerate() {
-        if i > 0 {
-            text.push_str(", ");
-        }
-        node(program, child, text);
-    }
-    text.push_str(" }");
-}
-
-/// `binding` is how tightly the surroundings bind: 0 nothing, 1 `or`, 2 `and`, 3 `not`.
-fn formula(program: &Program, at: &Guard, binding: u8, text: &mut String) {
-    let (parts, word, own): (&[Guard], &str, u8) = match at {
-        Guard::Const(value) => return text.push_str(if *value { "true" } else { "false" }),
-        Guard::Atom(atom) => return text.push_str(&program.atom_name(*atom).to_string()),
-        Guard::Not(inner) => {
-            text.push_str("not ");
-            return formula(program, inner, 3, text);
-        }
-        Guard::And(parts) => (parts, " and ", 2),
-        Guard::Or(parts) => (parts, " or ", 1),
     };
-    let brackets = binding > own;
-    if brackets {
-        text.push('(');
+    ast::Node {
+        kind,
+        span: Span::default(),
     }
-    for (i, part) in parts.iter().enumerate() {
-        if i > 0 {
-            text.push_str(word);
+}
+
+fn composite(
+    program: &Program,
+    memory: bool,
+    word: Word,
+    argument: Option<Expr>,
+    children: &[Node],
+) -> NodeKind {
+    NodeKind::Composite {
+        memory: memory.then(Span::default),
+        word: spanned(word),
+        args: argument.map(|argument| vec![arg(ArgKind::Positional(argument))]),
+        children: children.iter().map(|child| node(program, child)).collect(),
+    }
+}
+
+fn formula(program: &Program, at: &Guard) -> Expr {
+    match at {
+        Guard::Const(value) => expr(ExprKind::Bool(*value)),
+        Guard::Atom(atom) => reference(&program.atom_name(*atom)),
+        Guard::Not(inner) => expr(ExprKind::Unary {
+            op: spanned(UnaryOp::Not),
+            operand: Box::new(formula(program, inner)),
+        }),
+        Guard::And(parts) => joined(program, BinaryOp::And, parts),
+        Guard::Or(parts) => joined(program, BinaryOp::Or, parts),
+    }
+}
+
+/// Parts that are themselves joined by `op` need no parentheses, wherever they stand.
+fn joined(program: &Program, op: BinaryOp, parts: &[Guard]) -> Expr {
+    fn flat<'g>(op: BinaryOp, parts: &'g [Guard], all: &mut Vec<&'g Guard>) {
+        for part in parts {
+            match (op, part) {
+                (BinaryOp::And, Guard::And(inner)) | (BinaryOp::Or, Guard::Or(inner)) => {
+                    flat(op, inner, all);
+                }
+                _ => all.push(part),
+            }
         }
-        formula(program, part, own, text);
     }
-    if brackets {
-        text.push(')');
+    let mut all = Vec::new();
+    flat(op, parts, &mut all);
+    let parts = all.into_iter().map(|part| formula(program, part));
+    let whole = parts.reduce(|left, right| {
+        expr(ExprKind::Binary {
+            op: spanned(op),
+            left: Box::new(left),
+            right: Box::new(right),
+        })
+    });
+    whole.unwrap_or_else(|| expr(ExprKind::Bool(op == BinaryOp::And)))
+}
+
+/// A name as an expression.
+fn reference(name: &Name) -> Expr {
+    let args = name.given().map(|(parameter, value)| {
+        let value = match value {
+            Given::Name(name) => reference(name),
+            Given::Text(text) => literal(text, None),
+        };
+        arg(match parameter {
+            Some(parameter) => ArgKind::Named(ident(parameter), value),
+            None => ArgKind::Positional(value),
+        })
+    });
+    let args: Vec<Arg> = args.collect();
+    expr(ExprKind::Ref(Ref {
+        name: ident(&name.family),
+        args: (!args.is_empty()).then_some(args),
+        span: Span::default(),
+    }))
+}
+
+/// Something in a spelling of its own, which the printer keeps.
+fn literal(spelling: impl ToString, unit: Option<&str>) -> Expr {
+    let digits = spelling.to_string();
+    expr(ExprKind::Number(Literal {
+        value: digits.parse().unwrap_or_default(),
+        digits,
+        unit: unit.map(|text| Unit {
+            text: text.to_owned(),
+            factors: Vec::new(),
+            span: Span::default(),
+        }),
+    }))
+}
+
+fn expr(kind: ExprKind) -> Expr {
+    Expr {
+        kind,
+        span: Span::default(),
+    }
+}
+
+fn arg(kind: ArgKind) -> Arg {
+    Arg {
+        kind,
+        span: Span::default(),
+    }
+}
+
+fn ident(name: &str) -> Ident {
+    Ident {
+        name: name.to_owned(),
+        span: Span::default(),
+    }
+}
+
+fn spanned<T>(node: T) -> Spanned<T> {
+    Spanned {
+        node,
+        span: Span::default(),
     }
 }

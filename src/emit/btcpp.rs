@@ -5,16 +5,15 @@
 //! a reactive node, so that it is asked in every tick; the attributes `_skipIf`, `_failureIf` and their like are asked
 //! only where the node is idle.
 
-mod xml;
-
 use super::leaves::{Leaves, Subject, Words};
 use super::notes;
 use super::refusal::{self, Reason, Refusal, answers_at_once};
+use super::xml::Xml;
 use crate::ir::Program;
 use crate::ir::task::History;
 use crate::ir::tree::{Atom, Composite, Decorator, Node, Tree};
+use crate::spelling::spelled;
 use crate::tree::drawing::{Drawing, Shape};
-use xml::{Element, comment};
 
 /// The ids that the library registers itself, through all versions of 4, and the names of its elements.
 pub const RESERVED: &[&str] = &[
@@ -90,26 +89,27 @@ pub fn tree(program: &Program, tree: &Tree) -> Result<String, Refusal> {
         return Err(refused);
     }
     let mut words = Words::new(RESERVED);
-    let leaves = Leaves::of(&tree.root, program, &mut words);
+    let leaves = Leaves::of(tree, program, &mut words);
     let id = words.new_id(&tree.name.family);
     let writer = Writer {
         program,
         leaves: &leaves,
         tick: tick.unwrap_or_default(),
     };
-    let root = Element::new("BehaviorTree")
-        .with("ID", &id)
-        .holding(vec![writer.node(&Drawing::of(&tree.root))]);
-    let history = tree.task.map(|task| program.tasks[task].history);
-    let model = Element::new("TreeNodesModel").holding(model(&leaves, history));
-    let file = Element::new("root")
-        .with("BTCPP_format", 4)
-        .with("main_tree_to_execute", &id)
-        .holding(vec![root, model]);
-    let mut out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n".to_owned();
-    comment(&remarks(tree, tick), &mut out);
-    file.write(0, &mut out);
-    Ok(out)
+    let mut xml = Xml::default();
+    xml.line("<?xml version=\"1.0\" encoding=\"UTF-8\"?>");
+    xml.comment(&remarks(tree, tick));
+    let format = ("BTCPP_format", "4".to_owned());
+    xml.open("root", &[format, ("main_tree_to_execute", id.clone())]);
+    xml.open("BehaviorTree", &[("ID", id)]);
+    writer.node(&Drawing::of(&tree.root), &mut xml);
+    xml.close();
+    model(
+        &leaves,
+        tree.task.map(|task| program.tasks[task].history),
+        &mut xml,
+    );
+    Ok(xml.finish())
 }
 
 /// Why a node has no counterpart.
@@ -171,90 +171,108 @@ struct Writer<'a> {
     tick: f64,
 }
 
+/// A tag with its attributes.
+type Tag = (&'static str, Vec<(&'static str, String)>);
+
 impl Writer<'_> {
-    fn node(&self, drawing: &Drawing) -> Element {
-        let element = match drawing.shape {
-            Shape::Composite(kind, memory) => Element::new(match (kind, memory) {
-                (Composite::Selector, false) => "ReactiveFallback",
-                (Composite::Sequence, false) => "ReactiveSequence",
-                (Composite::Selector, true) => "Fallback",
-                (Composite::Sequence, true) => "Sequence",
-            }),
+    fn node(&self, drawing: &Drawing, xml: &mut Xml) {
+        let (tag, attributes): Tag = match drawing.shape {
+            Shape::Composite(Composite::Selector, false) => ("ReactiveFallback", Vec::new()),
+            Shape::Composite(Composite::Sequence, false) => ("ReactiveSequence", Vec::new()),
+            Shape::Composite(Composite::Selector, true) => ("Fallback", Vec::new()),
+            Shape::Composite(Composite::Sequence, true) => ("Sequence", Vec::new()),
             Shape::Parallel(successes) => {
-                // It fails when so many have failed that the rest is too few.
+                // It fails when the children that have not failed are too few.
                 let children = u32::try_from(drawing.children.len()).unwrap_or(u32::MAX);
-                Element::new("Parallel")
-                    .with("success_count", successes)
-                    .with("failure_count", children.saturating_sub(successes) + 1)
+                let failures = children.saturating_sub(successes) + 1;
+                let counts = [("success_count", successes), ("failure_count", failures)];
+                let counts = counts.map(|(name, count)| (name, count.to_string()));
+                ("Parallel", counts.into())
             }
             Shape::Decorator(kind) => self.decorator(kind),
-            Shape::Behavior(id) => self.leaf(Subject::Action(id)),
-            Shape::Literal(atom, true) => self.leaf(Subject::Condition(atom)),
+            Shape::Behavior(id) => return self.leaf(Subject::Action(id), xml),
+            Shape::Literal(atom, true) => return self.leaf(Subject::Condition(atom), xml),
             Shape::Literal(atom, false) => {
-                let asked = self.leaf(Subject::Condition(atom));
-                return Element::new("Inverter").holding(vec![asked]);
+                xml.open("Inverter", &[]);
+                self.leaf(Subject::Condition(atom), xml);
+                return xml.close();
             }
-            Shape::Const(true) => Element::new("AlwaysSuccess"),
-            Shape::Const(false) => Element::new("AlwaysFailure"),
+            Shape::Const(true) => return xml.leaf("AlwaysSuccess", &[]),
+            Shape::Const(false) => return xml.leaf("AlwaysFailure", &[]),
         };
-        element.holding(drawing.children.iter().map(|c| self.node(c)).collect())
+        xml.open(tag, &attributes);
+        for child in &drawing.children {
+            self.node(child, xml);
+        }
+        xml.close();
     }
 
-    fn decorator(&self, kind: Decorator) -> Element {
+    fn decorator(&self, kind: Decorator) -> Tag {
+        let counted = |tag, count, n: String| (tag, vec![(count, n)]);
         match kind {
-            Decorator::Invert => Element::new("Inverter"),
-            Decorator::Succeed => Element::new("ForceSuccess"),
-            Decorator::Fail => Element::new("ForceFailure"),
-            Decorator::Retry(times) => {
-                Element::new("RetryUntilSuccessful").with("num_attempts", times)
-            }
-            Decorator::Repeat(times) => Element::new("Repeat").with("num_cycles", times),
+            Decorator::Invert => ("Inverter", Vec::new()),
+            Decorator::Succeed => ("ForceSuccess", Vec::new()),
+            Decorator::Fail => ("ForceFailure", Vec::new()),
+            Decorator::Retry(n) => counted("RetryUntilSuccessful", "num_attempts", n.to_string()),
+            Decorator::Repeat(n) => counted("Repeat", "num_cycles", n.to_string()),
             Decorator::Timeout(ticks) => {
-                Element::new("Timeout").with("msec", (ticks as f64 * self.tick).round())
+                let time = (ticks as f64 * self.tick).round();
+                counted("Timeout", "msec", time.to_string())
             }
         }
     }
 
-    fn leaf(&self, subject: Subject) -> Element {
+    fn leaf(&self, subject: Subject, xml: &mut Xml) {
         let Some((family, values)) = self.leaves.call(subject) else {
-            return Element::new("AlwaysFailure");
+            return xml.leaf("AlwaysFailure", &[]);
         };
-        let mut element = Element::new(&family.id);
-        if family.id != family.name {
-            element = element.with("name", subject.name(self.program).bare());
+        let mut attributes = Vec::new();
+        if family.id != spelled(&family.name) {
+            attributes.push(("name", subject.name(self.program).bare()));
         }
-        for (parameter, value) in values {
-            element = element.with(&parameter.id, value);
-        }
-        element
+        let values = values.into_iter();
+        attributes
+            .extend(values.map(|(parameter, value)| (parameter.id.as_str(), value.to_owned())));
+        xml.leaf(&family.id, &attributes);
     }
 }
 
 /// What the robot has to register, with its ports.
-fn model(leaves: &Leaves, history: Option<History>) -> Vec<Element> {
-    let families = leaves.families.iter().map(|family| {
+fn model(leaves: &Leaves, history: Option<History>, xml: &mut Xml) {
+    if leaves.families.is_empty() {
+        return xml.leaf("TreeNodesModel", &[]);
+    }
+    xml.open("TreeNodesModel", &[]);
+    for family in &leaves.families {
         let first = family.subjects.first();
         let kind = match first {
             Some(Subject::Action(_)) => "Action",
             _ => "Condition",
         };
-        let ports = family.parameters.iter().map(|parameter| {
-            let port = Element::new("input_port")
-                .with("name", &parameter.id)
-                .with("type", "std::string");
-            match first {
-                Some(Subject::Condition(Atom::Done(_))) => {
-                    port.saying(notes::window("success", "it", history))
+        let id = [("ID", family.id.clone())];
+        if family.parameters.is_empty() {
+            xml.leaf(kind, &id);
+            continue;
+        }
+        xml.open(kind, &id);
+        for parameter in &family.parameters {
+            let port = [
+                ("name", parameter.id.clone()),
+                ("type", "std::string".to_owned()),
+            ];
+            let outcome = match first {
+                Some(Subject::Condition(Atom::Done(_))) => Some("success"),
+                Some(Subject::Condition(Atom::Failed(_))) => Some("failure"),
+                _ => None,
+            };
+            match outcome {
+                Some(outcome) => {
+                    xml.text("input_port", &port, &notes::window(outcome, "it", history));
                 }
-                Some(Subject::Condition(Atom::Failed(_))) => {
-                    port.saying(notes::window("failure", "it", history))
-                }
-                _ => port,
+                None => xml.leaf("input_port", &port),
             }
-        });
-        Element::new(kind)
-            .with("ID", &family.id)
-            .holding(ports.collect())
-    });
-    families.collect()
+        }
+        xml.close();
+    }
+    xml.close();
 }

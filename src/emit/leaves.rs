@@ -4,8 +4,8 @@
 //! written, so that a robot needs each of them once.
 
 use crate::ir::law::Behavior;
-use crate::ir::name::{Name, Value};
-use crate::ir::tree::{Atom, Node};
+use crate::ir::name::{Given, Name};
+use crate::ir::tree::{Atom, Node, Tree};
 use crate::ir::{Id, Program};
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
@@ -20,6 +20,26 @@ pub(super) enum Subject {
 }
 
 impl Subject {
+    /// Whether it names a behaviour, and the number of the predicate or behaviour that it names.
+    fn named(self) -> (bool, usize) {
+        match self {
+            Subject::Condition(Atom::Predicate(id)) => (false, id.index()),
+            Subject::Condition(Atom::Done(id) | Atom::Failed(id)) | Subject::Action(id) => {
+                (true, id.index())
+            }
+        }
+    }
+
+    /// Predicates come first, then `done`, `failed`, and actions.
+    fn kind(self) -> u8 {
+        match self {
+            Subject::Condition(Atom::Predicate(_)) => 0,
+            Subject::Condition(Atom::Done(_)) => 1,
+            Subject::Condition(Atom::Failed(_)) => 2,
+            Subject::Action(_) => 3,
+        }
+    }
+
     /// Its name.
     pub fn name(self, program: &Program) -> Name {
         match self {
@@ -57,7 +77,8 @@ pub(super) struct Parameter {
 /// The leaves of a tree.
 #[derive(Clone, Debug)]
 pub(super) struct Leaves {
-    /// The families in the order of the program: predicates, `done`, `failed`, behaviours.
+    /// The families: predicates, `done`, `failed`, behaviours, each in the order of the program, or of a tree that is for
+    /// no task.
     pub families: Vec<Family>,
     /// Each leaf with its family and the values of the family's parameters.
     calls: BTreeMap<Subject, (usize, Vec<Option<String>>)>,
@@ -65,14 +86,17 @@ pub(super) struct Leaves {
 
 impl Leaves {
     /// The leaves of a tree, in identifiers of `words`.
-    pub fn of(root: &Node, program: &Program, words: &mut Words) -> Self {
-        let mut subjects = BTreeSet::new();
-        root.visit_atoms(&mut |atom| {
-            subjects.insert(Subject::Condition(atom));
-        });
-        root.visit_behaviors(&mut |id| {
-            subjects.insert(Subject::Action(id));
-        });
+    pub fn of(tree: &Tree, program: &Program, words: &mut Words) -> Self {
+        let mut subjects = Vec::new();
+        mentions(&tree.root, &mut subjects);
+        let mut places = BTreeMap::new();
+        for (at, subject) in subjects.iter().enumerate() {
+            let (behavior, number) = subject.named();
+            let place = if tree.task.is_some() { number } else { at };
+            places.entry((behavior, number)).or_insert(place);
+        }
+        subjects.sort_by_key(|subject| (subject.kind(), places.get(&subject.named())));
+        subjects.dedup();
         let mut grouped: Vec<(Key, Vec<Subject>)> = Vec::new();
         for subject in subjects {
             let key = Key::new(subject, program);
@@ -139,17 +163,29 @@ impl Leaves {
     }
 }
 
+/// The leaves of a tree, from the left, with their repetitions.
+fn mentions(node: &Node, all: &mut Vec<Subject>) {
+    match node {
+        Node::Condition(guard) => guard.visit_atoms(&mut |atom| all.push(Subject::Condition(atom))),
+        Node::Behavior(id) => all.push(Subject::Action(*id)),
+        _ => node
+            .children()
+            .iter()
+            .for_each(|child| mentions(child, all)),
+    }
+}
+
 /// What a name gives the parameter at a position.
-fn value(name: &Name, at: usize) -> Option<&Value> {
+fn value(name: &Name, at: usize) -> Option<&Given> {
     name.arguments.get(at)?.value.as_ref()
 }
 
 /// A value as an argument: a word without its backquotes, unless it would look like a call, or like an entry of the
 /// blackboard of BehaviorTree.CPP.
-fn argument(value: &Value) -> String {
+fn argument(value: &Given) -> String {
     let word = match value {
-        Value::Name(name) => name.as_word(),
-        Value::Text(_) => None,
+        Given::Name(name) => name.as_word(),
+        Given::Text(_) => None,
     };
     match word.filter(|word| !word.contains(['(', '{'])) {
         Some(word) => word.to_owned(),

@@ -69,7 +69,7 @@ pub fn tree(program: &Program, tree: &Tree) -> Result<String, Refusal> {
     if let Some(refused) = refusal::first(&tree.root, &|node| reason(node, tick)) {
         return Err(refused);
     }
-    let leaves = Leaves::of(&tree.root, program, &mut Words::new(RESERVED));
+    let leaves = Leaves::of(tree, program, &mut Words::new(RESERVED));
     let mut writer = Writer {
         program,
         leaves: &leaves,

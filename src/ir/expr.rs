@@ -297,7 +297,7 @@ impl Pool {
     }
 }
 
-/// What tells a node from every other of the pool.
+/// What distinguishes a node from every other of the pool.
 fn key(expr: Expr) -> Key {
     let pair = |a: usize, b: usize| ((a as u64) << 32) | (b as u64 & 0xffff_ffff);
     let (a, b) = match expr {

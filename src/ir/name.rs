@@ -23,12 +23,12 @@ pub struct Argument {
     /// The name of the parameter, without backquotes.
     pub parameter: String,
     /// What it is given; `None` if it has its default.
-    pub value: Option<Value>,
+    pub value: Option<Given>,
 }
 
 /// What a parameter is given.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Value {
+pub enum Given {
     /// Something that has a name: a place, a wall, a sensor, a behaviour, a variant.
     Name(Name),
     /// Any other expression, as the language writes it.
@@ -65,7 +65,7 @@ impl Name {
     pub fn history(outcome: &str, behavior: &Name) -> Self {
         let argument = Argument {
             parameter: "behavior".to_owned(),
-            value: Some(Value::Name(behavior.clone())),
+            value: Some(Given::Name(behavior.clone())),
         };
         Self::instance(outcome, vec![argument])
     }
@@ -80,7 +80,7 @@ impl Name {
     }
 
     /// The values that are given, each with its parameter if it stands by name: by position as long as none is left out.
-    pub fn given(&self) -> impl Iterator<Item = (Option<&str>, &Value)> {
+    pub fn given(&self) -> impl Iterator<Item = (Option<&str>, &Given)> {
         let mut left_out = false;
         self.arguments.iter().filter_map(move |argument| {
             left_out |= argument.value.is_none();
@@ -145,11 +145,11 @@ impl Serialize for Name {
     }
 }
 
-impl fmt::Display for Value {
+impl fmt::Display for Given {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Value::Name(name) => name.fmt(f),
-            Value::Text(text) => f.pad(text),
+            Given::Name(name) => name.fmt(f),
+            Given::Text(text) => f.pad(text),
         }
     }
 }

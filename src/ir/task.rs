@@ -18,7 +18,7 @@ pub struct Task {
     pub choose: Vec<Id<Behavior>>,
     /// The history window.
     pub history: History,
-    /// After so many ticks without another reason a decision is due.
+    /// A decision is due after this many ticks without another reason.
     pub patience: Option<u64>,
     /// How an episode starts; the lines run in order.
     pub start: Vec<StartLine>,
@@ -111,7 +111,7 @@ pub struct Learner {
     pub seed: u64,
     /// Ticks for which a choice is kept in training, whatever changes.
     pub dwell: u64,
-    /// The task's start lines, with the learner's own in the place of those that they replace.
+    /// The task's start lines, with the learner's own instead of those that they replace.
     pub start: Vec<StartLine>,
 }
 

@@ -7,6 +7,7 @@ use crate::ir::Id;
 use crate::ir::Program;
 use crate::ir::law::Behavior;
 use crate::ir::tree::Atom;
+use crate::spelling::{self, bare};
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -35,9 +36,9 @@ impl AtomName {
     pub(super) fn read(column: &str) -> Self {
         let inside = |word: &str| column.strip_prefix(word)?.strip_suffix(')');
         match (inside("done("), inside("failed(")) {
-            (Some(behavior), _) => Self::Done(plain(behavior).to_owned()),
-            (_, Some(behavior)) => Self::Failed(plain(behavior).to_owned()),
-            _ => Self::Predicate(plain(column).to_owned()),
+            (Some(behavior), _) => Self::Done(bare(behavior).to_owned()),
+            (_, Some(behavior)) => Self::Failed(bare(behavior).to_owned()),
+            _ => Self::Predicate(bare(column).to_owned()),
         }
     }
 
@@ -86,28 +87,16 @@ pub(super) fn atoms(program: &Program) -> BTreeMap<AtomName, Atom> {
         .collect()
 }
 
-/// A name without the backquotes that it may stand in.
-pub(super) fn plain(name: &str) -> &str {
-    let name = name.trim();
-    let inside = name.strip_prefix('`').and_then(|n| n.strip_suffix('`'));
-    inside.filter(|n| !n.contains('`')).unwrap_or(name)
-}
-
 /// Whether the language can call something so, in backquotes where it has to.
 pub(super) fn check(name: &str) -> Result<(), TableErrorKind> {
-    let why = if matches!(name, "done" | "failed") {
-        "it asks the history, in the language as in a table"
-    } else if name.is_empty() {
-        "a name has at least one character"
-    } else if name.contains('`') {
-        "a backquote ends a name"
-    } else if name.contains(char::is_control) {
-        "a name stands on one line, without control characters"
-    } else {
-        return Ok(());
+    let why = match name {
+        "done" | "failed" => Some("it asks the history, in the language as in a table"),
+        _ => spelling::unusable(name),
     };
-    Err(TableErrorKind::UnusableName {
-        name: name.to_owned(),
-        why,
+    why.map_or(Ok(()), |why| {
+        Err(TableErrorKind::UnusableName {
+            name: name.to_owned(),
+            why,
+        })
     })
 }

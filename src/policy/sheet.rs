@@ -2,11 +2,12 @@
 
 use super::Minterm;
 use super::error::{TableError, TableErrorKind};
-use super::names::{self, AtomName};
+use super::names::AtomName;
 use super::records::{self, Records};
 use crate::ir::law::Behavior;
 use crate::ir::tree::Atom;
 use crate::ir::{Id, Program};
+use crate::spelling::bare;
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::str::FromStr;
@@ -152,7 +153,7 @@ pub(super) fn behavior(
     cell: &Cell,
     names: &BTreeMap<String, Id<Behavior>>,
 ) -> Result<Id<Behavior>, TableError> {
-    let name = names::plain(&cell.text);
+    let name = bare(&cell.text);
     names
         .get(name)
         .copied()

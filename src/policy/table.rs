@@ -215,7 +215,7 @@ struct Reading {
 
 impl Reading {
     /// Says what is wrong at a place.
-    fn tell(&mut self, place: &Range<usize>, kind: TableErrorKind) {
+    fn report(&mut self, place: &Range<usize>, kind: TableErrorKind) {
         self.mistake(TableError {
             span: place.clone(),
             kind,
@@ -257,7 +257,7 @@ impl Reading {
     fn text(&mut self, bytes: &[u8], place: &Range<usize>) -> String {
         let text = String::from_utf8_lossy(bytes);
         if matches!(text, Cow::Owned(_)) {
-            self.tell(place, TableErrorKind::NoText);
+            self.report(place, TableErrorKind::NoText);
         }
         text.into_owned()
     }
@@ -266,21 +266,21 @@ impl Reading {
     fn decided(&mut self, name: &[u8], place: &Range<usize>) {
         match self.behaviors.cell(name, place) {
             Ok(number) => self.draft.behavior = Some(number),
-            Err(_) if name.is_empty() => self.tell(
+            Err(_) if name.is_empty() => self.report(
                 place,
                 TableErrorKind::UnknownValue {
                     found: String::new(),
                     expected: "a behaviour",
                 },
             ),
-            Err(kind) => self.tell(place, kind),
+            Err(kind) => self.report(place, kind),
         }
     }
 
     /// A cell that says what it may not.
     fn unknown(&mut self, text: &[u8], cell: &Range<usize>, expected: &'static str) {
         let found = String::from_utf8_lossy(&records::value(text, cell)).into_owned();
-        self.tell(cell, TableErrorKind::UnknownValue { found, expected });
+        self.report(cell, TableErrorKind::UnknownValue { found, expected });
     }
 
     fn finish(mut self, text: &[u8]) -> Result<Table, Vec<TableError>> {
@@ -326,7 +326,7 @@ impl Reading {
         for (name, place) in &behaviors {
             let predicate = AtomName::Predicate(name.clone());
             if self.atoms.iter().any(|(atom, _)| *atom == predicate) {
-                self.tell(place, TableErrorKind::SharedName(name.clone()));
+                self.report(place, TableErrorKind::SharedName(name.clone()));
             }
         }
         self.behaviors.names = behaviors;

@@ -1,8 +1,10 @@
 //! Every example, as each stage sees it: one snapshot a form.
 
 use crate::snapshot;
-use btc::driver::compile::{self, Form};
+use btc::driver::compile;
+use btc::driver::compile::Form;
 use btc::driver::load::{Loaded, Reader, load};
+use btc::emit::form::TreeForm;
 use std::fs;
 use std::path::Path;
 
@@ -41,12 +43,19 @@ fn in_every_form() {
     for name in names() {
         let loaded = example(&name);
         snapshot::check(&format!("{name}.summary"), &compile::summary(&loaded));
-        for (form, ending) in [(Form::Ast, "ast"), (Form::Ir, "ir"), (Form::Json, "json")] {
+        for (form, ending) in [
+            (Form::Ast, "ast"),
+            (Form::Ir, "ir"),
+            (Form::Tree(TreeForm::Json), "json"),
+        ] {
             let text = compile::emit(&loaded, form, None).unwrap();
             snapshot::check(&format!("{name}.{ending}"), &text);
         }
         for tree in loaded.program.trees.values() {
-            for (form, ending) in [(Form::Bt, "bt"), (Form::Dot, "dot")] {
+            for (form, ending) in [
+                (Form::Tree(TreeForm::Bt), "bt"),
+                (Form::Tree(TreeForm::Dot), "dot"),
+            ] {
                 let text = compile::emit(&loaded, form, Some(&tree.name.to_string())).unwrap();
                 snapshot::check(&format!("{name}.{}.{ending}", tree.name), &text);
             }
@@ -61,7 +70,12 @@ fn printed_trees_mean_what_they_meant() {
         let path = format!("{}/examples/{name}.bt", env!("CARGO_MANIFEST_DIR"));
         let source = fs::read_to_string(path).unwrap();
         for tree in loaded.program.trees.values() {
-            let printed = compile::emit(&loaded, Form::Bt, Some(&tree.name.to_string())).unwrap();
+            let printed = compile::emit(
+                &loaded,
+                Form::Tree(TreeForm::Bt),
+                Some(&tree.name.to_string()),
+            )
+            .unwrap();
             let renamed = printed.replace(
                 &format!("tree {} for", tree.name),
                 &format!("tree {}_again for", tree.name),

@@ -2,9 +2,10 @@
 
 use crate::program::{self, NoFiles};
 use btc::diagnostic::{Code, Diagnostic};
-use btc::driver::export::Runtime;
+use btc::driver::compile::Form;
 use btc::driver::load::{Loaded, Reader, load};
 use btc::driver::{Refused, Text, compile, learn, minimize, run, verify};
+use btc::emit::form::TreeForm;
 use btc::tree::decanonicalise::{Care, Method};
 
 /// The example of an explanation that follows a heading.
@@ -132,9 +133,9 @@ fn a_tree_that_is_not_there() {
     let code = Code::E0504;
     let loaded = wrong(code);
     assert_eq!(program::shown(&loaded), "");
-    let found = compile::emit(&loaded, compile::Form::Bt, Some("expert")).unwrap_err();
+    let found = compile::emit(&loaded, Form::Tree(TreeForm::Bt), Some("expert")).unwrap_err();
     assert_eq!(codes(&found.diagnostics), [code]);
-    assert!(compile::emit(&right(code), compile::Form::Bt, Some("expert")).is_ok());
+    assert!(compile::emit(&right(code), Form::Tree(TreeForm::Bt), Some("expert")).is_ok());
 }
 
 /// E0505: no episode, so no decision.
@@ -174,15 +175,15 @@ fn what_a_robot_cannot_run() {
         (
             Code::E0821,
             "refill",
-            vec![Runtime::BtCpp, Runtime::PyTrees],
+            vec![TreeForm::BtCpp, TreeForm::PyTrees],
         ),
-        (Code::E0822, "walk", vec![Runtime::BtCpp]),
+        (Code::E0822, "walk", vec![TreeForm::BtCpp]),
     ];
     for (code, tree, runtimes) in cases {
         for runtime in runtimes {
             let loaded = wrong(code);
             assert_eq!(program::shown(&loaded), "");
-            let form = compile::Form::from(runtime);
+            let form = Form::Tree(runtime);
             let found = compile::emit(&loaded, form, Some(tree)).unwrap_err();
             assert_eq!(codes(&found.diagnostics), [code]);
             assert!(compile::emit(&right(code), form, Some(tree)).is_ok());

@@ -13,9 +13,11 @@ use crate::examples::example;
 use crate::program;
 use crate::snapshot;
 use btc::diagnostic::{Code, Diagnostic};
-use btc::driver::compile::{self, Form};
-use btc::driver::export::{Runtime, tree};
+use btc::driver::compile;
+use btc::driver::compile::Form;
+use btc::driver::export::tree;
 use btc::driver::load::Loaded;
+use btc::emit::form::TreeForm;
 use btc::ir::Program;
 use btc::ir::tree::{Node, Tree};
 use btc::source::Span;
@@ -30,7 +32,7 @@ fn names() -> Loaded {
 }
 
 /// A tree of these names for a robot.
-fn written(program: &Program, root: &Node, runtime: Runtime) -> Result<String, Diagnostic> {
+fn written(program: &Program, root: &Node, runtime: TreeForm) -> Result<String, Diagnostic> {
     let subject = Tree {
         name: "tried".into(),
         docs: Vec::new(),
@@ -40,13 +42,13 @@ fn written(program: &Program, root: &Node, runtime: Runtime) -> Result<String, D
     tree(program, &subject, runtime, |_| Span::default())
 }
 
-const RUNTIMES: [(Runtime, &str); 2] = [(Runtime::BtCpp, "xml"), (Runtime::PyTrees, "py")];
+const RUNTIMES: [(TreeForm, &str); 2] = [(TreeForm::BtCpp, "xml"), (TreeForm::PyTrees, "py")];
 
 #[test]
 fn as_robots_get_them() {
     let check = |name: &str, loaded: &Loaded, tree: &str| {
         for (runtime, ending) in RUNTIMES {
-            let text = compile::emit(loaded, Form::from(runtime), Some(tree)).unwrap();
+            let text = compile::emit(loaded, Form::Tree(runtime), Some(tree)).unwrap();
             snapshot::check(&format!("{name}.{tree}.{ending}"), &text);
         }
     };
@@ -65,7 +67,7 @@ fn what_has_no_counterpart_has_a_place() {
     assert_eq!(program::shown(&loaded), "");
     for (runtime, _) in RUNTIMES {
         for (tree, place) in [("a", "parallel"), ("b", "a")] {
-            let refused = compile::emit(&loaded, Form::from(runtime), Some(tree)).unwrap_err();
+            let refused = compile::emit(&loaded, Form::Tree(runtime), Some(tree)).unwrap_err();
             let found = &refused.diagnostics[0];
             assert_eq!(found.code, Code::E0821);
             assert_eq!(loaded.sources.text(found.span()), place);

@@ -21,12 +21,14 @@ const ROOMS: &[(&str, &[&str])] = &[
     ),
     ("eval", &["ir", "math", "random"]),
     ("world", &["ir", "eval", "geometry", "math", "random"]),
-    ("policy", &["ir", "logic"]),
+    ("policy", &["ir", "spelling", "logic"]),
     ("learn", &["ir", "world", "policy", "math", "random"]),
     ("tree", &["ir", "policy", "logic"]),
     (
         "emit",
-        &["ir", "tree", "source", "syntax", "geometry", "math"],
+        &[
+            "ir", "tree", "source", "spelling", "syntax", "geometry", "math",
+        ],
     ),
     ("trial", &["ir", "world", "policy", "learn", "tree"]),
     ("simplify", &["ir", "learn", "tree", "trial"]),
@@ -55,7 +57,10 @@ const ROOMS: &[(&str, &[&str])] = &[
             "report",
         ],
     ),
-    ("cli", &["source", "diagnostic", "tree", "driver"]),
+    (
+        "cli",
+        &["source", "spelling", "diagnostic", "tree", "emit", "driver"],
+    ),
 ];
 
 /// The Rust files of the crate, each with the room that it stands in.

@@ -2,7 +2,7 @@
 
 use btc::diagnostic::render;
 use btc::driver::load::{Loaded, Reader, beside, load};
-use btc::ir::name::{Argument, Name, Value};
+use btc::ir::name::{Argument, Given, Name};
 use std::path::Path;
 
 /// No file but the one that is asked for.
@@ -49,7 +49,7 @@ pub(crate) fn called(text: &str) -> Name {
     };
     let arguments = list.split(", ").enumerate().map(|(i, value)| Argument {
         parameter: format!("argument_{i}"),
-        value: Some(Value::Name(called(value))),
+        value: Some(Given::Name(called(value))),
     });
     Name::instance(family, arguments.collect())
 }

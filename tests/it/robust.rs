@@ -1,8 +1,10 @@
 //! Whatever the text, nothing panics, every message lies in its file, and a program without errors is whole.
 
 use crate::program::{self, NoFiles};
-use btc::driver::compile::{self, Form};
+use btc::driver::compile;
+use btc::driver::compile::Form;
 use btc::driver::load::{Loaded, load};
+use btc::emit::form::TreeForm;
 use btc::syntax::ast::ItemKind;
 
 /// What has to hold of a text.
@@ -11,7 +13,13 @@ fn holds(bytes: Vec<u8>) -> Loaded {
     if !loaded.has_errors() {
         whole(&loaded);
         compile::summary(&loaded);
-        for form in [Form::Ast, Form::Ir, Form::Bt, Form::Dot, Form::Json] {
+        for form in [
+            Form::Ast,
+            Form::Ir,
+            Form::Tree(TreeForm::Bt),
+            Form::Tree(TreeForm::Dot),
+            Form::Tree(TreeForm::Json),
+        ] {
             // Of several trees it has to be said which one is drawn.
             let _ = compile::emit(&loaded, form, None);
             for tree in loaded.program.trees.values() {

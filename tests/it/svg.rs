@@ -2,9 +2,11 @@
 
 use crate::program::called;
 use crate::snapshot::check;
+use btc::driver::compile::Form;
 use btc::driver::load::{Loaded, Reader, load};
 use btc::driver::run::Subject;
 use btc::driver::{compile, picture, target};
+use btc::emit::form::TreeForm;
 use btc::emit::svg;
 use btc::emit::svg::curve::Point;
 use btc::emit::svg::layout::{Block, Placed, place};
@@ -29,7 +31,7 @@ fn example(name: &str) -> Loaded {
 }
 
 fn tree(loaded: &Loaded) -> String {
-    compile::emit(loaded, compile::Form::Svg, Some("expert")).unwrap()
+    compile::emit(loaded, Form::Tree(TreeForm::Svg), Some("expert")).unwrap()
 }
 
 fn world(loaded: &Loaded, ticks: u64) -> String {

@@ -7,12 +7,12 @@ mod laws;
 mod slack;
 
 use btc::diagnostic::render;
-use btc::driver::compile::Form;
 use btc::driver::decanonicalize::{self, Made, Options};
 use btc::driver::load::{Loaded, load};
 use btc::driver::table::Recorded;
 use btc::driver::verify::{self, Proved};
 use btc::driver::{Refused, Text};
+use btc::emit::form::TreeForm;
 use btc::tree::decanonicalise::{Method, Order};
 
 use crate::program::{self, NoFiles};
@@ -24,7 +24,7 @@ pub(crate) const USUAL: Options = Options {
     effort: 10,
     slack: 0.0,
     name: "learned",
-    form: Form::Bt,
+    form: TreeForm::Bt,
 };
 
 fn text<'t>(name: &'t str, bytes: &'t [u8]) -> Text<'t> {

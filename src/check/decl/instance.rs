@@ -3,7 +3,7 @@
 use crate::check::Checker;
 use crate::check::context::Binding;
 use crate::check::types::Value;
-use crate::ir::name::{self, Argument, Name};
+use crate::ir::name::{Argument, Given, Name};
 use crate::syntax::ast::{self, ArgKind, ExprKind, Ref};
 use crate::syntax::print;
 
@@ -39,7 +39,7 @@ impl Checker<'_> {
     }
 
     /// An argument in a name: a target by its own name, a literal in its own spelling.
-    fn argument(&self, given: &ast::Expr, value: &Value) -> name::Value {
+    fn argument(&self, given: &ast::Expr, value: &Value) -> Given {
         let world = self.program.world.as_ref();
         let named = match value {
             Value::Place(id) => world.map(|world| &world.places[*id].name),
@@ -49,7 +49,7 @@ impl Checker<'_> {
             _ => None,
         };
         if let Some(named) = named {
-            return name::Value::Name(named.clone());
+            return Given::Name(named.clone());
         }
         match (value, &given.kind) {
             // A parameter of a subtree or a shared expression stands for a number that is not written here.
@@ -57,15 +57,15 @@ impl Checker<'_> {
                 if self.mentions_parameter(given)
                     && let Some(number) = self.program.pool.constant(*id) =>
             {
-                name::Value::Text(number.to_string())
+                Given::Text(number.to_string())
             }
             (
                 _,
                 ExprKind::Ref(Ref {
                     name, args: None, ..
                 }),
-            ) => name::Value::Name(Name::word(&name.name)),
-            _ => name::Value::Text(print::expr(given)),
+            ) => Given::Name(Name::word(&name.name)),
+            _ => Given::Text(print::expr(given)),
         }
     }
 

@@ -2,10 +2,11 @@
 
 use super::{Learned, Options};
 use crate::driver::Refused;
-use crate::driver::export::{self, Runtime};
+use crate::driver::export;
 use crate::driver::load::Loaded;
 use crate::driver::target;
-use crate::emit;
+use crate::emit::bt;
+use crate::emit::form::TreeForm;
 use crate::ir::task::Learner;
 use crate::ir::tree::{Node, Tree};
 use crate::ir::{Id, Name};
@@ -45,19 +46,19 @@ pub(super) fn written(
     if let Some(simplified) = &results.simplified {
         let exact_name = Name::word(format!("{}_exact", learner.name.family));
         let exact = named(&exact_name, &docs, exact);
-        text.push_str(&emit::bt::tree(program, &exact));
+        text.push_str(&bt::tree(program, &exact));
         text.push('\n');
         docs.push(simplified::doc(simplified, program, task));
         root = &simplified.root;
     }
     let learned = named(&learner.name, &docs, root);
-    let tree = emit::bt::tree(program, &learned);
+    let tree = bt::tree(program, &learned);
     text.push_str(&tree);
     let curves = results.curves();
     let policy = &results.policy;
-    let exported = |runtime| {
+    let written = |form| {
         let place = |_: &[usize]| target::end_of_file(loaded);
-        export::tree(program, &learned, runtime, place)
+        export::tree(program, &learned, form, place)
             .map_err(|mistake| Refused::program(loaded, [mistake]))
     };
     let request = metrics::Request {
@@ -69,10 +70,10 @@ pub(super) fn written(
     };
     let files = vec![
         ("learned.bt", text),
-        ("learned.dot", emit::dot::tree(program, &learned)),
-        ("learned.svg", emit::svg::tree::tree(program, &learned)),
-        ("learned.xml", exported(Runtime::BtCpp)?),
-        ("learned.py", exported(Runtime::PyTrees)?),
+        ("learned.dot", written(TreeForm::Dot)?),
+        ("learned.svg", written(TreeForm::Svg)?),
+        ("learned.xml", written(TreeForm::BtCpp)?),
+        ("learned.py", written(TreeForm::PyTrees)?),
         ("policy.csv", decisions::write(policy, program)),
         ("transitions.csv", transitions::write(policy, program)),
         ("q.csv", evidence::write(policy, program)),

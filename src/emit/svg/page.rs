@@ -1,6 +1,7 @@
-//! SVG as text: elements, attributes, numbers and escaping.
+//! SVG: what pictures are made of, in numbers of px.
 
 use super::paint::{self, Rule};
+use crate::emit::xml::Xml;
 use std::fmt::Write;
 
 /// The value of an attribute.
@@ -43,18 +44,12 @@ pub(super) struct Head<'a> {
 }
 
 /// A picture in the making; an element a line.
-pub(super) struct Page {
-    text: String,
-    open: Vec<&'static str>,
-}
+pub(super) struct Page(Xml);
 
 impl Page {
     /// A page of this size in px, with its background.
     pub(super) fn new(head: &Head) -> Self {
-        let mut page = Self {
-            text: String::new(),
-            open: Vec::new(),
-        };
+        let mut page = Self(Xml::default());
         let (width, height) = (head.width, head.height);
         page.open(
             "svg",
@@ -87,39 +82,28 @@ impl Page {
 
     /// Begins an element.
     pub(super) fn open(&mut self, name: &'static str, attributes: Attributes) {
-        self.start(name, attributes);
-        self.text.push_str(">\n");
-        self.open.push(name);
+        self.0.open(name, &shown(attributes));
     }
 
     /// Ends the element that was begun last.
     pub(super) fn close(&mut self) {
-        if let Some(name) = self.open.pop() {
-            self.indent();
-            // Writing to a string does not fail.
-            let _ = writeln!(self.text, "</{name}>");
-        }
+        self.0.close();
     }
 
     /// An element with nothing in it.
     pub(super) fn leaf(&mut self, name: &str, attributes: Attributes) {
-        self.start(name, attributes);
-        self.text.push_str("/>\n");
+        self.0.leaf(name, &shown(attributes));
     }
 
     /// An element of text without attributes, such as a title.
     pub(super) fn note(&mut self, name: &str, text: &str) {
-        self.indent();
-        let _ = writeln!(self.text, "<{name}>{}</{name}>", escaped(text));
+        self.0.text(name, &[], text);
     }
 
     /// A line of text whose baseline is at (`x`, `y`).
     pub(super) fn text(&mut self, class: &str, x: f64, y: f64, text: &str) {
-        self.start(
-            "text",
-            &[("class", class.into()), ("x", x.into()), ("y", y.into())],
-        );
-        let _ = writeln!(self.text, ">{}</text>", escaped(text));
+        let place = [("class", class.into()), ("x", x.into()), ("y", y.into())];
+        self.0.text("text", &shown(&place), text);
     }
 
     /// A path.
@@ -145,30 +129,17 @@ impl Page {
     }
 
     /// The whole picture.
-    pub(super) fn finish(mut self) -> String {
-        while !self.open.is_empty() {
-            self.close();
-        }
-        self.text
+    pub(super) fn finish(self) -> String {
+        self.0.finish()
     }
+}
 
-    fn start(&mut self, name: &str, attributes: Attributes) {
-        self.indent();
-        let _ = write!(self.text, "<{name}");
-        for (key, value) in attributes {
-            let value = match value {
-                Value::Number(value) => number(*value),
-                Value::Text(text) => escaped(text),
-            };
-            let _ = write!(self.text, " {key}=\"{value}\"");
-        }
-    }
-
-    fn indent(&mut self) {
-        for _ in &self.open {
-            self.text.push_str("  ");
-        }
-    }
+fn shown<'a>(attributes: Attributes<'a>) -> Vec<(&'a str, String)> {
+    let shown = attributes.iter().map(|(name, value)| match value {
+        Value::Number(value) => (*name, number(*value)),
+        Value::Text(text) => (*name, text.clone()),
+    });
+    shown.collect()
 }
 
 /// A coordinate, rounded to thousandths.
@@ -190,23 +161,6 @@ pub(super) fn chain(points: impl IntoIterator<Item = [f64; 2]>) -> String {
         let _ = write!(d, "{step}{} {}", number(x), number(y));
     }
     d
-}
-
-/// Text between tags and in quotes; what XML cannot hold becomes �.
-fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            '\t' | '\n' => out.push(c),
-            '\u{0}'..='\u{1f}' | '\u{fffe}' | '\u{ffff}' => out.push('\u{fffd}'),
-            _ => out.push(c),
-        }
-    }
-    out
 }
 
 /// The width in px of a name in the fixed-width font, in which wide characters count double.

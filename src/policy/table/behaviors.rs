@@ -2,6 +2,7 @@
 
 use crate::policy::error::TableErrorKind;
 use crate::policy::names;
+use crate::spelling::bare;
 use rustc_hash::FxHashMap;
 use std::ops::Range;
 
@@ -39,7 +40,7 @@ impl Behaviors {
             return Ok(self.last.1);
         }
         let name = std::str::from_utf8(text).map_err(|_| TableErrorKind::NoText)?;
-        let name = names::plain(name);
+        let name = bare(name);
         if !self.numbers.contains_key(name) {
             names::check(name)?;
         }

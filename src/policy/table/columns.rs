@@ -3,6 +3,7 @@
 use super::Reading;
 use crate::policy::error::{TableError, TableErrorKind};
 use crate::policy::names::{self, AtomName};
+use crate::spelling::bare;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
@@ -35,13 +36,13 @@ impl Reading {
         let mut decides: Option<String> = None;
         let mut roles = Vec::with_capacity(columns.len());
         for (name, place) in &columns {
-            let role = if known.insert(bare(name)) {
+            let role = if known.insert(without_backquotes(name)) {
                 self.role(name, place, &mut decides)
             } else {
-                Err(TableErrorKind::RepeatedColumn(bare(name)))
+                Err(TableErrorKind::RepeatedColumn(without_backquotes(name)))
             };
             roles.push(role.unwrap_or_else(|kind| {
-                self.tell(place, kind);
+                self.report(place, kind);
                 Role::Ignored
             }));
         }
@@ -99,7 +100,7 @@ impl Reading {
 impl Reading {
     /// A column for the value of a behaviour.
     fn value(&mut self, behavior: &str, place: &Range<usize>) -> Result<usize, TableErrorKind> {
-        let behavior = names::plain(behavior);
+        let behavior = bare(behavior);
         names::check(behavior)?;
         let number = self.behaviors.number(behavior, place.clone());
         self.values.push(number);
@@ -113,14 +114,14 @@ impl Reading {
             self.rows.another_value();
             self.draft.another_value();
         }
-        column.map_err(|kind| self.tell(place, kind)).ok()
+        column.map_err(|kind| self.report(place, kind)).ok()
     }
 }
 
 /// The name of a column without backquotes: two of the same are one column twice.
-fn bare(column: &str) -> String {
+fn without_backquotes(column: &str) -> String {
     match column.strip_prefix("q:") {
-        Some(behavior) => format!("q:{}", names::plain(behavior)),
+        Some(behavior) => format!("q:{}", bare(behavior)),
         None => AtomName::read(column).to_string(),
     }
 }

@@ -132,7 +132,7 @@ impl Line<'_> {
         for ((name, role), said) in keys.roles.iter().zip(&keys.said) {
             let needed = matches!(role, Role::Atom(_) | Role::Behavior);
             if needed && *said != keys.lines {
-                reading.tell(&self.whole(), TableErrorKind::MissingKey(name.clone()));
+                reading.report(&self.whole(), TableErrorKind::MissingKey(name.clone()));
             }
         }
         reading.end(self.start);
@@ -155,7 +155,7 @@ impl Line<'_> {
         });
         let Some(number) = number else {
             let kind = TableErrorKind::UnknownKey(name.to_owned());
-            return reading.tell(&self.place(shown), kind);
+            return reading.report(&self.place(shown), kind);
         };
         let (Some((_, role)), Some(said)) = (keys.roles.get(number), keys.said.get_mut(number))
         else {
@@ -163,7 +163,7 @@ impl Line<'_> {
         };
         if std::mem::replace(said, keys.lines) == keys.lines {
             let kind = TableErrorKind::RepeatedColumn(name.to_owned());
-            return reading.tell(&self.place(shown), kind);
+            return reading.report(&self.place(shown), kind);
         }
         let expected = match *role {
             Role::Atom(atom) => match value.truth() {
@@ -195,7 +195,7 @@ impl Line<'_> {
             found: value.to_string(),
             expected,
         };
-        reading.tell(&self.place(shown), kind);
+        reading.report(&self.place(shown), kind);
     }
 
     /// The place of a key with its value: the first text of this name before a colon.

@@ -314,6 +314,10 @@ fn belong_together(a: &Item, b: &Item) -> bool {
                 | ItemKind::State(_)
                 | ItemKind::Event(_)
                 | ItemKind::Predicate(_)
+                | ItemKind::Behavior(Behavior {
+                    body: BehaviorBody::Declared,
+                    ..
+                })
                 | ItemKind::EachTick(_)
                 | ItemKind::On(_)
                 | ItemKind::Claim(_)

@@ -11,7 +11,7 @@ use super::{names, script, written};
 use crate::examples;
 use crate::tree::build::{decorated, leaf as behavior, parallel};
 use crate::tree::random::Random;
-use btc::driver::export::Runtime;
+use btc::emit::form::TreeForm;
 use btc::ir::Program;
 use btc::ir::tree::{Decorator, Node as Root, Status};
 use roxmltree::{Document, Node as Element};
@@ -292,7 +292,7 @@ fn compare_itself(program: &Program, cases: &[Case]) {
 }
 
 fn files(program: &Program, cases: &[Case]) -> Vec<String> {
-    let file = |(root, ..): &Case| written(program, root, Runtime::BtCpp).unwrap();
+    let file = |(root, ..): &Case| written(program, root, TreeForm::BtCpp).unwrap();
     cases.iter().map(file).collect()
 }
 
@@ -399,8 +399,8 @@ fn a_parallel_that_would_remember_is_refused() {
             vec![low.clone(), decorated(Decorator::Retry(2), low.clone())],
         ),
     ] {
-        assert!(written(&loaded.program, &root, Runtime::BtCpp).is_err());
+        assert!(written(&loaded.program, &root, TreeForm::BtCpp).is_err());
     }
     let asks = parallel(1, vec![low.clone(), low]);
-    assert!(written(&loaded.program, &asks, Runtime::BtCpp).is_ok());
+    assert!(written(&loaded.program, &asks, TreeForm::BtCpp).is_ok());
 }

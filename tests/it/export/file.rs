@@ -2,7 +2,7 @@
 
 use super::trees::subjects;
 use super::written;
-use btc::driver::export::Runtime;
+use btc::emit::form::TreeForm;
 use btc::ir::Program;
 use roxmltree::{Document, Node as Element};
 use std::collections::BTreeMap;
@@ -39,7 +39,7 @@ pub(super) fn leaves(program: &Program) -> BTreeMap<Leaf, (bool, usize)> {
     let mut leaves = BTreeMap::new();
     for (acts, nodes) in [(false, asked), (true, done)] {
         for (i, node) in nodes.iter().enumerate() {
-            let text = written(program, node, Runtime::BtCpp).unwrap();
+            let text = written(program, node, TreeForm::BtCpp).unwrap();
             let document = Document::parse(&text).unwrap();
             let root = inside(only(&document, "BehaviorTree"));
             let twice = leaves.insert(leaf(root[0]), (acts, i));

@@ -7,9 +7,10 @@ use crate::examples;
 use crate::program::called;
 use crate::tree::build::selector;
 use crate::tree::random::Random;
-use btc::driver::compile::{self, Form};
-use btc::driver::export::Runtime;
+use btc::driver::compile;
+use btc::driver::compile::Form;
 use btc::emit::btcpp::RESERVED;
+use btc::emit::form::TreeForm;
 use btc::ir::Program;
 use btc::ir::law::Behavior;
 use btc::ir::program::Predicate;
@@ -117,7 +118,7 @@ fn of_examples() {
     for name in examples::names() {
         let loaded = examples::example(&name);
         for tree in loaded.program.trees.values() {
-            let form = Form::BtCpp;
+            let form = Form::Tree(TreeForm::BtCpp);
             check(&compile::emit(&loaded, form, Some(&tree.name.to_string())).unwrap());
         }
     }
@@ -127,7 +128,7 @@ fn of_examples() {
 fn of_random_trees() {
     let loaded = names();
     let program = &loaded.program;
-    let form = Form::BtCpp;
+    let form = Form::Tree(TreeForm::BtCpp);
     check(&compile::emit(&loaded, form, Some("everything")).unwrap());
     for seed in 0..500 {
         let mut grower = Grower {
@@ -144,7 +145,7 @@ fn of_random_trees() {
             0 => grower.plain(4),
             _ => grower.learned(2),
         };
-        check(&written(program, &root, Runtime::BtCpp).unwrap());
+        check(&written(program, &root, TreeForm::BtCpp).unwrap());
     }
 }
 
@@ -189,6 +190,6 @@ fn of_names_from_anywhere() {
     assert_eq!(file::leaves(&program).len(), 4 * odd.len());
     let (asked, done) = subjects(&program);
     let all = selector(asked.into_iter().chain(done).collect());
-    check(&written(&program, &all, Runtime::BtCpp).unwrap());
-    assert!(written(&program, &all, Runtime::PyTrees).is_ok());
+    check(&written(&program, &all, TreeForm::BtCpp).unwrap());
+    assert!(written(&program, &all, TreeForm::PyTrees).is_ok());
 }

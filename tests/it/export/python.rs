@@ -10,8 +10,9 @@ use super::{names, written};
 use crate::examples::{self, example};
 use crate::tree::build::{decorated, leaf, parallel};
 use crate::tree::random::Random;
-use btc::driver::compile::{self, Form};
-use btc::driver::export::Runtime;
+use btc::driver::compile;
+use btc::driver::compile::Form;
+use btc::emit::form::TreeForm;
 use btc::ir::Program;
 use btc::ir::tree::{Decorator, Node, Status};
 use serde_json::{Value, json};
@@ -24,7 +25,7 @@ fn python() -> OsString {
 
 /// The module of a tree.
 fn module(program: &Program, root: &Node) -> String {
-    written(program, root, Runtime::PyTrees).unwrap()
+    written(program, root, TreeForm::PyTrees).unwrap()
 }
 
 /// What py_trees does in each play, and what the programs print.
@@ -183,7 +184,7 @@ fn a_timeout_fails_in_the_same_tick() {
 fn modules_draw_themselves() {
     let python = python();
     let loaded = names();
-    let form = Form::PyTrees;
+    let form = Form::Tree(TreeForm::PyTrees);
     let text = compile::emit(&loaded, form, Some("everything")).unwrap();
     let (_, drawn) = run(&python, &loaded.program, &[], &[text]);
     crate::snapshot::check("names.everything.py.drawn", &drawn[0]);

@@ -1,0 +1,43 @@
+//! The forms that trees are written in: the one list, and what writes each.
+
+use super::refusal::Refusal;
+use super::{bt, btcpp, dot, json, py_trees, svg};
+use crate::ir::Program;
+use crate::ir::tree::Tree;
+
+/// A form that a tree is written in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+pub enum TreeForm {
+    /// The language, laid out.
+    Bt,
+    /// Graphviz.
+    Dot,
+    /// JSON.
+    Json,
+    /// A picture.
+    Svg,
+    /// XML for BehaviorTree.CPP 4, Groot2 and Nav2.
+    #[cfg_attr(feature = "cli", value(name = "btcpp"))]
+    BtCpp,
+    /// A Python module for py_trees 2.
+    #[cfg_attr(feature = "cli", value(name = "py_trees"))]
+    PyTrees,
+}
+
+impl TreeForm {
+    /// Writes a tree of a program.
+    ///
+    /// # Errors
+    /// The first node that the form has no counterpart for.
+    pub fn write(self, program: &Program, tree: &Tree) -> Result<String, Refusal> {
+        match self {
+            Self::Bt => Ok(bt::tree(program, tree)),
+            Self::Dot => Ok(dot::tree(program, tree)),
+            Self::Json => Ok(json::tree(program, tree)),
+            Self::Svg => Ok(svg::tree::tree(program, tree)),
+            Self::BtCpp => btcpp::tree(program, tree),
+            Self::PyTrees => py_trees::tree(program, tree),
+        }
+    }
+}
