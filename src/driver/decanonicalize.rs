@@ -207,3 +207,33 @@ fn nothing(source: &str) -> Text<'_> {
         bytes: b"",
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Code, Form, Options, Text, decanonicalise, decanonicalize, read};
+
+    /// No table leads here: the rows are taken away behind the reader's back.
+    #[test]
+    fn a_tree_that_is_refuted_is_a_bug_of_btc() {
+        let options = Options {
+            method: decanonicalise::Method::Search,
+            order: decanonicalise::Order::Learned,
+            effort: 1,
+            slack: 0.0,
+            name: "learned",
+            form: Form::Bt,
+        };
+        let table = Text {
+            name: "policy.csv",
+            bytes: b"low,behavior\n0,deliver\n1,dock\n",
+        };
+        let codes = read(table, None, &options)
+            .and_then(|mut asked| {
+                asked.policy.rows.clear();
+                decanonicalize(asked, &options)
+            })
+            .map(|made| made.text)
+            .map_err(|refused| refused.diagnostics.iter().map(|found| found.code).collect());
+        assert_eq!(codes, Err(vec![Code::E0609]));
+    }
+}

@@ -43,7 +43,7 @@ const LATER: [Code; 17] = [
     Code::E0409,
     Code::E0504,
     Code::E0505,
-    Code::E0609,
+    Code::E0609, // driver::decanonicalize
     Code::E0610,
     Code::E0811, // this and those below: tables::cases
     Code::E0812,

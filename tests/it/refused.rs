@@ -54,6 +54,6 @@ fn every_code_has_a_snapshot() {
         texts.iter().any(|text| text.contains(&head))
     };
     let without: Vec<&Code> = Code::ALL.iter().filter(|code| !shown(code)).collect();
-    // A tree that cannot be proved is a mistake of btc, which no program is known to provoke.
+    // A tree that is not equal to its policy is a bug of btc: its test stands beside `driver::decanonicalize`.
     assert_eq!(without, [&Code::E0609]);
 }
