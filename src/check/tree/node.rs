@@ -42,7 +42,7 @@ impl<'a> Checker<'a> {
         args: Option<&'a [Arg]>,
         children: &'a [ast::Node],
     ) -> Option<Node> {
-        let name = word_name(word.node);
+        let name = word.node.spelling();
         if let Some(span) = memory
             && !matches!(word.node, Word::Selector | Word::Sequence)
         {
@@ -106,7 +106,7 @@ impl<'a> Checker<'a> {
 
     /// The number of `parallel(n)`, `retry(n)`, `repeat(n)`, the ticks of `timeout(t)`; the other words have none.
     fn node_argument(&mut self, word: Spanned<Word>, args: Option<&'a [Arg]>) -> Option<u64> {
-        let name = word_name(word.node);
+        let name = word.node.spelling();
         let takes = matches!(
             word.node,
             Word::Parallel | Word::Retry | Word::Repeat | Word::Timeout
@@ -260,19 +260,4 @@ fn commands(Block(stmts): &Block) -> bool {
         Stmt::If(_, then, otherwise) => commands(then) || commands(otherwise),
         _ => false,
     })
-}
-
-/// A word as it is written.
-fn word_name(word: Word) -> &'static str {
-    match word {
-        Word::Selector => "selector",
-        Word::Sequence => "sequence",
-        Word::Parallel => "parallel",
-        Word::Invert => "invert",
-        Word::Succeed => "succeed",
-        Word::Fail => "fail",
-        Word::Retry => "retry",
-        Word::Repeat => "repeat",
-        Word::Timeout => "timeout",
-    }
 }
