@@ -111,7 +111,7 @@ impl<'a> Checker<'a> {
             let what = (inner.code, inner.message.clone());
             if !seen.contains(&what) {
                 seen.push(what);
-                self.report(used_so(inner, reference, library));
+                self.diagnostics.push(used_so(inner, reference, library));
             }
         }
         seen.is_empty().then_some(result)

@@ -1,5 +1,7 @@
 //! Expressions: the entry point, and one file for each kind.
 
+mod arithmetic;
+mod call;
 mod choice;
 mod draw;
 mod ending;

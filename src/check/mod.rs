@@ -5,7 +5,6 @@
 //! arguments is reported where they are given. A mistake is reported once: an expression of `Type::Error`
 //! agrees with everything that is built on it.
 
-mod arithmetic;
 mod body;
 mod builtin;
 mod checker;

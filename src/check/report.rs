@@ -123,11 +123,6 @@ impl<'a> Checker<'a> {
         self.error(code, span, message)
     }
 
-    /// Reports a finished diagnostic.
-    pub fn report(&mut self, diagnostic: Diagnostic) {
-        self.diagnostics.push(diagnostic);
-    }
-
     /// Reports a name that `owner` does not have among its `known` ones.
     pub fn unknown_to(
         &mut self,

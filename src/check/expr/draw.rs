@@ -9,7 +9,7 @@ use crate::syntax::ast::Ref;
 
 impl<'a> Checker<'a> {
     /// `uniform(a, b)`, `normal(mean, deviation)`, `chance(p)`, `one_of(…)`
-    pub fn random(&mut self, function: Function, reference: &'a Ref) -> Typed {
+    pub fn random(&mut self, function: Function, reference: &'a Ref) -> Option<Typed> {
         let span = reference.span;
         if !self.context.region.draws() {
             return self
@@ -23,50 +23,40 @@ impl<'a> Checker<'a> {
                 )
                 .label("its value would change from one look to the next")
                 .help("draw it in a `local`, an effect or a `start` line, and read that")
-                .typed();
+                .none();
         }
         match function {
             Function::Uniform | Function::Normal => {
-                let Some((a, b)) = self.two_alike(reference) else {
-                    return Typed::error(span);
+                let [a, b] = self.two_alike(reference)?;
+                let draw = match function {
+                    Function::Uniform => Draw::Uniform,
+                    _ => Draw::Normal,
                 };
                 let ty = a.ty.clone();
-                self.lifted(ty, span, &[&a, &b], |pool, ids| match ids {
-                    [a, b] if function == Function::Uniform => {
-                        Some(pool.draw(Draw::Uniform(*a, *b)))
-                    }
-                    [a, b] => Some(pool.draw(Draw::Normal(*a, *b))),
-                    _ => None,
-                })
+                Some(self.lift(ty, span, [&a, &b], |pool, [a, b]| pool.draw(draw(a, b))))
             }
             Function::Chance => {
-                let Some(&[value]) = self.positional(reference, 1, 1).as_deref() else {
-                    return Typed::error(span);
+                let &[value] = self.positional(reference, 1, 1)?.as_slice() else {
+                    return None;
                 };
                 let p = self.expect(value, &Type::Ratio, "a chance");
-                self.lifted(Type::Bool, span, &[&p], |pool, ids| match ids {
-                    [p] => Some(pool.draw(Draw::Chance(*p))),
-                    _ => None,
-                })
+                Some(self.lift(Type::Bool, span, [&p], |pool, [p]| {
+                    pool.draw(Draw::Chance(p))
+                }))
             }
-            _ => self.one_of(reference).unwrap_or_else(|| Typed::error(span)),
+            _ => self.one_of(reference),
         }
     }
 
     fn one_of(&mut self, reference: &'a Ref) -> Option<Typed> {
         let span = reference.span;
         let values = self.positional(reference, 1, usize::MAX)?;
-        let mut choices: Vec<Typed> = Vec::new();
-        for value in values {
-            let next = match choices.first() {
-                None => self.expr(value),
-                Some(first) => self.expect_like(value, first, "every choice of `one_of`"),
-            };
-            if next.ty == Type::Error {
-                return None;
-            }
-            choices.push(next);
+        let (first, rest) = values.split_first()?;
+        let first = self.expr(first);
+        if first.ty == Type::Error {
+            return None;
         }
+        let choices = self.alike(first, rest, "every choice of `one_of`")?;
         let count = u32::try_from(choices.len()).unwrap_or(u32::MAX);
         let index = self.program.pool.draw(Draw::Pick(count));
         let mut choices = choices.into_iter().enumerate().rev();

@@ -10,10 +10,10 @@ use crate::syntax::ast::Ref;
 
 impl<'a> Checker<'a> {
     /// `success(b)`, `failure(b)`: whether the behaviour ended so in this tick; in a `history` line, that end.
-    pub fn ended(&mut self, function: Function, reference: &'a Ref) -> Typed {
+    pub fn ended(&mut self, function: Function, reference: &'a Ref) -> Option<Typed> {
         let span = reference.span;
-        let Some(&[value]) = self.positional(reference, 1, 1).as_deref() else {
-            return Typed::error(span);
+        let &[value] = self.positional(reference, 1, 1)?.as_slice() else {
+            return None;
         };
         let region = self.context.region;
         if matches!(function, Function::Done | Function::Failed) {
@@ -33,31 +33,27 @@ impl<'a> Checker<'a> {
         self.kept_in_history(function, reference);
         let behavior = self.expect(value, &Type::Behavior, "what ends");
         let failed = function == Function::Failure;
-        let ty = if region == Region::StartHistory {
-            Type::Termination
-        } else {
-            Type::Bool
-        };
-        let Value::Behavior(id) = behavior.value else {
-            return Typed::unknown(
-                if behavior.ty == Type::Error {
-                    Type::Error
-                } else {
-                    ty
-                },
-                span,
-            );
-        };
-        if region == Region::StartHistory {
-            let code = id.index() * 2 + usize::from(failed);
-            let code = self.program.pool.num(code as f64);
-            return Typed::new(ty, Value::Scalar(code), span);
+        if behavior.ty == Type::Error {
+            return None;
         }
+        if region == Region::StartHistory {
+            let code = match behavior.value {
+                Value::Behavior(id) => {
+                    let code = id.index() * 2 + usize::from(failed);
+                    Some(self.program.pool.num(code as f64))
+                }
+                _ => None,
+            };
+            return Some(Typed::new(Type::Termination, code, span));
+        }
+        let Value::Behavior(id) = behavior.value else {
+            return Some(Typed::unknown(Type::Bool, span));
+        };
         let status = if failed {
             Status::Failure
         } else {
             Status::Success
         };
-        self.leaf(Expr::Ended(id, status), ty, span)
+        Some(self.leaf(Expr::Ended(id, status), Type::Bool, span))
     }
 }

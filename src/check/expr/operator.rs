@@ -3,7 +3,7 @@
 use crate::check::Checker;
 use crate::check::expr::expect::is_literal;
 use crate::check::types::units::Dim;
-use crate::check::types::{Type, Typed, Value};
+use crate::check::types::{Type, Typed};
 use crate::diagnostic::Code;
 use crate::ir::Pool;
 use crate::ir::expr::{Binary, ExprId, Unary};
@@ -229,21 +229,6 @@ impl<'a> Checker<'a> {
         self.error(Code::E0302, op, message)
             .label(label)
             .also(a.span, format!("this is {}", a.ty));
-    }
-
-    /// A value that is made of scalars; unknown where one of them is.
-    pub fn lifted(
-        &mut self,
-        ty: Type,
-        span: Span,
-        operands: &[&Typed],
-        make: impl FnOnce(&mut Pool, &[ExprId]) -> Option<ExprId>,
-    ) -> Typed {
-        let ids: Option<Vec<ExprId>> = operands.iter().map(|operand| operand.scalar()).collect();
-        let value = ids
-            .and_then(|ids| make(&mut self.program.pool, &ids))
-            .map_or(Value::Unknown, Value::Scalar);
-        Typed::new(ty, value, span)
     }
 
     /// A value computed from scalars; unknown if one of them is.

@@ -23,7 +23,7 @@ impl<'a> Checker<'a> {
     }
 
     /// `any(b in bush: …)` and its relatives.
-    pub fn quantified(&mut self, function: Function, reference: &'a Ref) -> Typed {
+    pub fn quantified(&mut self, function: Function, reference: &'a Ref) -> Option<Typed> {
         let span = reference.span;
         let binder = match reference.args.as_deref() {
             Some([arg]) => match &arg.kind {
@@ -40,14 +40,11 @@ impl<'a> Checker<'a> {
                     format!("`{}` ranges over a kind", reference.name.name),
                 )
                 .label(format!("write `{}(x in KIND: …)`", reference.name.name))
-                .typed();
+                .none();
         };
         let ty = self.named_type(domain);
-        if ty == Type::Error {
-            return Typed::error(span);
-        }
-        if !self.has_members(&ty, domain) {
-            return Typed::error(span);
+        if ty == Type::Error || !self.has_members(&ty, domain) {
+            return None;
         }
         self.context.scope.push(Binding::unknown(name, ty.clone()));
         if let Some(body) = body {
@@ -61,7 +58,7 @@ impl<'a> Checker<'a> {
             )
             .label("a condition is missing after this: `: condition`");
             self.context.scope.pop();
-            return Typed::error(span);
+            return None;
         }
         self.context.scope.pop();
         self.not_yet(reference.name.span, "`any`, `all`, `count` and `nearest`");
@@ -70,6 +67,6 @@ impl<'a> Checker<'a> {
             Function::Nearest => ty,
             _ => Type::Bool,
         };
-        Typed::unknown(ty, span)
+        Some(Typed::unknown(ty, span))
     }
 }

@@ -10,22 +10,20 @@ use crate::syntax::ast::Ref;
 
 impl<'a> Checker<'a> {
     /// `distance(t)`, `bearing(t)`, `direction(t)`, `visible(t)`, `inside(p)`, `facing(p)`.
-    pub fn reading(&mut self, function: Function, reference: &'a Ref) -> Typed {
+    pub fn reading(&mut self, function: Function, reference: &'a Ref) -> Option<Typed> {
         let span = reference.span;
         let most = if function == Function::Distance { 2 } else { 1 };
-        let Some(values) = self.positional(reference, 1, most) else {
-            return Typed::error(span);
-        };
+        let values = self.positional(reference, 1, most)?;
         if !self.has_world {
             let what = format!("`{}`", reference.name.name);
             let label = "read by a robot in its world";
-            return self.no_world(reference.name.span, &what, label).typed();
+            return self.no_world(reference.name.span, &what, label).none();
         }
         let mut targets = Vec::new();
         for value in values {
             let target = self.expr(value);
             if target.ty == Type::Error {
-                return Typed::error(span);
+                return None;
             }
             let of_place = matches!(function, Function::Inside | Function::Facing);
             if !target.ty.is_target() || (of_place && !matches!(target.ty, Type::Place(_))) {
@@ -41,7 +39,7 @@ impl<'a> Checker<'a> {
                         format!("`{}` is read of {wanted}", reference.name.name),
                     )
                     .this_is(&target.ty)
-                    .typed();
+                    .none();
             }
             targets.push(target);
         }
@@ -55,7 +53,7 @@ impl<'a> Checker<'a> {
             [from, to] => self.distance_between(from, to),
             _ => None,
         };
-        Typed::new(ty, id, span)
+        Some(Typed::new(ty, id, span))
     }
 
     fn read_one(&mut self, function: Function, target: &Typed) -> Option<ExprId> {

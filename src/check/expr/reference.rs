@@ -21,11 +21,11 @@ impl<'a> Checker<'a> {
                 return Some(Typed::new(binding.ty, binding.value, span));
             }
             if let Some(value) = builtin::Constant::named(name) {
-                return Some(self.built_in_value(value, span));
+                return self.built_in_value(value, span);
             }
         }
         if let Some(called) = builtin::BuiltIn::named(name) {
-            return Some(self.built_in_call(called, reference));
+            return self.built_in_call(called, reference);
         }
         match self.names.value(name, self.context.library) {
             Some((decl, library)) => self.declared_reference(decl, library, reference),

@@ -1,0 +1,135 @@
+//! Functions of numbers.
+
+use crate::check::Checker;
+use crate::check::types::{Type, Typed};
+use crate::diagnostic::Code;
+use crate::ir::Pool;
+use crate::ir::expr::{Binary, ExprId, Kind, Unary};
+use crate::syntax::ast::{Expr, Ref};
+
+impl<'a> Checker<'a> {
+    /// A function of one number.
+    pub fn function_of_one(&mut self, op: Unary, reference: &'a Ref) -> Option<Typed> {
+        let &[value] = self.positional(reference, 1, 1)?.as_slice() else {
+            return None;
+        };
+        let role = format!("the argument of `{}`", op.name());
+        let argument = match fixed_type(op.takes()) {
+            Some(ty) => self.expect(value, &ty, &role),
+            None => self.number_of(value)?,
+        };
+        let ty = match fixed_type(op.gives()) {
+            Some(ty) => ty,
+            None if op.gives() == Kind::Derived => self.root(&argument)?,
+            None => argument.ty.clone(),
+        };
+        Some(self.lift(ty, reference.span, [&argument], |pool, [a]| {
+            pool.unary(op, a)
+        }))
+    }
+
+    /// A function of two numbers of one unit; of more, where its result is of that unit, too.
+    pub fn function_of_two(&mut self, op: Binary, reference: &'a Ref) -> Option<Typed> {
+        let Some(ty) = fixed_type(op.gives()) else {
+            return self.fold(op, reference);
+        };
+        let [a, b] = self.two_alike(reference)?;
+        Some(self.lift(ty, reference.span, [&a, &b], |pool, [a, b]| {
+            pool.binary(op, a, b)
+        }))
+    }
+
+    /// The type of a square root.
+    fn root(&mut self, square: &Typed) -> Option<Type> {
+        let dim = square.ty.dim()?;
+        match dim.root() {
+            Some(root) => Some(Type::Quantity(root)),
+            None => {
+                let message = format!("{dim} has no square root with a unit");
+                self.error(Code::E0301, square.span, message)
+                    .label("the exponents of its unit are odd")
+                    .none()
+            }
+        }
+    }
+
+    /// The arguments of a function of two numbers of one unit.
+    pub fn two_alike(&mut self, reference: &'a Ref) -> Option<[Typed; 2]> {
+        let values = self.positional(reference, 2, 2)?;
+        let role = format!("the second argument of `{}`", reference.name.name);
+        self.numbers(&values, &role)?.try_into().ok()
+    }
+
+    /// `op(a, b, c)` is `op(op(a, b), c)`.
+    fn fold(&mut self, op: Binary, reference: &'a Ref) -> Option<Typed> {
+        let values = self.positional(reference, 2, usize::MAX)?;
+        let role = format!("every argument of `{}`", reference.name.name);
+        let mut numbers = self.numbers(&values, &role)?.into_iter();
+        let first = numbers.next()?;
+        Some(numbers.fold(first, |so_far, next| {
+            let (ty, span) = (so_far.ty.clone(), so_far.span);
+            self.lift(ty, span, [&so_far, &next], |pool, [a, b]| {
+                pool.binary(op, a, b)
+            })
+        }))
+    }
+
+    /// `clamp(x, limit)` is x within ± limit, `clamp(x, low, high)` within an interval.
+    pub fn clamp(&mut self, reference: &'a Ref) -> Option<Typed> {
+        let span = reference.span;
+        let values = self.positional(reference, 2, 3)?;
+        let numbers = self.numbers(&values, "a limit of `clamp`")?;
+        let ty = numbers.first()?.ty.clone();
+        match numbers.as_slice() {
+            [x, limit] => Some(self.lift(ty, span, [x, limit], |pool, [x, limit]| {
+                let low = pool.unary(Unary::Neg, limit);
+                clamped(pool, x, low, limit)
+            })),
+            [x, low, high] => Some(self.lift(ty, span, [x, low, high], |pool, [x, low, high]| {
+                clamped(pool, x, low, high)
+            })),
+            _ => None,
+        }
+    }
+
+    /// Numbers, all of the unit of the first.
+    fn numbers(&mut self, values: &[&'a Expr], role: &str) -> Option<Vec<Typed>> {
+        let (first, rest) = values.split_first()?;
+        let first = self.number_of(first)?;
+        self.alike(first, rest, role)
+    }
+
+    /// The first of some values with the rest, which have to be of its type.
+    pub fn alike(&mut self, first: Typed, rest: &[&'a Expr], role: &str) -> Option<Vec<Typed>> {
+        let mut all = vec![first.clone()];
+        for value in rest {
+            let next = self.expect_like(value, &first, role);
+            if next.ty == Type::Error {
+                return None;
+            }
+            all.push(next);
+        }
+        Some(all)
+    }
+
+    fn number_of(&mut self, value: &'a Expr) -> Option<Typed> {
+        let typed = self.expr(value);
+        self.number(&typed)?;
+        Some(typed)
+    }
+}
+
+fn clamped(pool: &mut Pool, x: ExprId, low: ExprId, high: ExprId) -> ExprId {
+    let floor = pool.binary(Binary::Max, x, low);
+    pool.binary(Binary::Min, floor, high)
+}
+
+/// The type of a kind; `None` if it depends on the operands.
+fn fixed_type(kind: Kind) -> Option<Type> {
+    match kind {
+        Kind::Truth => Some(Type::Bool),
+        Kind::Number => Some(Type::NUMBER),
+        Kind::Angle => Some(Type::ANGLE),
+        Kind::Quantity | Kind::Derived => None,
+    }
+}
