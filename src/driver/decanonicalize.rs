@@ -210,7 +210,7 @@ fn nothing(source: &str) -> Text<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Code, Form, Options, Text, decanonicalise, decanonicalize, read};
+    use super::{Code, Options, Text, TreeForm, decanonicalise, decanonicalize, read};
 
     /// No table leads here: the rows are taken away behind the reader's back.
     #[test]
@@ -221,7 +221,7 @@ mod tests {
             effort: 1,
             slack: 0.0,
             name: "learned",
-            form: Form::Bt,
+            form: TreeForm::Bt,
         };
         let table = Text {
             name: "policy.csv",
