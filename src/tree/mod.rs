@@ -1,5 +1,6 @@
 //! Behaviour trees: how they tick, how large they are, to canonical form and back, and when two of them are equal.
 
+mod answers;
 pub mod atoms;
 pub mod canonicalise;
 mod circuit;

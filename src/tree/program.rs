@@ -1,6 +1,5 @@
 //! The compiled form of a tree: nodes in pre-order, guards as jumps between masked comparisons.
 
-use super::atoms;
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::{Atom, Composite, Decorator, Guard, Node};
@@ -30,7 +29,7 @@ pub(super) enum Op {
     Condition(Jump),
     Behavior(Id<Behavior>),
     Composite { kind: Composite, memory: bool },
-    Parallel { successes: u32, children: u32 },
+    Parallel { needed: u32, children: u32 },
     Decorator(Decorator),
 }
 
@@ -77,7 +76,7 @@ impl Program {
                 successes,
                 children,
             } => Op::Parallel {
-                successes: *successes,
+                needed: *successes,
                 children: u32::try_from(children.len()).unwrap_or(u32::MAX),
             },
             Node::Decorator { kind, .. } => Op::Decorator(*kind),
@@ -96,7 +95,7 @@ impl Program {
             slots: (first, self.slots),
         };
         self.nodes.push(placed);
-        for child in atoms::children(node) {
+        for child in node.children() {
             self.node(child, atoms)?;
         }
         let (end, slots) = (self.nodes.len(), self.slots);

@@ -4,6 +4,7 @@
 //! the child that they had come to. What a tick does not reach starts over: the memory that a tick leaves is written
 //! only by the nodes that it reached.
 
+use super::answers;
 use super::program::{Jump, Op, Placed, Program};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
@@ -108,7 +109,7 @@ impl<S: Surroundings> Tick<'_, S> {
             return Status::Failure;
         };
         match placed.op {
-            Op::Condition(test) => answer(self.condition(test)),
+            Op::Condition(test) => answers::condition(self.condition(test)),
             Op::Behavior(behavior) => {
                 self.ticked += 1;
                 self.surroundings.behavior(behavior)
@@ -118,10 +119,7 @@ impl<S: Surroundings> Tick<'_, S> {
                 memory: false,
             } => self.reactive(at, placed, kind),
             Op::Composite { kind, memory: true } => self.resuming(at, placed, kind),
-            Op::Parallel {
-                successes,
-                children,
-            } => self.parallel(at, placed, successes, children),
+            Op::Parallel { needed, children } => self.parallel(at, placed, needed, children),
             Op::Decorator(kind) => self.decorator(at, placed, kind),
         }
     }
@@ -142,7 +140,7 @@ impl<S: Surroundings> Tick<'_, S> {
     }
 
     fn reactive(&mut self, at: usize, placed: Placed, kind: Composite) -> Status {
-        let goes_on = goes_on(kind);
+        let goes_on = answers::goes_on(kind);
         let mut child = at + 1;
         while child < placed.end {
             let status = self.node(child);
@@ -156,7 +154,7 @@ impl<S: Surroundings> Tick<'_, S> {
 
     /// The memory is the offset of the child to resume at, behind the node.
     fn resuming(&mut self, at: usize, placed: Placed, kind: Composite) -> Status {
-        let goes_on = goes_on(kind);
+        let goes_on = answers::goes_on(kind);
         let mut child = at + 1 + self.recall(placed) as usize;
         while child < placed.end {
             let before = self.ticked;
@@ -179,7 +177,7 @@ impl<S: Surroundings> Tick<'_, S> {
         goes_on
     }
 
-    fn parallel(&mut self, at: usize, placed: Placed, successes: u32, children: u32) -> Status {
+    fn parallel(&mut self, at: usize, placed: Placed, needed: u32, children: u32) -> Status {
         let (mut succeeded, mut failed) = (0, 0);
         let mut child = at + 1;
         while child < placed.end {
@@ -190,52 +188,25 @@ impl<S: Surroundings> Tick<'_, S> {
             }
             child = self.after(child);
         }
-        let status = if succeeded >= successes {
-            Status::Success
-        } else if children.saturating_sub(failed) < successes {
-            Status::Failure
-        } else {
-            return Status::Running;
-        };
-        // Children that were still running are halted.
-        self.forget(placed);
+        let status = answers::parallel(needed, children, succeeded, failed);
+        if status != Status::Running {
+            // Children that were still running are halted.
+            self.forget(placed);
+        }
         status
     }
 
     fn decorator(&mut self, at: usize, placed: Placed, kind: Decorator) -> Status {
         let count = self.recall(placed);
-        if let Decorator::Timeout(ticks) = kind {
-            if count >= ticks {
-                return Status::Failure;
-            }
-            let status = self.node(at + 1);
-            if status == Status::Running {
-                self.remember(placed, count + 1);
-            }
-            return status;
+        if answers::is_over(kind, count) {
+            return Status::Failure;
         }
-        let status = self.node(at + 1);
-        match (kind, status) {
-            (Decorator::Invert, Status::Success) | (Decorator::Fail, Status::Success) => {
-                Status::Failure
-            }
-            (Decorator::Invert, Status::Failure) | (Decorator::Succeed, Status::Failure) => {
-                Status::Success
-            }
-            (Decorator::Retry(times), Status::Failure) if count + 1 < u64::from(times) => {
-                self.remember(placed, count + 1);
-                Status::Running
-            }
-            (Decorator::Repeat(times), Status::Success) if count + 1 < u64::from(times) => {
-                self.remember(placed, count + 1);
-                Status::Running
-            }
-            (Decorator::Retry(_) | Decorator::Repeat(_), Status::Running) => {
-                self.remember(placed, count);
-                Status::Running
-            }
-            _ => status,
+        let child = self.node(at + 1);
+        let (status, count) = answers::decorated(kind, count, child);
+        if count > 0 {
+            self.remember(placed, count);
         }
+        status
     }
 
     fn after(&self, child: usize) -> usize {
@@ -259,21 +230,5 @@ impl<S: Surroundings> Tick<'_, S> {
         if let Some(slots) = self.next.get_mut(placed.slots.0..placed.slots.1) {
             slots.fill(0);
         }
-    }
-}
-
-fn answer(holds: bool) -> Status {
-    if holds {
-        Status::Success
-    } else {
-        Status::Failure
-    }
-}
-
-/// The status of a child that makes a composite go on to the next one.
-fn goes_on(kind: Composite) -> Status {
-    match kind {
-        Composite::Selector => Status::Failure,
-        Composite::Sequence => Status::Success,
     }
 }

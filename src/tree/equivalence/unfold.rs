@@ -3,6 +3,7 @@
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::{Composite, Decorator, Status};
+use crate::tree::answers;
 use crate::tree::circuit::{Circuit, Signal};
 use crate::tree::program::{Jump, Op, Placed, Program};
 use std::collections::BTreeMap;
@@ -140,9 +141,10 @@ impl Tick<'_> {
             Op::Condition(jump) => {
                 let holds = self.guard(jump);
                 let mut ways = Ways::new();
-                for (answer, when) in [(Status::Success, holds), (Status::Failure, !holds)] {
+                for value in [true, false] {
+                    let when = holds.negated_if(!value);
                     let when = self.inputs.circuit.and(reach.all, when);
-                    self.take(&mut ways, answer, Left::default(), when);
+                    self.take(&mut ways, answers::condition(value), Left::default(), when);
                 }
                 ways
             }
@@ -155,10 +157,7 @@ impl Tick<'_> {
                 let first = self.recall(placed);
                 self.composite(at, placed, reach, kind, Some(first))
             }
-            Op::Parallel {
-                successes,
-                children,
-            } => self.parallel(at, placed, reach, successes, children),
+            Op::Parallel { needed, children } => self.parallel(at, placed, reach, needed, children),
             Op::Decorator(kind) => self.decorator(at, placed, reach, kind),
         }
     }
@@ -218,10 +217,7 @@ impl Tick<'_> {
         kind: Composite,
         first: Option<u64>,
     ) -> Ways {
-        let goes_on = match kind {
-            Composite::Selector => Status::Failure,
-            Composite::Sequence => Status::Success,
-        };
+        let goes_on = answers::goes_on(kind);
         let mut ways = Ways::new();
         let mut child = at + 1 + first.unwrap_or(0) as usize;
         let mut open = BTreeMap::from([(Left::default(), reach.all)]);
@@ -262,7 +258,7 @@ impl Tick<'_> {
         at: usize,
         placed: Placed,
         reach: Reach,
-        successes: u32,
+        needed: u32,
         children: u32,
     ) -> Ways {
         let mut open = BTreeMap::from([((0u32, 0u32, Left::default()), reach.all)]);
@@ -282,13 +278,7 @@ impl Tick<'_> {
         }
         let mut ways = Ways::new();
         for ((succeeded, failed, mut left), when) in open {
-            let answer = if succeeded >= successes {
-                Status::Success
-            } else if children.saturating_sub(failed) < successes {
-                Status::Failure
-            } else {
-                Status::Running
-            };
+            let answer = answers::parallel(needed, children, succeeded, failed);
             if answer != Status::Running {
                 // Children that were still running are halted.
                 left.slots.clear();
@@ -301,30 +291,14 @@ impl Tick<'_> {
     fn decorator(&mut self, at: usize, placed: Placed, reach: Reach, kind: Decorator) -> Ways {
         let count = self.recall(placed);
         let mut ways = Ways::new();
-        if matches!(kind, Decorator::Timeout(ticks) if count >= ticks) {
+        if answers::is_over(kind, count) {
             self.take(&mut ways, Status::Failure, Left::default(), reach.all);
             return ways;
         }
         for (way, when) in self.node(at + 1, reach) {
             let mut left = way.left;
-            let (answer, counted) = match (kind, way.answer) {
-                (Decorator::Invert | Decorator::Fail, Status::Success) => (Status::Failure, None),
-                (Decorator::Invert | Decorator::Succeed, Status::Failure) => {
-                    (Status::Success, None)
-                }
-                (Decorator::Timeout(_), Status::Running) => (Status::Running, Some(count + 1)),
-                (Decorator::Retry(times), Status::Failure)
-                | (Decorator::Repeat(times), Status::Success)
-                    if count + 1 < u64::from(times) =>
-                {
-                    (Status::Running, Some(count + 1))
-                }
-                (Decorator::Retry(_) | Decorator::Repeat(_), Status::Running) => {
-                    (Status::Running, Some(count))
-                }
-                (_, answer) => (answer, None),
-            };
-            remember(&mut left, placed, counted.unwrap_or(0));
+            let (answer, count) = answers::decorated(kind, count, way.answer);
+            remember(&mut left, placed, count);
             self.take(&mut ways, answer, left, when);
         }
         ways
