@@ -16,6 +16,7 @@ use btc::random::Random;
 use btc::tree::canonicalise::canonicalise;
 use btc::tree::equivalence::{Environment, Side, Verdict, compare};
 use btc::tree::permute::permute;
+use btc::tree::reading::Reading;
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 
@@ -184,10 +185,10 @@ fn forms(c: &mut Criterion) {
         group.bench_function(
             format!("of {count} rules over {predicates} predicates"),
             |b| {
-                b.iter(|| canonicalise(black_box(&tree)).unwrap());
+                b.iter(|| canonicalise(black_box(&tree), Reading::Furthest).unwrap());
             },
         );
-        let canonical = canonicalise(&tree).unwrap();
+        let canonical = canonicalise(&tree, Reading::Furthest).unwrap();
         let order: Vec<_> = canonical.units.iter().rev().map(|u| u.behavior).collect();
         group.bench_function(
             format!("… from the right to the left, {predicates} predicates"),

@@ -11,7 +11,8 @@ use crate::ir::{Name, Program};
 use crate::policy::{Minterm, Policy, Row, decisions};
 use crate::syntax::print;
 use crate::tree::atoms::atoms;
-use crate::tree::canonicalise::{Canonical, Irreducible, canonicalise};
+use crate::tree::canonicalise::{Canonical, canonicalise};
+use crate::tree::reading::{Irreducible, Reading};
 
 /// The form to write.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,7 +35,8 @@ pub fn canonicalize(
 ) -> Result<(String, Option<String>), Refused> {
     let id = target::tree(loaded, name)?;
     let tree = &loaded.program.trees[id];
-    let canonical = canonicalise(&tree.root).map_err(|why| irreducible(loaded, tree, &why))?;
+    let canonical = canonicalise(&tree.root, Reading::Furthest)
+        .map_err(|why| irreducible(loaded, tree, &why))?;
     if canonical.units.is_empty() {
         let note = format!("`{}` selects nothing in any minterm", tree.name);
         let message = format!("`{}` has no canonical form", tree.name);

@@ -129,7 +129,7 @@ pub fn decanonicalize(asked: Asked, options: &Options) -> Result<Made, Refused> 
         policy,
         source,
     } = asked;
-    let refused = |refuted: Refuted| internal(&source, &format!("{refuted:?}"));
+    let refused = |refuted: Refuted| internal(&source, &refuted.to_string());
     let exact = decanonicalise::decanonicalise(&policy, &wanted).map_err(refused)?;
     let slack = if options.slack > 0.0 {
         decanonicalise::loosen(&policy, &exact, &wanted, options.slack)

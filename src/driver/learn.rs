@@ -194,7 +194,7 @@ fn refuted(loaded: &Loaded, refuted: &Refuted, evidence: u64) -> Refused {
     let diagnostic = Diagnostic::new(
         Code::E0609,
         target::end_of_file(loaded),
-        format!("the tree that was found is not equal to the policy: {refuted:?}"),
+        format!("the tree that was found is not equal to the policy: {refuted}"),
     )
     .note("this is a mistake of btc itself; please report it with the program");
     Refused::program(loaded, [diagnostic])

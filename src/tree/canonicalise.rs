@@ -1,22 +1,23 @@
 //! Trees to canonical form (paper, section IV): a selector of units `guard => behaviour`, one per behaviour.
 //!
-//! Nodes are reduced to units on a circuit, in which nested conditions stay small; the guards of the
-//! units are then written out and shortened.
+//! Memory is [read from the history](super::reading) over a circuit, in which nested conditions stay small; the guards of
+//! the units are then written out and shortened.
 
-mod reduce;
 mod shorten;
 mod table;
+mod units;
 
 pub(super) use shorten::shorten;
 pub use table::Decided;
 
 use super::circuit::Signal;
 use super::circuit::guards::Guards;
+use super::reading::{After, Irreducible, Reading, Reason, Sets, plan};
 use super::unit::{guarded, selector};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
-use crate::ir::tree::{Atom, Composite, Decorator, Guard, Node};
-use reduce::reduce;
+use crate::ir::tree::{Atom, Guard, Node};
+use units::Units;
 
 /// The most literals that a guard may have. A reader gives up long before.
 pub(super) const LITERALS: usize = 2_000;
@@ -38,61 +39,6 @@ pub struct Unit {
     pub behavior: Id<Behavior>,
 }
 
-/// Why a tree has no canonical form, and where.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Irreducible {
-    /// The way to the node from the root: the numbers of children. `guard => node` is a sequence of two.
-    pub path: Vec<usize>,
-    /// Why it cannot be reduced.
-    pub reason: Reason,
-}
-
-/// What more than predicates and the history a node depends on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Reason {
-    /// What follows this child is reached only by the status of its behaviour in the same tick.
-    Status(Composite),
-    /// Several children at a time.
-    Parallel,
-    /// A count.
-    Counting(Decorator),
-    /// A child of a memory node that answers without a behaviour: the history does not tell that it was passed.
-    Passed(Composite),
-    /// Two children of a memory node end with the same behaviour: the history does not tell which one it was.
-    Twice(Id<Behavior>),
-    /// A memory node goes by the failure of a selector whose next child is ticked in the same tick.
-    Failure,
-    /// The guard of this behaviour is too large to be written out.
-    Large(Id<Behavior>),
-}
-
-impl Irreducible {
-    /// Why, in words.
-    pub fn message(&self) -> &'static str {
-        match self.reason {
-            Reason::Status(Composite::Selector) => {
-                "what follows is reached only when this behaviour fails, in the same tick"
-            }
-            Reason::Status(Composite::Sequence) => {
-                "what follows is reached only when this behaviour succeeds, in the same tick"
-            }
-            Reason::Parallel => "`parallel` ticks several children at a time",
-            Reason::Counting(Decorator::Timeout(_)) => {
-                "`timeout` counts ticks, which no predicate tells"
-            }
-            Reason::Counting(_) => "the decorator counts, which no predicate tells",
-            Reason::Passed(_) => "no predicate tells that a memory node has passed a condition",
-            Reason::Twice(_) => {
-                "the behaviour ends two children of a memory node, and the history does not tell which"
-            }
-            Reason::Failure => {
-                "the history does not tell that a selector of several behaviours has failed"
-            }
-            Reason::Large(_) => "the guard of a behaviour would have more than 2000 literals",
-        }
-    }
-}
-
 impl Canonical {
     /// The units as a tree.
     pub fn tree(&self) -> Node {
@@ -109,19 +55,25 @@ impl Canonical {
     }
 }
 
-/// The canonical form of a tree.
+/// The canonical form of a tree whose memory is read from the history in this way.
 ///
 /// # Errors
 /// A node whose choice depends on more than predicates and history, with the reason.
-pub fn canonicalise(root: &Node) -> Result<Canonical, Irreducible> {
+pub fn canonicalise(root: &Node, by: Reading) -> Result<Canonical, Irreducible> {
     let mut guards = Guards::new();
     // Atoms stand in guards as they are read in the tree.
     root.visit_atoms(&mut |atom| {
         guards.atom(atom);
     });
-    let reduced = reduce(root, &mut Vec::new(), &mut guards)?;
+    let plan = plan(root, After::Nothing, &mut Guards::new())?;
+    let mut units = Units {
+        guards: &mut guards,
+        found: Vec::new(),
+    };
+    let Ok(_) = units.reach(&plan, by, Signal::TRUE);
+    let found = units.found;
     let mut unified: Vec<(Id<Behavior>, Signal)> = Vec::new();
-    for (behavior, when) in reduced.units {
+    for (behavior, when) in found {
         match unified.iter_mut().find(|(known, _)| *known == behavior) {
             Some((_, before)) => *before = guards.circuit.or(*before, when),
             None => unified.push((behavior, when)),

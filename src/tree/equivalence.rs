@@ -2,19 +2,24 @@
 
 mod choices;
 mod environment;
+mod moment;
 mod oracle;
 mod product;
+mod side;
 mod symbolic;
 mod unfold;
+mod window;
 
 pub use environment::Environment;
 use environment::Follow;
+pub(super) use window::remembers;
 
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::{Atom, Node, Status};
 use crate::policy::{Minterm, Policy};
 use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::{self, Display, Formatter};
 
 /// What is compared.
 #[derive(Clone, Copy, Debug)]
@@ -44,12 +49,12 @@ pub enum Means {
     Paths,
     /// Neither side has memory: by a truth table over the atoms on which their difference depends.
     Table {
-        /// How many these are.
+        /// How many there are.
         atoms: usize,
     },
     /// Neither side has memory: by a SAT solver.
     Solver {
-        /// As for a table.
+        /// How many there are.
         atoms: usize,
     },
 }
@@ -92,7 +97,7 @@ pub struct Trace {
     /// What the bits of the valuations mean.
     pub atoms: Vec<Atom>,
     /// The ticks in which they still agree.
-    pub steps: Vec<Step>,
+    pub steps: Vec<TraceTick>,
     /// The valuation in which they part.
     pub valuation: Minterm,
     /// What the left side selects in it.
@@ -103,7 +108,7 @@ pub struct Trace {
 
 /// A tick of a trace.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Step {
+pub struct TraceTick {
     /// What held.
     pub valuation: Minterm,
     /// What both sides selected.
@@ -112,9 +117,25 @@ pub struct Step {
     pub status: Status,
 }
 
-/// A guard asks what the environment does not tell.
+/// A guard asks an atom that the environment's table does not have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unknown(pub Atom);
+
+impl Display for Unknown {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        let (what, number) = match self.0 {
+            Atom::Predicate(predicate) => ("predicate", predicate.index()),
+            Atom::Done(behavior) => ("success of behaviour", behavior.index()),
+            Atom::Failed(behavior) => ("failure of behaviour", behavior.index()),
+        };
+        write!(
+            f,
+            "a guard asks for {what} {number}, which the table does not have"
+        )
+    }
+}
+
+impl std::error::Error for Unknown {}
 
 /// Runs both sides in lockstep over every sequence of valuations and statuses that the environment allows.
 ///

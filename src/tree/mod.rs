@@ -4,16 +4,16 @@ mod answers;
 pub mod atoms;
 pub mod canonicalise;
 mod circuit;
+mod compiled;
 pub mod decanonicalise;
 pub mod disagreement;
-
 pub mod drawing;
 pub mod equivalence;
 pub mod guard;
 pub mod permute;
-pub mod program;
 pub mod prove;
 pub mod prune;
+pub mod reading;
 pub mod size;
 pub mod tick;
 pub mod unit;

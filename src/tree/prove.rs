@@ -1,22 +1,22 @@
 //! Proofs that a tree takes the decisions of a policy.
 
-mod cube;
-mod plan;
+mod refuted;
 mod rows;
+mod wide;
+
+pub use refuted::Refuted;
 
 use super::atoms::atoms;
-use super::canonicalise::Irreducible;
-use super::equivalence::{Environment, Explored, Side, Trace, Verdict, compare};
+use super::equivalence::{Environment, Explored, Side, Verdict, compare, remembers};
+use super::reading::{After, Answers, May, Plan, Reading, plan, read};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::{Atom, Node};
 use crate::logic::{Bits, Columns};
 use crate::policy::{Minterm, Policy, Row};
-use cube::{Cube, Fault};
-pub use plan::Reading;
-use plan::{Plan, plan};
-use rows::{Held, Rows};
+use rows::RowSets;
 use rustc_hash::FxHashMap;
+use wide::{Fault, WideRow};
 
 /// What is known of a tree that was proved: in every care minterm it takes the policy's decision, with memory read from
 /// the history (P1); and so does the tree itself, memory fresh, on every path of the environment (P2).
@@ -34,30 +34,6 @@ pub struct Proof {
     pub reading: Reading,
     /// What was explored.
     pub explored: Explored,
-}
-
-/// Why a tree is not equal to a policy.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Refuted {
-    /// The policy has no rows.
-    Empty,
-    /// The tree has no canonical form.
-    Irreducible(Irreducible),
-    /// With memory read from the history it decides otherwise here.
-    Decides {
-        /// The minterm.
-        minterm: Minterm,
-        /// What the policy does.
-        policy: Id<Behavior>,
-        /// What the tree does.
-        tree: Option<Id<Behavior>>,
-    },
-    /// It asks what the policy does not observe.
-    Unknown(Atom),
-    /// On this path it decides otherwise; left is the tree, right the policy.
-    Parts(Trace),
-    /// There was too much to explore.
-    Undecided,
 }
 
 /// Proves that a tree takes the decisions of a policy in all of its rows, along its greedy transitions where it has
@@ -127,7 +103,7 @@ impl<'a> Prover<'a> {
     /// Whether a tree takes the policy's decisions.
     pub fn proves(&self, root: &Node) -> bool {
         match self.read(root) {
-            Ok((plan, _)) => !plan.remembers() || self.paths(root).is_ok(),
+            Ok(_) => !root.remembers() || self.paths(root).is_ok(),
             Err(_) => false,
         }
     }
@@ -137,10 +113,10 @@ impl<'a> Prover<'a> {
     /// # Errors
     /// The counterexample.
     pub fn prove(&self, root: &Node) -> Result<Proof, Refuted> {
-        let (plan, reading) = self.read(root)?;
+        let reading = self.read(root)?;
         let recorded = !self.policy.transitions.is_empty();
         // Without memory and records, a path is nothing but its minterms.
-        let explored = match recorded || plan.remembers() {
+        let explored = match recorded || root.remembers() {
             true => self.paths(root)?,
             false => Explored::default(),
         };
@@ -155,34 +131,31 @@ impl<'a> Prover<'a> {
     }
 
     /// P1: the tree, memory read from the history, decides as the policy in every row.
-    fn read<'t>(&self, root: &'t Node) -> Result<(Plan<'t>, Reading), Refuted> {
+    fn read(&self, root: &Node) -> Result<Reading, Refuted> {
         if self.policy.rows.is_empty() {
             return Err(Refuted::Empty);
         }
-        let plan = plan(root).map_err(Refuted::Irreducible)?;
+        let plan = plan(root, After::Anything, &mut May).map_err(Refuted::Irreducible)?;
         if let Some(unknown) = atoms(root).into_iter().find(|atom| !self.knows(*atom)) {
             return Err(Refuted::Unknown(unknown));
         }
-        let furthest = self.read_by(&plan, Reading::Furthest);
-        let reading = match furthest {
-            Ok(()) => Reading::Furthest,
-            Err(_) if plan.remembers() && self.read_by(&plan, Reading::Unfinished).is_ok() => {
-                Reading::Unfinished
+        match self.read_by(&plan, Reading::Furthest) {
+            Ok(()) => Ok(Reading::Furthest),
+            Err(_) if root.remembers() && self.read_by(&plan, Reading::Unfinished).is_ok() => {
+                Ok(Reading::Unfinished)
             }
-            Err(refuted) => return Err(refuted),
-        };
-        Ok((plan, reading))
+            Err(refuted) => Err(refuted),
+        }
     }
 
-    fn read_by(&self, plan: &Plan, reading: Reading) -> Result<(), Refuted> {
+    fn read_by(&self, plan: &Plan, by: Reading) -> Result<(), Refuted> {
         let none = Bits::empty(self.policy.rows.len());
         let plain = self.plain.iter();
         let all = plain.fold(none.clone(), |all, (_, rows)| all.or(rows));
         let mut selected: Vec<(Id<Behavior>, Bits)> = Vec::new();
         let mut wrong = none;
-        let mut rows = Rows {
+        let mut rows = RowSets {
             table: self,
-            reading,
             selected: |behavior, rows: &Bits| {
                 let own = self.plain.iter().find(|(b, _)| *b == behavior);
                 let other = own.map_or_else(|| rows.clone(), |(_, own)| rows.minus(own));
@@ -192,18 +165,19 @@ impl<'a> Prover<'a> {
                 }
             },
         };
-        let nothing = rows.read(plan, &all);
-        if let Some(first) = wrong.or(&nothing).first() {
+        let Ok(Answers { success, failure }) = read(plan, by, all, &mut rows);
+        // Where it answers without a behaviour, nothing is selected.
+        if let Some(first) = wrong.or(&success).or(&failure).first() {
             let tree = selected.iter().find(|(_, rows)| rows.contains(first));
             return Err(self.decides(first, None, tree.map(|(behavior, _)| *behavior)));
         }
-        let mut steps = CUBES;
+        let mut left = CUBES;
         for i in &self.wide {
             let Some(row) = self.policy.rows.get(*i) else {
                 continue;
             };
-            let mut cube = Cube::new(row, &self.positions, reading);
-            match cube.selects(plan, row.behavior, &mut steps) {
+            let mut wide = WideRow::new(row, &self.positions);
+            match wide.selects(row.behavior, plan, by, &mut left) {
                 Ok(()) => {}
                 Err(Fault::Spent) => return Err(Refuted::Undecided),
                 Err(Fault::Decides(minterm, tree)) => {
@@ -226,15 +200,10 @@ impl<'a> Prover<'a> {
         }
     }
 
-    /// Whether the policy tells an atom, if only by that its window never remembers it.
+    /// Whether the policy knows the value of an atom: it observes it, or its window never makes it true.
     fn knows(&self, atom: Atom) -> bool {
-        let history = self.policy.history;
-        self.positions.contains_key(&atom)
-            || match atom {
-                Atom::Predicate(_) => false,
-                Atom::Done(_) => history.window == 0 || !history.success,
-                Atom::Failed(_) => history.window == 0 || !history.failure,
-            }
+        let history = !matches!(atom, Atom::Predicate(_));
+        self.positions.contains_key(&atom) || history && !remembers(self.policy.history, atom)
     }
 
     /// P2: so does the tree itself, memory fresh, on every path.
@@ -250,11 +219,5 @@ impl<'a> Prover<'a> {
             Ok(Verdict::Undecided(_)) => Err(Refuted::Undecided),
             Err(unknown) => Err(Refuted::Unknown(unknown.0)),
         }
-    }
-}
-
-impl Held for Prover<'_> {
-    fn held(&self, atom: Atom) -> Option<&Bits> {
-        self.column(atom)
     }
 }

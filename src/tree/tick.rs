@@ -5,7 +5,7 @@
 //! only by the nodes that it reached.
 
 use super::answers;
-use super::program::{Jump, Op, Placed, Program};
+use super::compiled::{CompiledTree, Jump, Op, Placed};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::{Atom, Composite, Decorator, Node, Status};
@@ -21,7 +21,7 @@ pub trait Surroundings {
 /// A tree with its memory.
 #[derive(Clone, Debug)]
 pub struct Runner {
-    program: Program,
+    tree: CompiledTree,
     now: Vec<u64>,
     next: Vec<u64>,
 }
@@ -32,10 +32,10 @@ impl Runner {
     /// # Errors
     /// An atom that a guard asks and that is not among `atoms`.
     pub fn new(root: &Node, atoms: &[Atom]) -> Result<Self, Atom> {
-        let program = Program::new(root, atoms)?;
-        let memory = vec![0; program.slots];
+        let tree = CompiledTree::new(root, atoms)?;
+        let memory = vec![0; tree.slots];
         Ok(Self {
-            program,
+            tree,
             now: memory.clone(),
             next: memory,
         })
@@ -66,7 +66,7 @@ impl Runner {
     pub fn tick_in(&mut self, surroundings: &mut impl Surroundings) -> Status {
         self.next.fill(0);
         let mut tick = Tick {
-            program: &self.program,
+            tree: &self.tree,
             now: &self.now,
             next: &mut self.next,
             ticked: 0,
@@ -95,7 +95,7 @@ impl Runner {
 }
 
 struct Tick<'a, S> {
-    program: &'a Program,
+    tree: &'a CompiledTree,
     now: &'a [u64],
     next: &'a mut [u64],
     /// How many behaviours this tick has ticked.
@@ -105,7 +105,7 @@ struct Tick<'a, S> {
 
 impl<S: Surroundings> Tick<'_, S> {
     fn node(&mut self, at: usize) -> Status {
-        let Some(&placed) = self.program.nodes.get(at) else {
+        let Some(&placed) = self.tree.nodes.get(at) else {
             return Status::Failure;
         };
         match placed.op {
@@ -129,7 +129,7 @@ impl<S: Surroundings> Tick<'_, S> {
             match at {
                 Jump::Answer(value) => return value,
                 Jump::Test(index) => {
-                    let Some(test) = self.program.tests.get(index) else {
+                    let Some(test) = self.tree.tests.get(index) else {
                         return false;
                     };
                     let holds = self.surroundings.matches(test.word, test.mask, test.value);
@@ -210,7 +210,7 @@ impl<S: Surroundings> Tick<'_, S> {
     }
 
     fn after(&self, child: usize) -> usize {
-        self.program
+        self.tree
             .nodes
             .get(child)
             .map_or(usize::MAX, |placed| placed.end)

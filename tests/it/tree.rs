@@ -13,6 +13,7 @@ mod guards;
 mod permuted;
 mod proofs;
 mod scale;
+mod seen;
 mod small_delivery;
 mod ticks;
 mod walk;

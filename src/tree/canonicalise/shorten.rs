@@ -6,10 +6,10 @@ use crate::tree::circuit::guards::Guards;
 use crate::tree::circuit::{Signal, truth};
 use crate::tree::guard::{factored, not, with_part};
 
-/// Up to so many atoms a guard is minimised in two levels as well.
+/// A guard of at most this many atoms is also minimised in two levels.
 const TWO_LEVELS: usize = 8;
 
-/// Up to so many literals parts of a guard are tried to be left out.
+/// A guard of at most this many literals is tried without each of its parts.
 const DROPPED: usize = 400;
 
 /// A guard of at most `most` literals that has the value of `signal` wherever `free` does not hold. `None` if none is

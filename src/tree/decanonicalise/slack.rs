@@ -221,7 +221,8 @@ impl Trials<'_> {
     /// The behaviours that a tree for the fixed rows takes in all rows, and the open rows in which it takes one that is
     /// not allowed: these have the table's.
     fn decided(&mut self, wanted: &Wanted) -> Option<(Vec<Id<Behavior>>, Vec<usize>)> {
-        let canonical = canonicalise(&self.tree(wanted)?.root).ok()?;
+        let found = self.tree(wanted)?;
+        let canonical = canonicalise(&found.root, found.proof.reading).ok()?;
         let atoms = &self.policy.atoms;
         let mut refused = Vec::new();
         let rows = self.policy.rows.iter().zip(&self.allowed).zip(wanted);

@@ -7,7 +7,7 @@ use crate::policy::Policy;
 use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
 
-/// The rows of a table by their free atoms: those that leave the same ones free are told apart by the others.
+/// The rows of a table by their free atoms: rows with the same free atoms differ in the others.
 pub(super) struct Choices<'a> {
     rows: BTreeMap<&'a [u64], FxHashMap<&'a [u64], Id<Behavior>>>,
 }

@@ -1,6 +1,7 @@
 //! What a recorded environment may do next.
 
 use super::oracle::Oracle;
+use super::window::{Termination, Window, enter, keeps, remembers, shows, termination};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::task::History;
@@ -33,13 +34,6 @@ pub(super) enum Follow {
     Consistent,
 }
 
-/// A behaviour with how it ended; `None` is one that no atom asks for.
-pub(super) type Termination = Option<(Id<Behavior>, Status)>;
-
-/// The last terminations, the newest last. A window is full: what no atom asks for fills it up. It is empty where
-/// nothing is remembered.
-pub(super) type Window = Vec<Termination>;
-
 /// Where the environment stands.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Place {
@@ -47,8 +41,6 @@ pub(super) enum Place {
     At(usize),
     /// Where the window holds these terminations.
     Window(Window),
-    /// Before the first tick.
-    Start,
 }
 
 /// A minterm of the table, or a cube of it.
@@ -59,8 +51,8 @@ pub(super) struct Care<'a> {
     pub(super) free: Option<&'a Minterm>,
 }
 
-/// A table made ready: its atoms, its minterms, what may follow.
-pub(super) struct World<'a> {
+/// An environment that a table gives: its atoms, its minterms, what may follow.
+pub(super) struct TableEnvironment<'a> {
     follow: Follow,
     history: History,
     pub(super) atoms: &'a [Atom],
@@ -81,8 +73,8 @@ type Showing = FxHashMap<(bool, Minterm), Rc<[usize]>>;
 
 type Record = (Id<Behavior>, Status, Option<usize>, usize);
 
-/// What a behaviour comes to.
-pub(super) struct Outcome {
+/// What comes of a tick.
+pub(super) struct Consequence {
     pub(super) status: Status,
     /// Where the environment stands then; `None` if nothing follows.
     pub(super) next: Option<Place>,
@@ -92,7 +84,7 @@ pub(super) struct Outcome {
     pub(super) open: bool,
 }
 
-impl<'a> World<'a> {
+impl<'a> TableEnvironment<'a> {
     pub(super) fn new(policy: &'a Policy, follow: Follow) -> Self {
         let mut minterms: Vec<Care> = Vec::new();
         let mut numbers: BTreeMap<&Minterm, usize> = BTreeMap::new();
@@ -128,7 +120,7 @@ impl<'a> World<'a> {
             Follow::Consistent if starts.is_empty() => starts = (0..policy.rows.len()).collect(),
             Follow::Consistent => {}
         }
-        let mut world = Self {
+        let mut environment = Self {
             follow,
             history: policy.history,
             atoms: &policy.atoms,
@@ -139,9 +131,12 @@ impl<'a> World<'a> {
             kinds: Vec::new(),
             showing: RefCell::default(),
         };
-        let kinds = policy.atoms.iter().filter(|atom| world.remembers(**atom));
-        world.kinds = kinds.filter_map(|atom| termination(*atom)).collect();
-        world
+        let kinds = policy
+            .atoms
+            .iter()
+            .filter(|atom| environment.remembers(**atom));
+        environment.kinds = kinds.filter_map(|atom| termination(*atom)).collect();
+        environment
     }
 
     /// Whether the window would remember what this atom asks.
@@ -149,74 +144,74 @@ impl<'a> World<'a> {
         remembers(self.history, atom)
     }
 
-    /// The minterm in which a tick finds the environment, and where it stands then.
-    pub(super) fn find(&self, place: &Place, oracle: &mut Oracle) -> Option<(usize, Place)> {
+    /// The minterm in which a tick finds the environment, and where it stands then; before the first tick it is nowhere.
+    pub(super) fn find(
+        &self,
+        place: Option<&Place>,
+        oracle: &mut Oracle,
+    ) -> Option<(usize, Place)> {
         match (self.follow, place) {
-            (_, Place::At(minterm)) => Some((*minterm, place.clone())),
-            (_, Place::Window(window)) => {
-                let minterm = pick(&self.showing(window, false), oracle)?;
-                Some((minterm, place.clone()))
+            (_, Some(Place::At(minterm))) => Some((*minterm, Place::At(*minterm))),
+            (_, Some(Place::Window(window))) => {
+                let minterm = oracle.pick(&self.showing(window, false))?;
+                Some((minterm, Place::Window(window.clone())))
             }
-            (Follow::Recorded, Place::Start) => {
-                let start = pick(&self.starts, oracle)?;
+            (Follow::Recorded, None) => {
+                let start = oracle.pick(&self.starts)?;
                 Some((start, Place::At(start)))
             }
-            (Follow::Consistent, Place::Start) => {
+            (Follow::Consistent, None) => {
                 let window = self.any_window(oracle);
-                let start = pick(&self.showing(&window, true), oracle)?;
+                let start = oracle.pick(&self.showing(&window, true))?;
                 Some((start, Place::Window(window)))
             }
         }
     }
 
-    /// What the selected behaviour may come to.
-    pub(super) fn outcome(
+    /// What may come of a tick in which this is selected.
+    pub(super) fn consequence(
         &self,
         place: &Place,
-        behavior: Option<Id<Behavior>>,
+        selected: Option<Id<Behavior>>,
         oracle: &mut Oracle,
-    ) -> Outcome {
+    ) -> Consequence {
         match place {
-            Place::At(minterm) => self.recorded_outcome(*minterm, behavior, oracle),
+            Place::At(minterm) => self.recorded(*minterm, selected, oracle),
             Place::Window(window) => {
-                let status = match behavior {
-                    Some(_) => any_status(oracle),
-                    None => Status::Running,
-                };
                 let mut window = window.clone();
-                if let Some(behavior) = behavior {
-                    self.remember(&mut window, behavior, status);
+                let mut status = Status::Running;
+                if let Some(behavior) = selected {
+                    status = oracle.status();
+                    if keeps(self.history, status) {
+                        let termination = (behavior, status);
+                        let asked = self.kinds.contains(&termination);
+                        enter(&mut window, asked.then_some(termination));
+                    }
                 }
-                Outcome {
+                Consequence {
                     status,
                     next: Some(Place::Window(window)),
                     transition: None,
                     open: false,
                 }
             }
-            Place::Start => Outcome {
-                status: Status::Running,
-                next: None,
-                transition: None,
-                open: false,
-            },
         }
     }
 
-    fn recorded_outcome(
+    fn recorded(
         &self,
         minterm: usize,
-        behavior: Option<Id<Behavior>>,
+        selected: Option<Id<Behavior>>,
         oracle: &mut Oracle,
-    ) -> Outcome {
+    ) -> Consequence {
         let records: Vec<&Record> = self
             .recorded
             .get(&minterm)
             .into_iter()
             .flatten()
-            .filter(|record| Some(record.0) == behavior)
+            .filter(|record| Some(record.0) == selected)
             .collect();
-        let stays = Outcome {
+        let stays = Consequence {
             status: Status::Running,
             next: Some(Place::At(minterm)),
             transition: None,
@@ -225,26 +220,12 @@ impl<'a> World<'a> {
         let choice = oracle.choose(records.len() + 1);
         match choice.checked_sub(1).and_then(|i| records.get(i)) {
             None => stays,
-            Some((_, status, next, transition)) => Outcome {
+            Some((_, status, next, transition)) => Consequence {
                 status: *status,
                 next: next.map(Place::At),
                 transition: Some(*transition),
                 open: false,
             },
-        }
-    }
-
-    /// A termination enters the window, and the oldest leaves it.
-    fn remember(&self, window: &mut Window, behavior: Id<Behavior>, status: Status) {
-        let kept = match status {
-            Status::Success => self.history.success,
-            Status::Failure => self.history.failure,
-            Status::Running => false,
-        };
-        if kept && !window.is_empty() {
-            window.remove(0);
-            let termination = (behavior, status);
-            window.push(self.kinds.contains(&termination).then_some(termination));
         }
     }
 
@@ -261,7 +242,7 @@ impl<'a> World<'a> {
 
     /// The minterms, or only the starts, whose history atoms are those of a window.
     fn showing(&self, window: &[Termination], starts: bool) -> Rc<[usize]> {
-        let shown = |atom: &Atom| self.remembers(*atom) && in_window(window, *atom);
+        let shown = |atom: &Atom| self.remembers(*atom) && shows(window, *atom);
         let key = (starts, Minterm::new(self.atoms.iter().map(shown)));
         let mut showing = self.showing.borrow_mut();
         if let Some(found) = showing.get(&key) {
@@ -293,44 +274,4 @@ impl Care<'_> {
                 (a ^ b) & among & !free.copied().unwrap_or(0) == 0
             })
     }
-}
-
-/// The termination that a history atom asks for.
-pub(super) fn termination(atom: Atom) -> Termination {
-    match atom {
-        Atom::Predicate(_) => None,
-        Atom::Done(behavior) => Some((behavior, Status::Success)),
-        Atom::Failed(behavior) => Some((behavior, Status::Failure)),
-    }
-}
-
-/// Whether a window remembers what an atom asks.
-pub(super) fn remembers(history: History, atom: Atom) -> bool {
-    match atom {
-        Atom::Predicate(_) => false,
-        Atom::Done(_) => history.window > 0 && history.success,
-        Atom::Failed(_) => history.window > 0 && history.failure,
-    }
-}
-
-/// Whether a window makes a history atom true.
-pub(super) fn in_window(window: &[Termination], atom: Atom) -> bool {
-    let asked = termination(atom);
-    asked.is_some() && window.contains(&asked)
-}
-
-/// Any of the three.
-pub(super) fn any_status(oracle: &mut Oracle) -> Status {
-    match oracle.choose(3) {
-        0 => Status::Running,
-        1 => Status::Success,
-        _ => Status::Failure,
-    }
-}
-
-fn pick(among: &[usize], oracle: &mut Oracle) -> Option<usize> {
-    let length = among.len();
-    (length > 0)
-        .then(|| oracle.choose(length))
-        .and_then(|i| among.get(i).copied())
 }

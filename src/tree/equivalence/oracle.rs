@@ -1,5 +1,7 @@
 //! Everything that is not determined, one choice after the other.
 
+use crate::ir::tree::Status;
+
 /// Answers choices so that repeated runs go through every combination of answers, in order.
 #[derive(Debug, Default)]
 pub(super) struct Oracle {
@@ -20,6 +22,23 @@ impl Oracle {
         };
         self.at += 1;
         answer
+    }
+
+    /// One of these; `None` if there are none.
+    pub(super) fn pick(&mut self, among: &[usize]) -> Option<usize> {
+        let length = among.len();
+        (length > 0)
+            .then(|| self.choose(length))
+            .and_then(|i| among.get(i).copied())
+    }
+
+    /// Any of the three.
+    pub(super) fn status(&mut self) -> Status {
+        match self.choose(3) {
+            0 => Status::Running,
+            1 => Status::Success,
+            _ => Status::Failure,
+        }
     }
 
     /// Goes on to the next combination; false when all have been given.

@@ -6,18 +6,18 @@
 
 mod pairs;
 
-use super::environment::{Termination, Window};
+use super::window::{Termination, Window, enter};
 use super::{Explored, Means, Trace, Unknown, Verdict};
 use crate::ir::task::History;
 use crate::ir::tree::{Atom, Node};
 use crate::tree::atoms::atoms;
 use crate::tree::circuit::sat::{Exhausted, Solver};
 use crate::tree::circuit::{Signal, truth};
-use crate::tree::program::Program;
+use crate::tree::compiled::CompiledTree;
 use pairs::{Memories, Pairs};
 use rustc_hash::FxHashSet;
 
-/// Up to so many atoms a truth table is quicker than a solver.
+/// Up to this many atoms, a truth table is quicker than a solver.
 const TABLE: usize = 20;
 
 /// Decisions after which the solver gives up.
@@ -30,10 +30,10 @@ pub(super) fn explore(left: &Node, right: &Node, history: History) -> Result<Ver
     let mut asked = atoms(left);
     asked.extend(atoms(right));
     let asked: Vec<Atom> = asked.into_iter().collect();
-    let program = |root| Program::new(root, &asked).map_err(Unknown);
-    let programs = [program(left)?, program(right)?];
-    let mut search = Search {
-        pairs: Pairs::new(asked, programs, history),
+    let tree = |root| CompiledTree::new(root, &asked).map_err(Unknown);
+    let trees = [tree(left)?, tree(right)?];
+    let mut search = SymbolicSearch {
+        pairs: Pairs::new(asked, trees, history),
         solver: Solver::new(DECISIONS),
         reached: Vec::new(),
         known: FxHashSet::default(),
@@ -59,7 +59,7 @@ struct Reached {
     from: Option<(usize, Signal)>,
 }
 
-struct Search {
+struct SymbolicSearch {
     pairs: Pairs,
     solver: Solver,
     reached: Vec<Reached>,
@@ -67,7 +67,7 @@ struct Search {
     explored: Explored,
 }
 
-impl Search {
+impl SymbolicSearch {
     /// The shortest trace on which the trees part.
     fn run(&mut self) -> Result<Option<Trace>, Exhausted> {
         let fresh = self.pairs.fresh();
@@ -162,8 +162,7 @@ impl Search {
             };
             let mut window = state.window.clone();
             if let Some(termination) = entry {
-                window.push(*termination);
-                window.remove(0);
+                enter(&mut window, *termination);
             }
             let circuit = &mut self.pairs.inputs.circuit;
             let moves = circuit.all([*left, *right, *enters]);

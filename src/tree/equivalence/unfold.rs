@@ -5,14 +5,14 @@ use crate::ir::law::Behavior;
 use crate::ir::tree::{Composite, Decorator, Status};
 use crate::tree::answers;
 use crate::tree::circuit::{Circuit, Signal};
-use crate::tree::program::{Jump, Op, Placed, Program};
+use crate::tree::compiled::{CompiledTree, Jump, Op, Placed};
 use std::collections::BTreeMap;
 
 /// What a tick meets: a signal for every atom, and for every behaviour whether it ends and whether it then fails. In
 /// one tick a behaviour has one status, wherever it is ticked: nothing has moved in between.
 pub(super) struct Inputs {
     pub(super) circuit: Circuit,
-    /// The atoms, in the order of the programs' bits.
+    /// The atoms, in the order of the trees' bits.
     pub(super) atoms: Vec<Signal>,
     pub(super) behaviors: BTreeMap<Id<Behavior>, [Signal; 2]>,
 }
@@ -46,12 +46,12 @@ pub(super) struct Unfolded {
 }
 
 /// Unfolds a tick from this memory.
-pub(super) fn unfold(program: &Program, memory: &[u64], inputs: &mut Inputs) -> Unfolded {
+pub(super) fn unfold(tree: &CompiledTree, memory: &[u64], inputs: &mut Inputs) -> Unfolded {
     let mut tick = Tick {
-        program,
+        tree,
         memory,
         inputs,
-        tests: vec![None; program.tests.len()],
+        tests: vec![None; tree.tests.len()],
         selects: BTreeMap::new(),
     };
     let ways = tick.node(
@@ -62,7 +62,7 @@ pub(super) fn unfold(program: &Program, memory: &[u64], inputs: &mut Inputs) -> 
         },
     );
     let selects = tick.selects;
-    if program.slots == 0 {
+    if tree.slots == 0 {
         return Unfolded {
             selects,
             leaves: vec![(Box::default(), Signal::TRUE)],
@@ -75,7 +75,7 @@ pub(super) fn unfold(program: &Program, memory: &[u64], inputs: &mut Inputs) -> 
     }
     let leaves = leaves.into_iter().map(|(slots, when)| {
         let slot = |slot| slots.get(&slot).copied().unwrap_or(0);
-        ((0..program.slots).map(slot).collect(), when)
+        ((0..tree.slots).map(slot).collect(), when)
     });
     Unfolded {
         selects,
@@ -121,7 +121,7 @@ struct Way {
 type Ways = BTreeMap<Way, Signal>;
 
 struct Tick<'a> {
-    program: &'a Program,
+    tree: &'a CompiledTree,
     memory: &'a [u64],
     inputs: &'a mut Inputs,
     /// The guards from each test on, as far as they were asked.
@@ -131,7 +131,7 @@ struct Tick<'a> {
 
 impl Tick<'_> {
     fn node(&mut self, at: usize, reach: Reach) -> Ways {
-        let Some(&placed) = self.program.nodes.get(at) else {
+        let Some(&placed) = self.tree.nodes.get(at) else {
             return Ways::new();
         };
         if reach.all == Signal::FALSE {
@@ -168,7 +168,7 @@ impl Tick<'_> {
             Jump::Answer(value) => return Signal::constant(value),
             Jump::Test(index) => index,
         };
-        let Some(&test) = self.program.tests.get(index) else {
+        let Some(&test) = self.tree.tests.get(index) else {
             return Signal::FALSE;
         };
         if let Some(Some(signal)) = self.tests.get(index) {
@@ -193,7 +193,7 @@ impl Tick<'_> {
         *selected = self.inputs.circuit.or(*selected, reach.fresh);
         let mut ways = Ways::new();
         // Without memory, what comes of behaviours leaves no trace.
-        if self.program.slots == 0 {
+        if self.tree.slots == 0 {
             return ways;
         }
         for answer in [Status::Success, Status::Failure, Status::Running] {
@@ -327,7 +327,7 @@ impl Tick<'_> {
     }
 
     fn after(&self, child: usize) -> usize {
-        let placed = self.program.nodes.get(child);
+        let placed = self.tree.nodes.get(child);
         placed.map_or(usize::MAX, |placed| placed.end)
     }
 

@@ -6,18 +6,19 @@ use super::build::{
 };
 use super::grown::Soil;
 use super::random::{Random, policy};
-use super::walk::holds;
+use super::walk::{holds, read};
 use btc::ir::Id;
 use btc::ir::law::Behavior;
 use btc::ir::task::History;
 use btc::ir::tree::{Atom, Composite, Decorator, Guard, Node};
-use btc::tree::canonicalise::{Reason, canonicalise};
+use btc::tree::canonicalise::canonicalise;
 use btc::tree::decanonicalise::{Care, Method, decanonicalise};
 use btc::tree::equivalence::{Environment, Side, Verdict, compare};
+use btc::tree::reading::{Reading, Reason};
 
 /// The units of a tree have guards that are equal to these under every valuation, and no longer.
 fn check(root: &Node, units: &[(Guard, usize)]) {
-    let canonical = canonicalise(root).unwrap();
+    let canonical = canonicalise(root, Reading::Furthest).unwrap();
     let found: Vec<usize> = canonical.units.iter().map(|u| u.behavior.index()).collect();
     let expected: Vec<usize> = units.iter().map(|(_, b)| *b).collect();
     assert_eq!(found, expected);
@@ -65,7 +66,7 @@ fn figure_3_conditions_at_several_levels() {
     let guard = and(vec![p(0), Guard::Or(vec![p(1), and(vec![p(2), p(3)])])]);
     check(&root, &[(guard.clone(), 0)]);
     // It reads as in the figure.
-    let canonical = canonicalise(&root).unwrap();
+    let canonical = canonicalise(&root, Reading::Furthest).unwrap();
     assert_eq!(canonical.tree(), when(guard, leaf(0)));
 }
 
@@ -172,7 +173,7 @@ fn what_depends_on_more_than_predicates_is_an_error_with_a_place() {
             Reason::Twice(Id::new(0)),
         ),
         (
-            // Which of the two has failed, and whether the other was ticked after it, the history does not tell.
+            // Which of the two has failed, and whether the other was ticked after it, the history does not show.
             memory_selector(vec![
                 selector(vec![when(p(0), leaf(0)), when(not(p(0)), leaf(1))]),
                 leaf(2),
@@ -193,7 +194,7 @@ fn what_depends_on_more_than_predicates_is_an_error_with_a_place() {
         (entangled(60), vec![], Reason::Large(Id::new(13))),
     ];
     for (root, path, reason) in cases {
-        let found = canonicalise(&root).unwrap_err();
+        let found = canonicalise(&root, Reading::Furthest).unwrap_err();
         assert_eq!((&found.path, found.reason), (&path, reason));
         assert!(!found.message().is_empty());
     }
@@ -219,66 +220,9 @@ fn a_deep_tree_has_short_guards() {
             _ => selector(vec![when(p(level % 5), leaf(1)), node]),
         };
     }
-    let canonical = canonicalise(&node).unwrap();
+    let canonical = canonicalise(&node, Reading::Furthest).unwrap();
     let lengths = canonical.units.iter().map(|unit| literals(&unit.guard));
     assert!(lengths.max() <= Some(14), "{canonical:?}");
-}
-
-/// What a tree does where every memory node stands behind the last of its children that the history shows to have ended.
-fn reading(node: &Node, holds: &dyn Fn(Atom) -> bool) -> Result<Id<Behavior>, bool> {
-    match node {
-        Node::Condition(guard) => Err(guard.eval(&mut |atom| holds(atom))),
-        Node::Behavior(behavior) => Ok(*behavior),
-        Node::Composite {
-            kind,
-            memory,
-            children,
-        } => {
-            let onward = *kind == Composite::Sequence;
-            let first = match memory {
-                true => (1..children.len())
-                    .rev()
-                    .find(|i| ends(&children[i - 1], onward).into_iter().any(holds))
-                    .unwrap_or(0),
-                false => 0,
-            };
-            for child in &children[first..] {
-                match reading(child, holds) {
-                    Err(answer) if answer == onward => {}
-                    found => return found,
-                }
-            }
-            Err(onward)
-        }
-        Node::Decorator { kind, child } => reading(child, holds).map_err(|answer| match kind {
-            Decorator::Invert => !answer,
-            Decorator::Succeed => true,
-            _ => false,
-        }),
-        Node::Parallel { .. } => panic!("has no canonical form"),
-    }
-}
-
-/// The terminations by which a node succeeds, or fails.
-fn ends(node: &Node, success: bool) -> Vec<Atom> {
-    match node {
-        Node::Condition(_) => vec![],
-        Node::Behavior(b) if success => vec![Atom::Done(*b)],
-        Node::Behavior(b) => vec![Atom::Failed(*b)],
-        Node::Composite { kind, children, .. } => {
-            let by_last = success == (*kind == Composite::Sequence);
-            let from = if by_last { children.len() - 1 } else { 0 };
-            let ending = children[from..].iter();
-            ending.flat_map(|child| ends(child, success)).collect()
-        }
-        Node::Decorator { kind, child } => match kind {
-            Decorator::Invert => ends(child, !success),
-            Decorator::Succeed if success => [ends(child, true), ends(child, false)].concat(),
-            Decorator::Fail if !success => [ends(child, true), ends(child, false)].concat(),
-            _ => vec![],
-        },
-        Node::Parallel { .. } => panic!("has no canonical form"),
-    }
 }
 
 #[test]
@@ -297,7 +241,11 @@ fn canonical_forms_of_random_trees_select_as_the_trees_read() {
             true => soil.guarded(random, 2),
             false => soil.tree(random, 3),
         };
-        let Ok(canonical) = canonicalise(&root) else {
+        let by = match seed % 2 {
+            0 => Reading::Furthest,
+            _ => Reading::Unfinished,
+        };
+        let Ok(canonical) = canonicalise(&root, by) else {
             continue;
         };
         units += canonical.units.len();
@@ -310,7 +258,7 @@ fn canonical_forms_of_random_trees_select_as_the_trees_read() {
                 };
                 bits >> bit & 1 == 1
             };
-            let reads = reading(&root, &holds).ok();
+            let reads = read(&root, by, &holds).ok();
             let selects: Vec<Id<Behavior>> = canonical
                 .units
                 .iter()
@@ -338,7 +286,7 @@ fn canonical_forms_of_trees_without_memory_are_equal_whatever_happens() {
         };
         let root = soil.guarded(random, 2);
         // A guard that always holds may leave a behaviour before the last child.
-        if canonicalise(&root).is_err() {
+        if canonicalise(&root, Reading::Furthest).is_err() {
             continue;
         }
         compared += 1;
@@ -362,7 +310,7 @@ fn decanonicalised_and_canonicalised_again_a_policy_is_what_it_was() {
         let policy = policy(seed);
         for method in [Method::Paper, Method::Search] {
             let found = decanonicalise(&policy, &asked(method, Care::Seen)).unwrap();
-            let canonical = canonicalise(&found.root).unwrap();
+            let canonical = canonicalise(&found.root, Reading::Furthest).unwrap();
             for row in &policy.rows {
                 let here = holds(&policy.atoms, &row.minterm);
                 let selects = canonical.select(&mut |atom| here(atom));
@@ -381,7 +329,7 @@ fn decanonicalised_and_canonicalised_again_a_policy_is_what_it_was() {
 
 /// Compares a tree with its canonical form where anything may happen.
 fn with_canonical(root: &Node, history: History) -> Verdict {
-    let canonical = canonicalise(root).unwrap().tree();
+    let canonical = canonicalise(root, Reading::Furthest).unwrap().tree();
     let environment = Environment::Any(history);
     compare(Side::Tree(root), Side::Tree(&canonical), environment).unwrap()
 }

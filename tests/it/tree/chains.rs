@@ -9,7 +9,7 @@ use btc::ir::tree::{Atom, Composite, Guard, Node, Status};
 use btc::policy::{Minterm, Policy, Row, Transition};
 use btc::tree::Size;
 use btc::tree::decanonicalise::{Options, decanonicalise};
-use btc::tree::prove::Reading;
+use btc::tree::reading::Reading;
 use std::collections::BTreeMap;
 
 /// `selector { p => memory … { 0, 1, … }, n }` with `links` behaviours in the memory node.

@@ -1,4 +1,4 @@
-//! Tables whose rows are cubes: their trees hold in every minterm, and what does not hold in all of a row is told.
+//! Tables whose rows are cubes: their trees hold in every minterm, and a tree that does not is refuted by one.
 
 use super::build::{leaf, not, p, selector, when};
 use super::random::Random;
@@ -9,6 +9,7 @@ use btc::policy::{Minterm, Policy, Row};
 use btc::tree::canonicalise::canonicalise;
 use btc::tree::decanonicalise::{Method, Options, Order, decanonicalise};
 use btc::tree::prove::{Prover, Refuted, prove};
+use btc::tree::reading::Reading;
 
 /// A table over predicates, a row a cube as `01-`.
 fn table(rows: &[(&str, usize)]) -> Policy {
@@ -93,7 +94,7 @@ fn random_cubes(seed: u64, atoms: usize) -> Policy {
 
 /// What the tree selects in every minterm of every row is what the row says.
 fn hold(root: &Node, policy: &Policy) {
-    let canonical = canonicalise(root).unwrap();
+    let canonical = canonicalise(root, Reading::Furthest).unwrap();
     let atoms = policy.atoms.len();
     for row in &policy.rows {
         for values in 0..1_usize << atoms {

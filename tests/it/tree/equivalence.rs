@@ -159,7 +159,7 @@ impl<'a> Lockstep<'a> {
     }
 
     /// How many ticks the sides agree for on the shortest way apart, with the least valuation in which they part at
-    /// once; `None` if they never do. Gives up beyond so many states.
+    /// once; `None` if they never do. Gives up beyond `most` states.
     fn parts(&self, most: usize) -> Option<Option<(usize, Option<Minterm>)>> {
         let mut known = self.starts();
         let mut layer: Vec<State> = known.iter().cloned().collect();

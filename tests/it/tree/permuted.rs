@@ -10,6 +10,7 @@ use btc::ir::tree::{Guard, Node};
 use btc::tree::canonicalise::{Canonical, Unit, canonicalise};
 use btc::tree::equivalence::{Environment, Side, Verdict, compare};
 use btc::tree::permute::{Unordered, permute};
+use btc::tree::reading::Reading;
 
 fn unit(guard: Guard, behavior: usize) -> Unit {
     Unit {
@@ -58,7 +59,7 @@ fn a_unit_that_is_shifted_gets_the_negation_of_the_guard_that_shifts_it() {
 #[test]
 fn the_last_unit_takes_what_is_left() {
     let root = selector(vec![when(p(0), leaf(0)), when(p(1), leaf(1)), leaf(2)]);
-    let canonical = canonicalise(&root).unwrap();
+    let canonical = canonicalise(&root, Reading::Furthest).unwrap();
     let permuted = permute(&canonical, &ids(&[0, 1, 2])).unwrap();
     assert_eq!(permuted.tree(), root);
     let permuted = permute(&canonical, &ids(&[2, 1, 0])).unwrap();
@@ -85,7 +86,7 @@ fn every_order_of_a_random_tree_selects_as_the_tree() {
         };
         let root = soil.guarded(random, 2);
         // A guard that always holds may leave a behaviour before the last child.
-        let Ok(canonical) = canonicalise(&root) else {
+        let Ok(canonical) = canonicalise(&root, Reading::Furthest) else {
             continue;
         };
         let order = shuffled(&canonical, random);

@@ -1,15 +1,19 @@
-//! Trees of random policies hold by the naive interpreter, and mutations of them are told apart.
+//! Trees of random policies hold by the naive interpreter, and mutations of them are refuted or equal.
 
-use super::build::asked;
+use super::build::{self, asked, condition, leaf, not, p, when};
+use super::grown::Soil;
 use super::random::{Random, policy};
-use super::walk::{Reads, holds, parts_after, read, replay};
+use super::seen::seen;
+use super::walk::{holds, parts_after, read, replay};
+use btc::ir::task::History;
 use btc::ir::tree::{Guard, Node};
 use btc::policy::Policy;
 use btc::tree::Size;
 use btc::tree::canonicalise::canonicalise;
 use btc::tree::decanonicalise::{Care, Decanonicalised, Method, decanonicalise};
 use btc::tree::equivalence::{Environment, Side, Verdict, compare};
-use btc::tree::prove::Reading;
+use btc::tree::prove::prove;
+use btc::tree::reading::{Reading, Reason};
 
 fn checked(policy: &Policy, method: Method, seed: u64) -> Decanonicalised {
     let found = decanonicalise(policy, &asked(method, Care::Seen))
@@ -22,22 +26,107 @@ fn checked(policy: &Policy, method: Method, seed: u64) -> Decanonicalised {
         );
         assert_eq!(
             reads,
-            Reads::Behavior(row.behavior),
+            Ok(row.behavior),
             "seed {seed}: P1 of {:?}",
             found.root
         );
     }
     assert_eq!(parts_after(&found.root, policy), None, "seed {seed}: P2");
     assert_eq!(Size::of(&found.root), found.size);
-    // Canonical forms read memory as one termination shows it.
-    if let (Ok(canonical), Reading::Furthest) = (canonicalise(&found.root), found.proof.reading) {
-        assert_eq!(
-            parts_after(&canonical.tree(), policy),
-            None,
-            "seed {seed}: canonical form"
-        );
-    }
+    let canonical = canonicalise(&found.root, found.proof.reading).unwrap();
+    assert_eq!(
+        parts_after(&canonical.tree(), policy),
+        None,
+        "seed {seed}: canonical form"
+    );
     found
+}
+
+/// A chain with memory under a guard, often with a last child that may end the chain at once, and what else there is.
+fn with_chain(random: &mut Random, soil: Soil) -> Node {
+    let mut free: Vec<usize> = (0..soil.behaviors).collect();
+    let length = 2 + random.below(soil.behaviors - 2);
+    let mut links: Vec<Node> = (0..length)
+        .map(|_| leaf(free.swap_remove(random.below(free.len()))))
+        .collect();
+    let sequence = random.chance(60);
+    if random.chance(50) {
+        let last = links.pop().unwrap();
+        let rarely = Guard::And((0..soil.predicates).map(p).collect());
+        links.push(match sequence {
+            true => build::selector(vec![condition(rarely), last]),
+            false => build::sequence(vec![condition(not(rarely)), last]),
+        });
+    }
+    let chain = match sequence {
+        true => build::memory_sequence(links),
+        false => build::memory_selector(links),
+    };
+    let chain = when(p(0), chain);
+    build::selector(vec![chain, leaf(free[0])])
+}
+
+#[test]
+fn what_is_proved_canonicalises_to_the_table_that_it_was_proved_on() {
+    let (mut furthest, mut unfinished, mut at_once, mut drives_on) = (0, 0, 0, 0);
+    for seed in 1..=1_500 {
+        let random = &mut Random::new(seed);
+        let soil = Soil {
+            predicates: 2 + random.below(2),
+            behaviors: 3 + random.below(3),
+            history: random.chance(20),
+            memory: true,
+            wild: false,
+        };
+        let root = match random.chance(70) {
+            true => with_chain(random, soil),
+            false => soil.guarded(random, 2),
+        };
+        let history = History {
+            window: 1 + random.below(3),
+            success: random.chance(90),
+            failure: random.chance(60),
+        };
+        let policy = seen(&root, history, random);
+        let Ok(proof) = prove(&root, &policy) else {
+            continue;
+        };
+        let canonical = match canonicalise(&root, proof.reading) {
+            Ok(canonical) => canonical,
+            // It selects as the policy does, and where that fails it drives on in the same tick, as no unit can.
+            Err(why) => {
+                assert!(
+                    matches!(why.reason, Reason::Status(_)),
+                    "seed {seed}: {why:?}"
+                );
+                drives_on += 1;
+                continue;
+            }
+        };
+        for row in &policy.rows {
+            let here = holds(&policy.atoms, &row.minterm);
+            let selects = canonical.select(&mut |atom| here(atom));
+            assert_eq!(selects, Some(row.behavior), "seed {seed}: {root:?}");
+        }
+        if root.remembers() {
+            furthest += usize::from(proof.reading == Reading::Furthest);
+            unfinished += usize::from(proof.reading == Reading::Unfinished);
+            at_once += usize::from(ends_at_once(&root));
+        }
+    }
+    let summary = format!("{furthest} {unfinished}, {at_once} at once, {drives_on} drive on");
+    assert!(
+        furthest > 100 && unfinished > 10 && at_once > 50,
+        "{summary}"
+    );
+}
+
+/// Whether the last child of a memory node may end it without a behaviour.
+fn ends_at_once(node: &Node) -> bool {
+    let below = node.children().last();
+    let ends = |last: &Node| matches!(last.children().first(), Some(Node::Condition(_)));
+    matches!(node, Node::Composite { memory: true, .. }) && below.is_some_and(ends)
+        || node.children().iter().any(ends_at_once)
 }
 
 #[test]

@@ -3,10 +3,10 @@
 use crate::naive::{Memory, all_ticks};
 use btc::ir::Id;
 use btc::ir::law::Behavior;
-use btc::ir::tree::{Atom, Composite, Node, Status};
+use btc::ir::tree::{Atom, Composite, Decorator, Node, Status};
 use btc::policy::{Minterm, Policy};
 use btc::tree::equivalence::Trace;
-use btc::tree::prove::Reading;
+use btc::tree::reading::Reading;
 use btc::tree::tick::Runner;
 use std::collections::{BTreeSet, VecDeque};
 
@@ -54,56 +54,65 @@ pub(crate) fn parts_after(root: &Node, policy: &Policy) -> Option<usize> {
     None
 }
 
-/// What a node does where memory nodes stand as the history says.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Reads {
-    Behavior(Id<Behavior>),
-    Answer(bool),
-}
-
-/// P1's reading of a learned tree: a memory node stands behind the last child whose end the window holds, or behind the
-/// first that has ended while the next has not.
-pub(crate) fn read(node: &Node, by: Reading, holds: &dyn Fn(Atom) -> bool) -> Reads {
+/// What a tree selects, or else answers, where each memory node stands behind the last of its children that has ended, or
+/// behind the first that has while the next has not, as the history shows it.
+pub(crate) fn read(
+    node: &Node,
+    by: Reading,
+    holds: &dyn Fn(Atom) -> bool,
+) -> Result<Id<Behavior>, bool> {
     match node {
-        Node::Condition(guard) => Reads::Answer(guard.eval(&mut |a| holds(a))),
-        Node::Behavior(b) => Reads::Behavior(*b),
+        Node::Condition(guard) => Err(guard.eval(&mut |atom| holds(atom))),
+        Node::Behavior(behavior) => Ok(*behavior),
         Node::Composite {
             kind,
             memory,
             children,
         } => {
             let onward = *kind == Composite::Sequence;
-            if *memory {
-                let ended = |child: &Node| match onward {
-                    true => holds(Atom::Done(last(child))),
-                    false => holds(Atom::Failed(last(child))),
-                };
-                let stands = match by {
-                    Reading::Furthest => {
-                        (1..children.len()).rev().find(|i| ended(&children[i - 1]))
-                    }
-                    Reading::Unfinished => (1..children.len())
-                        .find(|i| ended(&children[i - 1]) && !ended(&children[*i])),
-                };
-                return read(&children[stands.unwrap_or(0)], by, holds);
-            }
-            for child in children {
+            let ended = |i: usize| ends(&children[i], onward).into_iter().any(holds);
+            let mut behind = 1..children.len();
+            let first = match (memory, by) {
+                (false, _) => None,
+                (true, Reading::Furthest) => behind.rev().find(|i| ended(i - 1)),
+                (true, Reading::Unfinished) => behind.find(|i| ended(i - 1) && !ended(*i)),
+            };
+            for child in &children[first.unwrap_or(0)..] {
                 match read(child, by, holds) {
-                    Reads::Answer(answer) if answer == onward => {}
-                    other => return other,
+                    Err(answer) if answer == onward => {}
+                    found => return found,
                 }
             }
-            Reads::Answer(onward)
+            Err(onward)
         }
-        other => panic!("not in a learned tree: {other:?}"),
+        Node::Decorator { kind, child } => read(child, by, holds).map_err(|answer| match kind {
+            Decorator::Invert => !answer,
+            Decorator::Succeed => true,
+            _ => false,
+        }),
+        Node::Parallel { .. } => panic!("has no canonical form"),
     }
 }
 
-fn last(node: &Node) -> Id<Behavior> {
+/// The terminations by which a node succeeds, or fails.
+fn ends(node: &Node, success: bool) -> Vec<Atom> {
     match node {
-        Node::Behavior(b) => *b,
-        Node::Composite { children, .. } => last(children.last().unwrap()),
-        other => panic!("ends no child of a memory node: {other:?}"),
+        Node::Condition(_) => vec![],
+        Node::Behavior(b) if success => vec![Atom::Done(*b)],
+        Node::Behavior(b) => vec![Atom::Failed(*b)],
+        Node::Composite { kind, children, .. } => {
+            let by_last = success == (*kind == Composite::Sequence);
+            let from = if by_last { children.len() - 1 } else { 0 };
+            let ending = children[from..].iter();
+            ending.flat_map(|child| ends(child, success)).collect()
+        }
+        Node::Decorator { kind, child } => match kind {
+            Decorator::Invert => ends(child, !success),
+            Decorator::Succeed if success => [ends(child, true), ends(child, false)].concat(),
+            Decorator::Fail if !success => [ends(child, true), ends(child, false)].concat(),
+            _ => vec![],
+        },
+        Node::Parallel { .. } => panic!("has no canonical form"),
     }
 }
 

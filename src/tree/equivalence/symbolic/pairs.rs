@@ -6,10 +6,10 @@ use crate::ir::task::History;
 use crate::ir::tree::{Atom, Status};
 use crate::policy::Minterm;
 use crate::tree::circuit::{Circuit, Signal};
-use crate::tree::equivalence::environment::{Termination, in_window, remembers, termination};
+use crate::tree::compiled::CompiledTree;
 use crate::tree::equivalence::unfold::{Inputs, Unfolded, unfold};
-use crate::tree::equivalence::{Step, Trace};
-use crate::tree::program::Program;
+use crate::tree::equivalence::window::{Termination, keeps, remembers, shows, termination};
+use crate::tree::equivalence::{Trace, TraceTick};
 use rustc_hash::FxHashMap;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -29,7 +29,7 @@ pub(super) struct Pair {
 /// Two trees over the same atoms, with every tick that was asked for.
 pub(super) struct Pairs {
     atoms: Vec<Atom>,
-    programs: [Program; 2],
+    trees: [CompiledTree; 2],
     history: History,
     /// The history atoms that the window remembers, with the terminations that they ask for.
     remembered: Vec<((Id<Behavior>, Status), Atom, Signal)>,
@@ -39,7 +39,7 @@ pub(super) struct Pairs {
 }
 
 impl Pairs {
-    pub(super) fn new(atoms: Vec<Atom>, programs: [Program; 2], history: History) -> Self {
+    pub(super) fn new(atoms: Vec<Atom>, trees: [CompiledTree; 2], history: History) -> Self {
         let mut circuit = Circuit::new();
         let mut remembered = Vec::new();
         let mut signals = Vec::new();
@@ -56,7 +56,7 @@ impl Pairs {
         }
         Self {
             atoms,
-            programs,
+            trees,
             history,
             remembered,
             inputs: Inputs {
@@ -71,9 +71,7 @@ impl Pairs {
 
     /// Memories before the first tick; empty for a tree without memory.
     pub(super) fn fresh(&self) -> Memories {
-        self.programs
-            .each_ref()
-            .map(|program| vec![0; program.slots].into())
+        self.trees.each_ref().map(|tree| vec![0; tree.slots].into())
     }
 
     /// The terminations that a window can hold, besides those that no atom asks for.
@@ -101,7 +99,7 @@ impl Pairs {
     pub(super) fn shows(&self, window: &[Termination]) -> Vec<Signal> {
         let shown = self.remembered.iter();
         shown
-            .map(|(_, atom, signal)| signal.negated_if(!in_window(window, *atom)))
+            .map(|(_, atom, signal)| signal.negated_if(!shows(window, *atom)))
             .collect()
     }
 
@@ -135,12 +133,11 @@ impl Pairs {
     }
 
     fn unfold(&mut self, side: usize, memory: &[u64]) -> Rc<Unfolded> {
-        let (Some(program), Some(known)) = (self.programs.get(side), self.unfolded.get_mut(side))
-        else {
+        let (Some(tree), Some(known)) = (self.trees.get(side), self.unfolded.get_mut(side)) else {
             return Rc::default();
         };
         let entry = known.entry(memory.into());
-        Rc::clone(entry.or_insert_with(|| Rc::new(unfold(program, memory, &mut self.inputs))))
+        Rc::clone(entry.or_insert_with(|| Rc::new(unfold(tree, memory, &mut self.inputs))))
     }
 
     /// What enters the window when these behaviours are selected.
@@ -148,11 +145,8 @@ impl Pairs {
         &mut self,
         selects: &BTreeMap<Id<Behavior>, Signal>,
     ) -> Vec<(Option<Termination>, Signal)> {
-        let mut kept = Vec::new();
-        if self.window() > 0 {
-            kept.extend(self.history.success.then_some(Status::Success));
-            kept.extend(self.history.failure.then_some(Status::Failure));
-        }
+        let mut kept = vec![Status::Success, Status::Failure];
+        kept.retain(|status| self.window() > 0 && keeps(self.history, *status));
         let mut entries: BTreeMap<Termination, Signal> = BTreeMap::new();
         let mut some = Signal::FALSE;
         for (behavior, selected) in selects {
@@ -179,7 +173,7 @@ impl Pairs {
     }
 
     /// The step that both trees take where all inputs have these values.
-    pub(super) fn step(&mut self, pair: &Pair, inputs: &[Signal], values: &[bool]) -> Step {
+    pub(super) fn step(&mut self, pair: &Pair, inputs: &[Signal], values: &[bool]) -> TraceTick {
         let [left, _] = &pair.sides;
         let behavior = self.selected(left, inputs, values);
         let status = behavior.and_then(|behavior| {
@@ -189,7 +183,7 @@ impl Pairs {
                 self.inputs.circuit.holds(when, inputs, values)
             })
         });
-        Step {
+        TraceTick {
             valuation: self.minterm(values),
             behavior,
             status: status.unwrap_or(Status::Running),
@@ -197,7 +191,7 @@ impl Pairs {
     }
 
     /// The trace with these steps whose last tick has these values of the atoms.
-    pub(super) fn parted(&self, steps: Vec<Step>, pair: &Pair, values: &[bool]) -> Trace {
+    pub(super) fn parted(&self, steps: Vec<TraceTick>, pair: &Pair, values: &[bool]) -> Trace {
         let [left, right] = &pair.sides;
         let atoms = &self.inputs.atoms;
         Trace {

@@ -6,7 +6,7 @@ use crate::ir::tree::{Atom, Composite, Decorator, Guard, Node};
 
 /// A tree in pre-order: the children of a node follow it, each up to its own `end`.
 #[derive(Clone, Debug)]
-pub(super) struct Program {
+pub(super) struct CompiledTree {
     pub(super) nodes: Vec<Placed>,
     pub(super) tests: Vec<Test>,
     /// The memory of all nodes together, in numbers.
@@ -50,16 +50,16 @@ pub(super) struct Test {
     pub(super) no: Jump,
 }
 
-impl Program {
+impl CompiledTree {
     /// Compiles a tree over these atoms; the error is an atom that is not among them.
     pub(super) fn new(root: &Node, atoms: &[Atom]) -> Result<Self, Atom> {
-        let mut program = Self {
+        let mut tree = Self {
             nodes: Vec::new(),
             tests: Vec::new(),
             slots: 0,
         };
-        program.node(root, atoms)?;
-        Ok(program)
+        tree.node(root, atoms)?;
+        Ok(tree)
     }
 
     fn node(&mut self, node: &Node, atoms: &[Atom]) -> Result<(), Atom> {
