@@ -1,7 +1,7 @@
 //! What conditions, composites, parallels and decorators answer, as functions of what stands below them.
 //!
-//! The engine that ticks, the circuits of [equivalence](super::equivalence) and the reading of a tree
-//! from its history all go by these.
+//! The engine that ticks, the circuits of [equivalence](super::equivalence) and the [reading](super::reading) of memory from
+//! the history all go by these.
 
 use crate::ir::tree::{Composite, Decorator, Status};
 

@@ -3,6 +3,7 @@
 //! What is built here is in negation normal form: only atoms are negated.
 
 mod factor;
+pub(super) mod partial;
 
 pub use factor::factored;
 

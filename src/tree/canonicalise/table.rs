@@ -3,7 +3,8 @@
 use super::{Canonical, Unit};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
-use crate::ir::tree::{Atom, Guard};
+use crate::ir::tree::Atom;
+use crate::tree::guard::partial::value;
 use crate::tree::guard::{not, or};
 
 /// A cube of a table, a value for each atom or nothing, and what is done in it.
@@ -55,10 +56,10 @@ impl Split<'_> {
         }
         let mut open = None;
         for unit in &self.canonical.units {
-            match self.value(&unit.guard) {
-                Some(true) => return Some(vec![(vec![None; self.atoms.len()], unit.behavior)]),
-                Some(false) => {}
-                None => open = open.or(self.undecided(&unit.guard)),
+            match value(&unit.guard, &|atom| self.atom(atom)) {
+                Ok(true) => return Some(vec![(vec![None; self.atoms.len()], unit.behavior)]),
+                Ok(false) => {}
+                Err(atom) => open = open.or(Some(atom)),
             }
         }
         let Some(atom) = open else {
@@ -94,45 +95,13 @@ impl Split<'_> {
         self.window.is_some_and(|window| held.count() > window)
     }
 
-    /// The value of a guard as far as it is known.
-    fn value(&self, guard: &Guard) -> Option<bool> {
-        match guard {
-            Guard::Const(value) => Some(*value),
-            Guard::Atom(atom) => self.values.get(self.number(*atom)?).copied().flatten(),
-            Guard::Not(inner) => self.value(inner).map(|value| !value),
-            Guard::And(guards) => self.joined(guards, false),
-            Guard::Or(guards) => self.joined(guards, true),
+    /// The value of an atom, or its number where that is open. An atom that is not asked for holds nowhere.
+    fn atom(&self, atom: Atom) -> Result<bool, usize> {
+        let at = self.atoms.iter().position(|known| *known == atom);
+        match at.map(|at| (at, self.values.get(at).copied().flatten())) {
+            Some((at, value)) => value.ok_or(at),
+            None => Ok(false),
         }
-    }
-
-    /// The value that one of the guards decides by being `decisive`.
-    fn joined(&self, guards: &[Guard], decisive: bool) -> Option<bool> {
-        let mut all = Some(!decisive);
-        for guard in guards {
-            match self.value(guard) {
-                Some(value) if value == decisive => return Some(decisive),
-                Some(_) => {}
-                None => all = None,
-            }
-        }
-        all
-    }
-
-    /// The first atom on which the value of an undecided guard depends.
-    fn undecided(&self, guard: &Guard) -> Option<usize> {
-        match guard {
-            Guard::Const(_) => None,
-            Guard::Atom(atom) => self.number(*atom),
-            Guard::Not(inner) => self.undecided(inner),
-            Guard::And(guards) | Guard::Or(guards) => {
-                let open = guards.iter().find(|guard| self.value(guard).is_none());
-                open.and_then(|guard| self.undecided(guard))
-            }
-        }
-    }
-
-    fn number(&self, atom: Atom) -> Option<usize> {
-        self.atoms.iter().position(|known| *known == atom)
     }
 }
 

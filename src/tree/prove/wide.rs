@@ -5,6 +5,7 @@ use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::{Atom, Guard};
 use crate::policy::{Minterm, Row};
+use crate::tree::guard::partial::{decided, value};
 use crate::tree::reading::{Plan, Reading, Sets, read};
 use rustc_hash::FxHashMap;
 
@@ -78,17 +79,6 @@ impl<'a> WideRow<'a> {
             (value, _) => Ok(value.copied().unwrap_or(false)),
         }
     }
-
-    /// The value of a guard, or a free atom that it hangs on.
-    fn value(&self, guard: &Guard) -> Result<bool, usize> {
-        match guard {
-            Guard::Const(value) => Ok(*value),
-            Guard::Atom(atom) => self.atom(*atom),
-            Guard::Not(guard) => self.value(guard).map(|value| !value),
-            Guard::And(guards) => first(guards.iter().map(|guard| self.value(guard)), false),
-            Guard::Or(guards) => first(guards.iter().map(|guard| self.value(guard)), true),
-        }
-    }
 }
 
 /// The cube is one set and nothing the other; a question that hangs on a free atom is open.
@@ -117,28 +107,15 @@ impl Sets for WideRow<'_> {
     }
 
     fn holds(&mut self, guard: &Guard, among: &bool) -> Result<bool, usize> {
-        self.value(guard).map(|holds| *among && holds)
+        value(guard, &|atom| self.atom(atom)).map(|holds| *among && holds)
     }
 
     fn any(&mut self, atoms: &[Atom], among: &bool) -> Result<bool, usize> {
-        let any = first(atoms.iter().map(|atom| self.atom(*atom)), true);
+        let any = decided(atoms.iter().map(|atom| self.atom(*atom)), true);
         any.map(|holds| *among && holds)
     }
 
     fn select(&mut self, behavior: Id<Behavior>, among: bool) {
         self.selected = self.selected.or(among.then_some(behavior));
     }
-}
-
-/// `decisive` if one of the values is, whatever else is open; else the first that is open.
-fn first(values: impl Iterator<Item = Result<bool, usize>>, decisive: bool) -> Result<bool, usize> {
-    let mut open = None;
-    for value in values {
-        match value {
-            Ok(value) if value == decisive => return Ok(decisive),
-            Ok(_) => {}
-            Err(atom) => open = open.or(Some(atom)),
-        }
-    }
-    open.map_or(Ok(!decisive), Err)
 }
