@@ -1,7 +1,7 @@
 //! The spanned syntax tree, one type a production of the grammar.
 //!
-//! Every node knows its place. Text that the parser could not make sense of stands as an `Error` node, about
-//! which a diagnostic has been reported already: later passes pass over it in silence.
+//! Every node knows its place. Text that the parser could not make sense of stands as an `Error` node, which
+//! a diagnostic has reported already: later passes skip it without a message.
 
 mod behavior;
 mod block;

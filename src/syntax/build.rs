@@ -2,21 +2,21 @@
 
 mod behavior;
 mod block;
+mod call;
+mod choice;
+mod entries;
 mod expr;
 mod item;
 mod learn;
 mod number;
-pub(super) use number::units_note;
 mod task;
 mod tree;
 mod world;
 
 use super::ast::{Comment, Expr, ExprKind, File, Ident, Item, ItemKind, Spanned};
-use super::brackets;
 use super::comments::docs_before;
-use super::diagnose::{self, Failure};
-use super::grammar::{self, Node, Parts, Rule};
-use super::tokens::{Kind, Token, is_blank};
+use super::grammar::{Node, Parts, Rule};
+use super::tokens::{Kind, Token};
 use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::source::{FileId, Span};
 
@@ -51,28 +51,11 @@ impl<'i> Builder<'i> {
     /// The tree of a whole file, and what is wrong with it.
     pub(super) fn file(mut self, node: Node<'i>) -> (File, Vec<Diagnostic>) {
         let mut items = Vec::new();
-        let mut previous = None;
-        for part in Parts::of(node) {
-            let start = part.as_span().start();
-            match part.as_rule() {
-                Rule::stray_mark => self.stray_mark(&part),
-                Rule::stray_close => self.stray_close(&part),
-                Rule::EOI => {}
-                Rule::bad_item => {
-                    let span = self.bad(&part, Rule::strict_item, previous);
-                    let docs = self.docs(start);
-                    items.push(Item {
-                        docs,
-                        kind: ItemKind::Error,
-                        span,
-                    });
-                }
-                _ => {
-                    previous = Some(start);
-                    items.push(self.item(part));
-                }
-            }
-        }
+        self.entries(Parts::of(node), Rule::strict_item, |builder, node, span| {
+            let docs = builder.docs(span);
+            let kind = node.map_or(ItemKind::Error, |node| builder.item(node));
+            items.push(Item { docs, kind, span });
+        });
         let file = File {
             items,
             comments: self.comments.to_vec(),
@@ -111,8 +94,9 @@ impl<'i> Builder<'i> {
             .copied()
     }
 
-    fn docs(&self, start: usize) -> Vec<String> {
-        docs_before(self.text, self.comments, start).0
+    /// The documentation right above what stands at `span`.
+    fn docs(&self, span: Span) -> Vec<String> {
+        docs_before(self.text, self.comments, span.range().start)
     }
 
     fn slice(&self, span: Span) -> &'i str {
@@ -131,129 +115,6 @@ impl<'i> Builder<'i> {
             .label(format!("write `{right}`"))
             .fix(format!("write `{right}`"), span, right, Applicability::Safe);
         self.report(diagnostic);
-    }
-
-    /// Reports text that does not parse as `strict`, which is tried again on it, or on what stands before it.
-    fn bad(&mut self, node: &Node<'i>, strict: Rule, previous: Option<usize>) -> Span {
-        let span = self.span(node);
-        let start = node.as_span().start();
-        if self.failed_at.is_some_and(|at| start <= at) {
-            return span;
-        }
-        let mut failure = self.try_again(strict, start, start);
-        if failure.at == start
-            && let Some(previous) = previous
-        {
-            let again = self.try_again(strict, previous, start);
-            if again.at > start || self.goes_on(start) {
-                failure = again;
-            }
-        }
-        if previous.is_some() && self.is_juxtaposed(start, failure.at) {
-            failure.at = start;
-            failure.expected.clear();
-        }
-        let (at, diagnostic) = diagnose::failure(self.file, self.text, self.tokens, &failure);
-        self.failed_at = Some(at);
-        self.report(diagnostic);
-        span
-    }
-
-    /// Whether a text begins on the line of what stands before it and fails at its second token, which does not look
-    /// like the second one of an entry: then it is the first one that does not belong there.
-    fn is_juxtaposed(&self, start: usize, at: usize) -> bool {
-        let index = self.tokens.partition_point(|token| token.end <= start);
-        let token = |index: usize| {
-            self.tokens
-                .get(index)
-                .filter(|token| token.kind != Kind::Comment)
-        };
-        let before = index.checked_sub(1).and_then(token);
-        let (Some(before), Some(first), Some(second)) = (before, token(index), token(index + 1))
-        else {
-            return false;
-        };
-        let is_entry =
-            before.of(self.text) == "{" || first.kind != Kind::Word || second.kind == Kind::Mark;
-        self.goes_on(start) && !is_entry && second.start == at
-    }
-
-    /// Whether something stands before byte `start` on its line.
-    fn goes_on(&self, start: usize) -> bool {
-        let before = self.text.get(..start).unwrap_or_default();
-        let line = before.rsplit('\n').next().unwrap_or_default();
-        !line.chars().all(is_blank)
-    }
-
-    fn try_again(&self, strict: Rule, from: usize, start: usize) -> Failure {
-        let rest = self.text.get(from..).unwrap_or_default();
-        match grammar::parse(strict, rest) {
-            Ok(_) => Failure {
-                start,
-                at: start,
-                expected: Vec::new(),
-                strict,
-            },
-            Err(stop) => {
-                let blanks = |at: usize| {
-                    let rest = self.text.get(at..).unwrap_or_default();
-                    rest.find(|letter| !is_blank(letter)).unwrap_or(rest.len())
-                };
-                let at = (from + stop.at).max(start);
-                Failure {
-                    start,
-                    at: at + blanks(at),
-                    expected: stop.expected,
-                    strict,
-                }
-            }
-        }
-    }
-
-    fn stray_mark(&mut self, node: &Node<'i>) {
-        let span = self.span(node);
-        let mark = self.slice(span);
-        let diagnostic =
-            Diagnostic::new(Code::E0118, span, format!("nothing needs a `{mark}` here"))
-                .label("drop it")
-                .note("an entry ends where the next one begins")
-                .fix(format!("drop the `{mark}`"), span, "", Applicability::Safe);
-        self.report(diagnostic);
-    }
-
-    fn stray_close(&mut self, node: &Node<'i>) {
-        let span = self.span(node);
-        if self.failed_at.is_some_and(|at| span.range().start <= at) {
-            return;
-        }
-        let mark = self.slice(span);
-        let open = if mark == ")" { "(" } else { "{" };
-        let diagnostic =
-            Diagnostic::new(Code::E0103, span, format!("this `{mark}` closes nothing"))
-                .label(format!("no `{open}` is open here"))
-                .fix(
-                    format!("drop the `{mark}`"),
-                    span,
-                    "",
-                    Applicability::Unsafe,
-                );
-        self.report(diagnostic);
-    }
-
-    /// Takes the bracket that closes a block; reports it if it is missing.
-    fn close(&mut self, node: Option<Node<'i>>, open: Option<Span>) {
-        let Some(node) = node.filter(|node| node.as_rule() == Rule::missing_close) else {
-            return;
-        };
-        let at = node.as_span().start();
-        if self.failed_at.is_some_and(|failed| at <= failed) {
-            return;
-        }
-        self.failed_at = Some(at);
-        if let Some(open) = open {
-            let diagnostic = brackets::unclosed(self.file, self.text, self.tokens, open, at);
-            self.report(diagnostic);
-        }
     }
 
     // ---- small parts

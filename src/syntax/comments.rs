@@ -37,35 +37,28 @@ fn kind(comment: &str) -> (CommentKind, &str) {
     }
 }
 
-/// The lines of documentation right above byte `start`, and the index of the first comment that is one of them.
-pub(super) fn docs_before(text: &str, comments: &[Comment], start: usize) -> (Vec<String>, usize) {
+/// The lines of documentation right above byte `start`.
+pub(super) fn docs_before(text: &str, comments: &[Comment], start: usize) -> Vec<String> {
     let end = comments.partition_point(|comment| (comment.span.start as usize) < start);
-    let mut first = end;
     let mut below = start;
-    for (index, comment) in comments.iter().enumerate().take(end).rev() {
-        let between = text.get(comment.span.end as usize..below).unwrap_or("?");
-        if !between.chars().all(is_blank)
-            || comment.kind != CommentKind::Item
-            || !is_whole_line(text, comment)
-        {
-            break;
-        }
-        first = index;
-        below = comment.span.start as usize;
-    }
-    let docs = comments
-        .get(first..end)
-        .unwrap_or_default()
+    let mut docs: Vec<String> = comments
         .iter()
+        .take(end)
+        .rev()
+        .take_while(|comment| {
+            let between = text.get(comment.span.end as usize..below).unwrap_or("?");
+            below = comment.span.start as usize;
+            between.chars().all(is_blank)
+                && comment.kind == CommentKind::Item
+                && is_whole_line(text, comment)
+        })
         .map(|comment| {
-            comment
-                .text
-                .strip_prefix(' ')
-                .unwrap_or(&comment.text)
-                .to_owned()
+            let text = &comment.text;
+            text.strip_prefix(' ').unwrap_or(text).to_owned()
         })
         .collect();
-    (docs, first)
+    docs.reverse();
+    docs
 }
 
 /// Whether nothing but blanks stands before the comment on its line.

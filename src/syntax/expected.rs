@@ -5,13 +5,13 @@ use super::grammar::Rule;
 /// Where an expectation comes in a list; the lower, the more useful.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Rank {
-    /// A bracket, a comma, a colon: most likely forgotten.
+    /// A bracket, a comma, a colon: most often forgotten.
     Mark,
     /// A word that must come.
     Word,
     /// A name, a value, a block.
     Part,
-    /// What could go on, but need not.
+    /// What may follow, but need not.
     More,
 }
 

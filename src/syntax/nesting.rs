@@ -5,10 +5,21 @@ use super::tokens::{Kind, Token};
 /// How many brackets, prefix operators, powers, guards and `else if`s may stand within each other.
 const LEVELS: usize = 64;
 
-/// How many levels and binary operators may hang below each other: a sum leans to the left, one level a term.
+/// How deep the tree of binary operators may be: a sum leans to the left, one level a term.
 const BRANCHES: usize = 1_000;
 
-/// What hangs on one bracket at the present place.
+/// How tightly binary operators bind, loosest first: `or`, `and`, comparisons, sums, terms.
+const STRENGTHS: usize = 5;
+
+/// Operands joined by operators that bind equally tightly.
+#[derive(Clone, Copy, Default)]
+struct Chain {
+    operators: usize,
+    /// The depth of the deepest operand that has ended.
+    deepest: usize,
+}
+
+/// What has stood inside one open bracket so far.
 #[derive(Default)]
 struct Level {
     /// `not not`, `- -`
@@ -19,8 +30,12 @@ struct Level {
     guards: usize,
     /// `else if … else if …`
     alternatives: usize,
-    /// `a + b + c`
-    operators: usize,
+    /// The chains that are open, loosest first, each inside the one before.
+    chains: [Chain; STRENGTHS],
+    /// The depth of the brackets in the present operand of the innermost chain.
+    operand: usize,
+    /// The depth of the deepest expression that has ended.
+    deepest: usize,
 }
 
 impl Level {
@@ -28,16 +43,53 @@ impl Level {
         1 + self.prefixes + self.powers + self.guards + self.alternatives
     }
 
-    fn operator(&mut self) {
-        self.powers = 0;
-        self.operators += 1;
+    /// The depth of what the chains that bind at least as tightly as `strength` hold.
+    fn depth_from(&self, strength: usize) -> usize {
+        let chains = self.chains.iter().skip(strength).rev();
+        chains.fold(self.operand, |depth, chain| {
+            chain.operators + chain.deepest.max(depth)
+        })
     }
 
+    /// The depth of all that has stood inside the bracket.
+    fn depth(&self) -> usize {
+        self.deepest.max(self.depth_from(0))
+    }
+
+    /// An operator that binds as tightly as `strength`: it ends the chains that bind more tightly.
+    fn operator(&mut self, strength: usize) {
+        let ended = self.depth_from(strength + 1);
+        self.powers = 0;
+        self.operand = 0;
+        let mut chains = self.chains.iter_mut().skip(strength);
+        if let Some(chain) = chains.next() {
+            chain.operators += 1;
+            chain.deepest = chain.deepest.max(ended);
+        }
+        chains.for_each(|chain| *chain = Chain::default());
+    }
+
+    /// The beginning of another expression.
     fn restart(&mut self) {
         *self = Self {
             alternatives: self.alternatives,
+            deepest: self.depth(),
             ..Self::default()
         };
+    }
+}
+
+/// How tightly a binary operator binds.
+fn strength(operator: &str) -> Option<usize> {
+    match operator {
+        "or" | "||" | "|" => Some(0),
+        "and" | "&&" | "&" => Some(1),
+        "==" | "!=" | "<" | "<=" | ">" | ">=" | "<>" | "≤" | "≥" | "≠" | "===" | "!==" => {
+            Some(2)
+        }
+        "+" | "-" | "–" | "—" | "−" => Some(3),
+        "*" | "/" | "×" | "·" | "÷" => Some(4),
+        _ => None,
     }
 }
 
@@ -45,14 +97,12 @@ impl Level {
 pub(super) fn too_deep(text: &str, tokens: &[Token]) -> Option<Token> {
     let mut open: Vec<Level> = vec![Level::default()];
     let mut levels = 0;
-    let mut operators = 0;
     let mut after_operand = false;
     let mut after_brace = false;
     for &token in tokens.iter().filter(|token| token.kind != Kind::Comment) {
         let spelling = token.of(text);
         let Some(level) = open.last_mut() else { break };
         levels -= level.levels().min(levels);
-        operators -= level.operators.min(operators);
         let is_else = matches!(spelling, "else" | "elif" | "elseif" | "elsif");
         if after_brace && !is_else {
             level.alternatives = 0;
@@ -64,52 +114,46 @@ pub(super) fn too_deep(text: &str, tokens: &[Token]) -> Option<Token> {
             "-" | "+" | "–" | "—" | "−" if !after_operand => level.prefixes += 1,
             "^" | "**" => level.powers += 1,
             "=>" | "->" => level.guards += 1,
-            "and" | "or" | "&&" | "||" | "&" | "|" | "+" | "-" | "*" | "/" | "–" | "—" | "−"
-            | "×" | "·" | "÷" => {
-                level.operator();
-            }
-            "==" | "!=" | "<" | "<=" | ">" | ">=" | "<>" | "≤" | "≥" | "≠" | "===" | "!==" => {
-                level.operator()
-            }
             "else" | "elif" | "elseif" | "elsif" => level.alternatives += 1,
             "," | ":" | "=" | ";" | "let" | "if" | "for" => level.restart(),
             "(" | "{" | "[" | ")" | "}" | "]" => {}
-            _ => {
-                operand = true;
-                level.prefixes = 0;
-            }
+            _ => match strength(spelling) {
+                Some(strength) => level.operator(strength),
+                None => {
+                    operand = true;
+                    level.prefixes = 0;
+                }
+            },
         }
         levels += level.levels();
-        operators += level.operators;
         match spelling {
             "(" | "{" | "[" => {
                 open.push(Level::default());
                 levels += 1;
             }
             ")" | "}" | "]" => {
-                if open.len() > 1
-                    && let Some(closed) = open.pop()
-                {
+                let closed = if open.len() > 1 { open.pop() } else { None };
+                let depth = closed.map_or(0, |closed| {
                     levels -= closed.levels().min(levels);
-                    operators -= closed.operators.min(operators);
-                }
+                    1 + closed.depth()
+                });
                 if let Some(level) = open.last_mut() {
                     levels -= level.levels().min(levels);
-                    operators -= level.operators.min(operators);
+                    level.operand = level.operand.max(depth);
                     if spelling == "}" {
                         level.restart();
                     } else {
                         level.prefixes = 0;
                     }
                     levels += level.levels();
-                    operators += level.operators;
                 }
                 operand = true;
             }
             _ => {}
         }
         after_operand = operand;
-        if levels > LEVELS || levels + operators > BRANCHES {
+        let depth = open.last().map_or(0, Level::depth);
+        if levels > LEVELS || levels + depth > BRANCHES {
             return Some(token);
         }
     }

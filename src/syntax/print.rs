@@ -4,13 +4,22 @@
 //! comments stay where they are; a blank line between entries stays, and several become one. Blocks of statements and
 //! the branches of an `if` stay on one line if they were written so and fit; lists of arguments and children are
 //! broken, one a line, where one line would be too long. Literals keep their spelling.
+//!
+//! A tree becomes text in three steps. The files named after constructs turn each into a document (`doc`), which
+//! says where it may be broken. The layout breaks the document into lines, and puts the comments of the source among
+//! them. At last adjacent lines are brought into columns.
 
 mod block;
-mod broken;
 mod columns;
-mod flat;
+mod doc;
+mod expr;
 mod item;
+mod layout;
+mod levels;
+mod list;
+mod names;
 mod remarks;
+mod source;
 mod task;
 mod tree;
 mod world;
@@ -19,8 +28,9 @@ use super::ast;
 use super::parse::parse;
 use crate::diagnostic::Diagnostic;
 use crate::source::FileId;
-use columns::{Group, Line};
-use remarks::Remarks;
+use doc::Entry;
+use layout::Layout;
+use source::Source;
 
 /// The column that a line of code does not pass if it can be broken.
 const WIDTH: usize = 110;
@@ -38,113 +48,37 @@ pub fn format(text: &str) -> Result<String, Vec<Diagnostic>> {
 }
 
 /// A file as text. With the `source` that it was parsed from, its comments and blank lines stay; without, it is
-/// printed as a tree that has never been text, its documentation as `///` lines.
+/// printed as a tree that has never been text, its documentation as `///` lines, whatever its spans are.
 pub fn file(file: &ast::File, source: Option<&str>) -> String {
-    let mut printer = Printer::new(source.map(|text| Remarks::new(text, &file.comments)));
-    printer.items(&file.items);
-    printer.finish()
+    let source = source.map(Source::new);
+    let printer = Printer {
+        source: source.as_ref(),
+    };
+    let items = printer.items(&file.items);
+    Layout::new(source.as_ref(), &file.comments).text(&items)
 }
 
 /// An item as text, with its documentation, ending in a newline.
 pub fn item(item: &ast::Item) -> String {
-    let mut printer = Printer::new(None);
-    printer.item(item);
-    printer.finish()
+    let item = Printer::default().item(item);
+    Layout::new(None, &[]).text(&[item])
 }
 
 /// A node of a tree as text, without a newline at its end.
 pub fn node(node: &ast::Node) -> String {
-    let mut printer = Printer::new(None);
-    printer.node(node, 0);
-    printer.end_line(Group::None);
-    printer.finish().trim_end().to_owned()
+    let doc = Printer::default().node(node);
+    let text = Layout::new(None, &[]).text(&[Entry::new(node.span, doc)]);
+    text.trim_end().to_owned()
 }
 
 /// An expression as text, on one line.
 pub fn expr(expr: &ast::Expr) -> String {
-    flat::expr(expr)
+    Printer::default().expr(expr).on_one_line()
 }
 
-/// The lines that are printed so far, and the one that is being written.
-struct Printer<'a> {
-    lines: Vec<Line>,
-    /// How many lines of code have been ended.
-    ended: usize,
-    /// The columns of the present line.
-    cells: Vec<String>,
-    /// The level at which the next line begins.
-    indent: usize,
-    /// The level at which the present line has begun.
-    begun: Option<usize>,
-    /// Whether a blank line goes before the present one.
-    blank: bool,
-    /// Whether the next entry is the first of its block.
-    first: bool,
-    /// Where a comment goes that stands inside the present entry, at a place where none can stay.
-    entry: usize,
-    remarks: Option<Remarks<'a>>,
-}
-
-impl<'a> Printer<'a> {
-    fn new(remarks: Option<Remarks<'a>>) -> Self {
-        Self {
-            lines: Vec::new(),
-            ended: 0,
-            cells: vec![String::new()],
-            indent: 0,
-            begun: None,
-            blank: false,
-            first: true,
-            entry: 0,
-            remarks,
-        }
-    }
-
-    fn finish(self) -> String {
-        columns::text(&self.lines)
-    }
-
-    fn write(&mut self, text: &str) {
-        self.begun.get_or_insert(self.indent);
-        if let Some(cell) = self.cells.last_mut() {
-            cell.push_str(text);
-        }
-    }
-
-    /// Begins the next column of the line.
-    fn cell(&mut self, text: &str) {
-        self.cells.push(text.to_owned());
-    }
-
-    /// The column at which the line stands, were it not aligned.
-    fn column(&self) -> usize {
-        let text: usize = self.cells.iter().map(|cell| cell.chars().count()).sum();
-        4 * self.begun.unwrap_or(self.indent) + text + self.cells.len() - 1
-    }
-
-    fn end_line(&mut self, group: Group) {
-        self.ended += 1;
-        let cells = std::mem::replace(&mut self.cells, vec![String::new()]);
-        self.lines.push(Line {
-            indent: self.begun.take().unwrap_or(self.indent),
-            cells,
-            group,
-            blank_before: std::mem::take(&mut self.blank),
-            comment: None,
-        });
-    }
-
-    fn open_block(&mut self, group: Group) {
-        self.write("{");
-        self.end_line(group);
-        self.indent += 1;
-        self.first = true;
-    }
-
-    /// Ends a block, and leaves the line open after its brace.
-    fn close_block(&mut self) {
-        self.indent -= 1;
-        self.first = false;
-        self.write("}");
-    }
+/// Turns syntax into documents.
+#[derive(Clone, Copy, Default)]
+struct Printer<'s> {
+    /// What the tree was parsed from.
+    source: Option<&'s Source<'s>>,
 }

@@ -40,7 +40,7 @@ const MARKS: [&str; 19] = [
     ":=", "**", "++", "..",
 ];
 
-/// Whether a character parts tokens and is none.
+/// Whether a character separates tokens and belongs to none.
 pub(super) fn is_blank(letter: char) -> bool {
     matches!(letter, ' ' | '\t' | '\r' | '\n' | '\u{FEFF}')
 }
@@ -96,7 +96,7 @@ fn first(rest: &str) -> (Kind, usize) {
     }
 }
 
-/// The length of the number that `rest` begins with, as lax as the grammar takes it.
+/// The length of the number that `rest` begins with, as leniently as the grammar reads it.
 fn number(rest: &str) -> usize {
     let hexadecimal = rest.strip_prefix("0x").or_else(|| rest.strip_prefix("0X"));
     if let Some(digits) =

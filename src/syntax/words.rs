@@ -1,6 +1,6 @@
 //! The words of the language.
 
-use super::ast::Word;
+use super::ast::{AssignOp, BinaryOp, Link, Outcome, UnaryOp, Word};
 
 /// The words that begin an item.
 pub(super) const ITEMS: [&str; 14] = [
@@ -20,7 +20,7 @@ pub(super) const ITEMS: [&str; 14] = [
     "claim",
 ];
 
-/// The words that begin an aspect of a task; bare, they are no items of a list.
+/// The words that begin an aspect of a task; without parentheses or backquotes, they do not stand in a list.
 pub(super) const ASPECTS: [&str; 7] = [
     "observe", "choose", "history", "patience", "start", "end", "reward",
 ];
@@ -68,5 +68,71 @@ impl Word {
             .iter()
             .find(|(_, word)| *word == self)
             .map_or("selector", |(spelling, _)| spelling)
+    }
+}
+
+impl UnaryOp {
+    /// The operator as it is written.
+    pub fn spelling(self) -> &'static str {
+        match self {
+            Self::Neg => "-",
+            Self::Pos => "+",
+            Self::Not => "not",
+        }
+    }
+}
+
+impl BinaryOp {
+    /// The operator as it is written.
+    pub fn spelling(self) -> &'static str {
+        match self {
+            Self::Or => "or",
+            Self::And => "and",
+            Self::Eq => "==",
+            Self::Ne => "!=",
+            Self::Lt => "<",
+            Self::Le => "<=",
+            Self::Gt => ">",
+            Self::Ge => ">=",
+            Self::Add => "+",
+            Self::Sub => "-",
+            Self::Mul => "*",
+            Self::Div => "/",
+            Self::Pow => "^",
+        }
+    }
+}
+
+impl AssignOp {
+    /// The operator as it is written.
+    pub fn spelling(self) -> &'static str {
+        match self {
+            Self::Set => "=",
+            Self::Add => "+=",
+            Self::Sub => "-=",
+            Self::Mul => "*=",
+            Self::Div => "/=",
+        }
+    }
+}
+
+impl Link {
+    /// The word or the mark as it is written.
+    pub fn spelling(self) -> &'static str {
+        match self {
+            Self::Of => "of",
+            Self::Per => "per",
+            Self::Arrow => "->",
+        }
+    }
+}
+
+impl Outcome {
+    /// The word as it is written.
+    pub fn spelling(self) -> &'static str {
+        match self {
+            Self::Success => "success",
+            Self::Failure => "failure",
+        }
     }
 }

@@ -27,8 +27,6 @@ mod simplify;
 mod snapshot;
 mod svg;
 mod syntax;
-mod syntax_print;
-mod syntax_total;
 mod tables;
 mod tree;
 mod world;

@@ -23,31 +23,15 @@ impl<'i> Builder<'i> {
     }
 
     fn clauses(&mut self, node: Node<'i>) -> Vec<Clause> {
-        let mut parts = Parts::of(node);
-        let open = parts.maybe(Rule::open_brace).map(|node| self.span(&node));
         let mut clauses = Vec::new();
-        let mut previous = None;
-        for part in parts {
-            let start = part.as_span().start();
-            let span = self.span(&part);
-            let kind = match part.as_rule() {
-                Rule::stray_mark => {
-                    self.stray_mark(&part);
-                    continue;
-                }
-                Rule::close_brace | Rule::missing_close => {
-                    self.close(Some(part), open);
-                    continue;
-                }
-                Rule::bad_entry => {
-                    self.bad(&part, Rule::strict_clause, previous);
-                    ClauseKind::Error
-                }
-                _ => self.clause(part),
-            };
-            previous = Some(start);
-            clauses.push(Clause { kind, span });
-        }
+        self.entries(
+            Parts::of(node),
+            Rule::strict_clause,
+            |builder, node, span| {
+                let kind = node.map_or(ClauseKind::Error, |node| builder.clause(node));
+                clauses.push(Clause { kind, span });
+            },
+        );
         clauses
     }
 

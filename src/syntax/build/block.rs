@@ -26,33 +26,13 @@ impl<'i> Builder<'i> {
         self.take_block(&mut parts)
     }
 
-    pub(super) fn block(&mut self, node: Node<'i>) -> Block {
+    fn block(&mut self, node: Node<'i>) -> Block {
         let span = self.span(&node);
-        let mut parts = Parts::of(node);
-        let open = parts.maybe(Rule::open_brace).map(|node| self.span(&node));
         let mut stmts = Vec::new();
-        let mut previous = None;
-        for part in parts {
-            let start = part.as_span().start();
-            let span = self.span(&part);
-            let kind = match part.as_rule() {
-                Rule::stray_mark => {
-                    self.stray_mark(&part);
-                    continue;
-                }
-                Rule::close_brace | Rule::missing_close => {
-                    self.close(Some(part), open);
-                    continue;
-                }
-                Rule::bad_entry => {
-                    self.bad(&part, Rule::strict_stmt, previous);
-                    StmtKind::Error
-                }
-                _ => self.stmt(part),
-            };
-            previous = Some(start);
+        self.entries(Parts::of(node), Rule::strict_stmt, |builder, node, span| {
+            let kind = node.map_or(StmtKind::Error, |node| builder.stmt(node));
             stmts.push(Stmt { kind, span });
-        }
+        });
         Block { stmts, span }
     }
 
@@ -166,7 +146,7 @@ impl<'i> Builder<'i> {
 
     /// Reports a name that stands where a statement should.
     fn lone_name(&mut self, span: Span) {
-        if self.failed_at.is_some_and(|at| span.range().start <= at) {
+        if self.is_reported(span.range().start) {
             return;
         }
         let name = self.slice(span);

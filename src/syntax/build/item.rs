@@ -1,19 +1,16 @@
 //! Items.
 
 use super::Builder;
-use crate::diagnostic::{Applicability, Code, Diagnostic};
-use crate::source::Span;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::syntax::ast::{
-    Enum, Event, Ident, Item, ItemKind, Let, LetBody, On, Param, Params, Predicate, State, Trigger,
+    Enum, Event, Ident, ItemKind, Let, LetBody, On, Param, Params, Predicate, State, Trigger,
     TypeExpr, Use, UseWhat,
 };
 use crate::syntax::grammar::{Node, Parts, Rule};
 
 impl<'i> Builder<'i> {
-    pub(super) fn item(&mut self, node: Node<'i>) -> Item {
-        let span = self.span(&node);
-        let docs = self.docs(node.as_span().start());
-        let kind = match node.as_rule() {
+    pub(super) fn item(&mut self, node: Node<'i>) -> ItemKind {
+        match node.as_rule() {
             Rule::use_item => self.use_item(node),
             Rule::world => ItemKind::World(self.world(node)),
             Rule::enum_item => ItemKind::Enum(self.enum_item(node)),
@@ -29,8 +26,7 @@ impl<'i> Builder<'i> {
             Rule::tree => ItemKind::Tree(self.tree(node)),
             Rule::claim => ItemKind::Claim(self.claim(node)),
             _ => ItemKind::Error,
-        };
-        Item { docs, kind, span }
+        }
     }
 
     fn use_item(&mut self, node: Node<'i>) -> ItemKind {
@@ -228,25 +224,5 @@ impl<'i> Builder<'i> {
             }
         }
         Some(TypeExpr { factors, span })
-    }
-
-    /// Reports a comma that is missing just before `node`.
-    pub(super) fn missing_comma(&mut self, node: &Node<'i>, before: Option<Span>, what: &str) {
-        let at = node.as_span().start();
-        let next = self.token_at(at);
-        let place = next.map_or(Span::new(self.file, at, at), |token| {
-            Span::new(self.file, token.start, token.end)
-        });
-        let comma = before.map_or(place.before(), Span::after);
-        let shown = self.slice(place);
-        let diagnostic = Diagnostic::new(
-            Code::E0112,
-            place,
-            format!("a comma is missing before `{shown}`"),
-        )
-        .label("this begins another one")
-        .note(format!("commas part {what}"))
-        .fix("put a comma", comma, ",", Applicability::Safe);
-        self.report(diagnostic);
     }
 }

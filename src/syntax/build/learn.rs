@@ -13,29 +13,16 @@ impl<'i> Builder<'i> {
             .maybe(Rule::learner_name)
             .map(|node| self.take_name(&mut Parts::of(node)));
         let task = self.take_name(&mut parts);
-        let open = parts.maybe(Rule::open_brace).map(|node| self.span(&node));
         let mut entries = Vec::new();
-        let mut previous = None;
-        for part in parts {
-            let start = part.as_span().start();
-            match part.as_rule() {
-                Rule::stray_mark => {
-                    self.stray_mark(&part);
-                    continue;
+        self.entries(parts, Rule::strict_learn_entry, |builder, node, span| {
+            entries.push(match node {
+                Some(node) if node.as_rule() == Rule::start => {
+                    LearnEntry::Start(builder.start(node))
                 }
-                Rule::close_brace | Rule::missing_close => {
-                    self.close(Some(part), open);
-                    continue;
-                }
-                Rule::bad_entry => {
-                    let span = self.bad(&part, Rule::strict_learn_entry, previous);
-                    entries.push(LearnEntry::Error(span));
-                }
-                Rule::start => entries.push(LearnEntry::Start(self.start(part))),
-                _ => entries.push(LearnEntry::Setting(self.setting(part))),
-            }
-            previous = Some(start);
-        }
+                Some(node) => LearnEntry::Setting(builder.setting(node)),
+                None => LearnEntry::Error(span),
+            });
+        });
         Learn {
             name,
             task,

@@ -4,6 +4,7 @@ use super::Builder;
 use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, Literal, Unit, UnitFactor};
+use crate::syntax::diagnose::units_note;
 use crate::syntax::grammar::{Node, Parts, Rule};
 use crate::syntax::tokens::Kind;
 use crate::syntax::words::UNITS;
@@ -25,7 +26,7 @@ const FOREIGN_UNITS: [(&str, &str); 13] = [
     ("°", "deg"),
 ];
 
-/// How many of a metric unit an inherited one is.
+/// What an inherited unit is in metric ones.
 const INHERITED: [(&str, &str); 4] = [
     ("f", "1 foot is 30.48 cm"),
     ("in", "1 inch is 25.4 mm"),
@@ -207,14 +208,6 @@ impl<'i> Builder<'i> {
     }
 }
 
-/// The units, as advice.
-pub(in crate::syntax) fn units_note() -> String {
-    format!(
-        "the units are {}",
-        UNITS.map(|unit| format!("`{unit}`")).join(", ")
-    )
-}
-
 /// The unit that the grammar has taken.
 fn unit_of(text: &str, span: Span) -> Unit {
     let factors = text
@@ -237,7 +230,7 @@ fn unit_of(text: &str, span: Span) -> Unit {
 }
 
 /// `digits { "_" digits } [ "." digits ] [ exponent ]`
-pub(in crate::syntax) fn is_well_written(digits: &str) -> bool {
+fn is_well_written(digits: &str) -> bool {
     let is_run = |run: &str| !run.is_empty() && run.chars().all(|letter| letter.is_ascii_digit());
     let (mantissa, exponent) = match digits.split_once(['e', 'E']) {
         Some((mantissa, exponent)) => (mantissa, Some(exponent)),

@@ -3,7 +3,7 @@
 use super::Builder;
 use crate::diagnostic::Code;
 use crate::source::Span;
-use crate::syntax::ast::{Aspect, AspectKind, Expr, Outcome, Start, StartLine, Task};
+use crate::syntax::ast::{Aspect, AspectKind, Expr, Outcome, RewardLine, Start, StartLine, Task};
 use crate::syntax::grammar::{Node, Parts, Rule};
 
 impl<'i> Builder<'i> {
@@ -11,40 +11,23 @@ impl<'i> Builder<'i> {
         let mut parts = Parts::of(node);
         parts.has(Rule::kw_task);
         let name = self.take_name(&mut parts);
-        let open = parts.maybe(Rule::open_brace).map(|node| self.span(&node));
         let mut aspects = Vec::new();
-        let mut previous = None;
-        for part in parts {
-            let start = part.as_span().start();
-            let span = self.span(&part);
-            let kind = match part.as_rule() {
-                Rule::stray_mark => {
-                    self.stray_mark(&part);
-                    continue;
-                }
-                Rule::close_brace | Rule::missing_close => {
-                    self.close(Some(part), open);
-                    continue;
-                }
-                Rule::bad_entry => {
-                    self.bad(&part, Rule::strict_aspect, previous);
-                    AspectKind::Error
-                }
-                Rule::start => AspectKind::Start(self.start(part)),
-                Rule::reward => self.reward(part),
-                _ => self.aspect(part),
-            };
-            previous = Some(start);
+        self.entries(parts, Rule::strict_aspect, |builder, node, span| {
+            let kind = node.map_or(AspectKind::Error, |node| builder.aspect(node));
             aspects.push(Aspect { kind, span });
-        }
+        });
         Task { name, aspects }
     }
 
     fn aspect(&mut self, node: Node<'i>) -> AspectKind {
         let rule = node.as_rule();
+        if rule == Rule::start {
+            return AspectKind::Start(self.start(node));
+        }
         let mut parts = Parts::of(node);
         parts.next();
         match rule {
+            Rule::reward => self.reward(parts),
             Rule::observe => AspectKind::Observe(self.list(&mut parts)),
             Rule::choose => AspectKind::Choose(self.list(&mut parts)),
             Rule::history => {
@@ -98,29 +81,14 @@ impl<'i> Builder<'i> {
         let span = self.span(&node);
         let mut parts = Parts::of(node);
         parts.has(Rule::kw_start);
-        let open = parts.maybe(Rule::open_brace).map(|node| self.span(&node));
         let mut lines = Vec::new();
-        let mut previous = None;
-        for part in parts {
-            let start = part.as_span().start();
-            match part.as_rule() {
-                Rule::stray_mark => self.stray_mark(&part),
-                Rule::close_brace | Rule::missing_close => self.close(Some(part), open),
-                Rule::bad_entry => {
-                    self.bad(&part, Rule::strict_start_line, previous);
-                    previous = Some(start);
-                }
-                _ => {
-                    previous = Some(start);
-                    lines.extend(self.start_line(part));
-                }
-            }
-        }
+        self.entries(parts, Rule::strict_start_line, |builder, node, span| {
+            lines.extend(node.and_then(|node| builder.start_line(node, span)));
+        });
         Start { lines, span }
     }
 
-    fn start_line(&mut self, node: Node<'i>) -> Option<StartLine> {
-        let span = self.span(&node);
+    fn start_line(&mut self, node: Node<'i>, span: Span) -> Option<StartLine> {
         let mut parts = Parts::of(node);
         let target = self.reference(parts.maybe(Rule::r#ref)?);
         self.take_is(&mut parts);
@@ -132,60 +100,34 @@ impl<'i> Builder<'i> {
         })
     }
 
-    fn reward(&mut self, node: Node<'i>) -> AspectKind {
-        let mut parts = Parts::of(node);
-        parts.has(Rule::kw_reward);
-        let open = parts.maybe(Rule::open_brace).map(|node| self.span(&node));
+    fn reward(&mut self, parts: Parts<'i>) -> AspectKind {
         let mut lines = Vec::new();
         let mut otherwise = None;
-        let mut previous = None;
-        for part in parts {
-            let start = part.as_span().start();
-            match part.as_rule() {
-                Rule::stray_mark => self.stray_mark(&part),
-                Rule::close_brace | Rule::missing_close => self.close(Some(part), open),
-                Rule::bad_reward => {
-                    self.bad(&part, Rule::strict_reward, previous);
-                    previous = Some(start);
-                }
-                Rule::otherwise => {
-                    previous = Some(start);
-                    let mut parts = Parts::of(part);
-                    parts.has(Rule::kw_otherwise);
-                    self.take_reward_colon(&mut parts);
-                    otherwise = Some(self.take_expr(&mut parts));
-                }
-                _ => {
-                    previous = Some(start);
-                    let span = self.span(&part);
-                    lines.push(self.reward_line(part, span));
-                }
+        self.entries(parts, Rule::strict_reward, |builder, node, span| {
+            let Some(node) = node else { return };
+            let rule = node.as_rule();
+            let mut parts = Parts::of(node);
+            parts.next();
+            if rule == Rule::otherwise {
+                otherwise = Some(builder.take_reward(&mut parts));
+            } else {
+                let event = builder.take_expr(&mut parts);
+                let value = builder.take_reward(&mut parts);
+                lines.push(RewardLine { event, value, span });
             }
-        }
+        });
         AspectKind::Reward { lines, otherwise }
     }
 
-    fn reward_line(&mut self, node: Node<'i>, span: Span) -> crate::syntax::ast::RewardLine {
-        let mut parts = Parts::of(node);
-        parts.has(Rule::kw_on);
-        let event = self.take_expr(&mut parts);
-        self.take_reward_colon(&mut parts);
-        let value = self.take_expr(&mut parts);
-        crate::syntax::ast::RewardLine { event, value, span }
-    }
-
-    fn take_reward_colon(&mut self, parts: &mut Parts<'i>) {
+    /// A colon and the value after it.
+    fn take_reward(&mut self, parts: &mut Parts<'i>) -> Expr {
         if let Some(node) = parts.maybe(Rule::reward_colon)
             && node.as_str() != ":"
         {
-            let span = self.span(&node);
             let written = node.as_str();
-            self.respell(
-                Code::E0127,
-                span,
-                format!("a reward follows a `:`, not a `{written}`"),
-                ":",
-            );
+            let message = format!("a reward follows a `:`, not a `{written}`");
+            self.respell(Code::E0127, self.span(&node), message, ":");
         }
+        self.take_expr(parts)
     }
 }

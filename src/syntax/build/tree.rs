@@ -3,7 +3,7 @@
 use super::Builder;
 use crate::diagnostic::{Applicability, Code, Diagnostic, suggest};
 use crate::source::Span;
-use crate::syntax::ast::{self, Arg, Claim, ClaimWhat, NodeKind, Spanned, Tree, Word};
+use crate::syntax::ast::{self, Claim, ClaimWhat, NodeKind, Spanned, Tree, Word};
 use crate::syntax::grammar::{Node, Parts, Rule};
 use crate::syntax::words::{FOREIGN_NODES, NODES};
 
@@ -26,7 +26,11 @@ impl<'i> Builder<'i> {
 
     fn take_node(&mut self, parts: &mut Parts<'i>) -> ast::Node {
         match parts.maybe(Rule::node) {
-            Some(node) => self.node(node),
+            Some(node) => {
+                let span = self.span(&node);
+                let kind = self.node(node);
+                ast::Node { kind, span }
+            }
             None => ast::Node {
                 kind: NodeKind::Error,
                 span: Span::new(self.file, 0, 0),
@@ -34,25 +38,20 @@ impl<'i> Builder<'i> {
         }
     }
 
-    fn node(&mut self, node: Node<'i>) -> ast::Node {
-        let span = self.span(&node);
+    fn node(&mut self, node: Node<'i>) -> NodeKind {
         let mut parts = Parts::of(node);
-        let kind = if let Some(composite) = parts.maybe(Rule::composite) {
-            self.composite(composite)
-        } else {
-            let expr = self.take_expr(&mut parts);
-            match parts.maybe(Rule::guards) {
-                Some(arrow) => {
-                    self.guards(&arrow);
-                    NodeKind::Guarded {
-                        guard: expr,
-                        node: Box::new(self.take_node(&mut parts)),
-                    }
-                }
-                None => NodeKind::Leaf(expr),
-            }
+        if let Some(composite) = parts.maybe(Rule::composite) {
+            return self.composite(composite);
+        }
+        let expr = self.take_expr(&mut parts);
+        let Some(arrow) = parts.maybe(Rule::guards) else {
+            return NodeKind::Leaf(expr);
         };
-        ast::Node { kind, span }
+        self.guards(&arrow);
+        NodeKind::Guarded {
+            guard: expr,
+            node: Box::new(self.take_node(&mut parts)),
+        }
     }
 
     fn guards(&mut self, arrow: &Node<'i>) {
@@ -91,23 +90,13 @@ impl<'i> Builder<'i> {
             .map(|node| self.children(node))
             .unwrap_or_default();
         match word {
-            Some(word) => self.shaped(memory, word, args, children),
+            Some(word) => NodeKind::Composite {
+                memory,
+                word,
+                args,
+                children,
+            },
             None => NodeKind::Error,
-        }
-    }
-
-    fn shaped(
-        &mut self,
-        memory: Option<Span>,
-        word: Spanned<Word>,
-        args: Option<Vec<Arg>>,
-        children: Vec<ast::Node>,
-    ) -> NodeKind {
-        NodeKind::Composite {
-            memory,
-            word,
-            args,
-            children,
         }
     }
 
@@ -153,33 +142,15 @@ impl<'i> Builder<'i> {
     }
 
     fn children(&mut self, node: Node<'i>) -> Vec<ast::Node> {
-        let mut parts = Parts::of(node);
-        let open = parts.maybe(Rule::open_brace).map(|node| self.span(&node));
-        let mut children: Vec<ast::Node> = Vec::new();
-        let mut previous = None;
-        for part in parts {
-            let start = part.as_span().start();
-            match part.as_rule() {
-                Rule::close_brace | Rule::missing_close => self.close(Some(part), open),
-                Rule::missing_child_comma => {
-                    let before = children.last().map(|child| child.span);
-                    self.missing_comma(&part, before, "the children of a node");
-                }
-                Rule::bad_child => {
-                    let span = self.bad(&part, Rule::strict_child, previous);
-                    children.push(ast::Node {
-                        kind: NodeKind::Error,
-                        span,
-                    });
-                    previous = Some(start);
-                }
-                Rule::node => {
-                    children.push(self.node(part));
-                    previous = Some(start);
-                }
-                _ => {}
-            }
-        }
+        let mut children = Vec::new();
+        self.entries(
+            Parts::of(node),
+            Rule::strict_child,
+            |builder, node, span| {
+                let kind = node.map_or(NodeKind::Error, |node| builder.node(node));
+                children.push(ast::Node { kind, span });
+            },
+        );
         children
     }
 

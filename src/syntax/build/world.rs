@@ -11,35 +11,22 @@ impl<'i> Builder<'i> {
         let mut parts = Parts::of(node);
         parts.has(Rule::kw_world);
         let name = self.take_name(&mut parts);
-        let open = parts.maybe(Rule::open_brace).map(|node| self.span(&node));
         let mut entries = Vec::new();
-        let mut previous = None;
-        for part in parts {
-            let start = part.as_span().start();
-            let span = self.span(&part);
-            let docs = self.docs(start);
-            let kind = match part.as_rule() {
-                Rule::stray_mark => {
-                    self.stray_mark(&part);
-                    continue;
-                }
-                Rule::close_brace | Rule::missing_close => {
-                    self.close(Some(part), open);
-                    continue;
-                }
-                Rule::bad_entry => {
-                    self.bad(&part, Rule::strict_world_entry, previous);
-                    WorldEntryKind::Error
-                }
-                Rule::place => self.place(part),
-                Rule::wall => self.wall(part),
-                Rule::robot => self.robot(part),
-                _ => WorldEntryKind::Field(self.field(part)),
-            };
-            previous = Some(start);
+        self.entries(parts, Rule::strict_world_entry, |builder, node, span| {
+            let docs = builder.docs(span);
+            let kind = node.map_or(WorldEntryKind::Error, |node| builder.world_entry(node));
             entries.push(WorldEntry { docs, kind, span });
-        }
+        });
         World { name, entries }
+    }
+
+    fn world_entry(&mut self, node: Node<'i>) -> WorldEntryKind {
+        match node.as_rule() {
+            Rule::place => self.place(node),
+            Rule::wall => self.wall(node),
+            Rule::robot => self.robot(node),
+            _ => WorldEntryKind::Field(self.field(node)),
+        }
     }
 
     fn place(&mut self, node: Node<'i>) -> WorldEntryKind {
@@ -87,46 +74,31 @@ impl<'i> Builder<'i> {
         let mut parts = Parts::of(node);
         parts.has(Rule::kw_robot);
         let name = self.take_name(&mut parts);
-        let open = parts.maybe(Rule::open_brace).map(|node| self.span(&node));
         let mut entries = Vec::new();
-        let mut previous = None;
-        for part in parts {
-            let start = part.as_span().start();
-            let span = self.span(&part);
-            let docs = self.docs(start);
-            let kind = match part.as_rule() {
-                Rule::stray_mark => {
-                    self.stray_mark(&part);
-                    continue;
-                }
-                Rule::close_brace | Rule::missing_close => {
-                    self.close(Some(part), open);
-                    continue;
-                }
-                Rule::bad_entry => {
-                    self.bad(&part, Rule::strict_robot_entry, previous);
-                    RobotEntryKind::Error
-                }
-                Rule::sensor => self.sensor(part),
-                _ => RobotEntryKind::Field(self.field(part)),
-            };
-            previous = Some(start);
+        self.entries(parts, Rule::strict_robot_entry, |builder, node, span| {
+            let docs = builder.docs(span);
+            let kind = node.map_or(RobotEntryKind::Error, |node| builder.robot_entry(node));
             entries.push(RobotEntry { docs, kind, span });
-        }
+        });
         WorldEntryKind::Robot { name, entries }
     }
 
-    fn sensor(&mut self, node: Node<'i>) -> RobotEntryKind {
+    fn robot_entry(&mut self, node: Node<'i>) -> RobotEntryKind {
+        if node.as_rule() != Rule::sensor {
+            return RobotEntryKind::Field(self.field(node));
+        }
         let mut parts = Parts::of(node);
         parts.has(Rule::kw_sensor);
-        let name = self.take_name(&mut parts);
-        self.take_is(&mut parts);
-        let value = self.take_expr(&mut parts);
+        let Field { name, value } = self.definition(parts);
         RobotEntryKind::Sensor { name, value }
     }
 
     fn field(&mut self, node: Node<'i>) -> Field {
-        let mut parts = Parts::of(node);
+        self.definition(Parts::of(node))
+    }
+
+    /// `name = value`
+    fn definition(&mut self, mut parts: Parts<'i>) -> Field {
         let name = self.take_name(&mut parts);
         self.take_is(&mut parts);
         let value = self.take_expr(&mut parts);

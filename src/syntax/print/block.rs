@@ -1,114 +1,93 @@
-//! Statements.
+//! Statements, and everything else in braces.
 
-use super::columns::Group;
-use super::{Printer, WIDTH, flat};
+use super::Printer;
+use super::columns::Align;
+use super::doc::{Brackets, Break, Doc, Entry, row};
+use super::names::ident;
+use crate::source::Span;
 use crate::syntax::ast::{Block, Branch, Else, Stmt, StmtKind};
 
 impl Printer<'_> {
-    /// A block that `after` more characters follow on its last line: on one line if it was written so and fits.
-    pub(super) fn block(&mut self, block: &Block, after: usize) {
-        self.hoist(block.span.range().start);
-        if let Some(text) = one_line(block)
-            && !self.has_comment(block.span)
-            && !self
-                .is_written_broken(block.span)
-                .unwrap_or(self.indent > 0)
-            && self.column() + text.chars().count() + after <= WIDTH
-        {
-            self.write(&text);
-            return;
-        }
-        self.open_block(Group::None);
-        self.trailing(block.span.range().start + 1);
-        for stmt in &block.stmts {
-            self.entry(stmt.span, |printer| printer.stmt(stmt));
-        }
-        self.rest_of_block(block.span.range().end.saturating_sub(1));
-        self.close_block();
+    /// A block: at most one plain statement stays on one line if it was written so; without a source, unless it is
+    /// to be `broken`.
+    pub(super) fn block<'a>(&self, block: &'a Block, broken: bool) -> Doc<'a> {
+        let is_plain =
+            |stmt: &Stmt| matches!(stmt.kind, StmtKind::Assign { .. } | StmtKind::Call(_));
+        let is_short = block.stmts.len() <= 1 && block.stmts.iter().all(is_plain);
+        let broken = !is_short || self.is_broken(block.span).unwrap_or(broken);
+        let stmts = block.stmts.iter().map(|stmt| self.stmt(stmt)).collect();
+        let list = Doc::list(Brackets::BLOCK, block.span, stmts)
+            .grouped(block.span, Break::always_if(broken));
+        row![Doc::hoist(block.span.range().start), list]
     }
 
-    fn stmt(&mut self, stmt: &Stmt) {
-        match &stmt.kind {
-            StmtKind::Let(binding) => self.binding(binding),
+    fn stmt<'a>(&self, stmt: &'a Stmt) -> Entry<'a> {
+        let doc = match &stmt.kind {
+            StmtKind::Let(binding) => {
+                return Entry::aligned(stmt.span, Align::Of("let"), self.binding(binding));
+            }
             StmtKind::For {
                 name,
                 domain,
                 block,
-            } => {
-                self.write(&format!(
-                    "for {} in {} ",
-                    flat::ident(name),
-                    flat::ident(domain)
-                ));
-                self.block(block, 0);
-                self.end_line(Group::None);
-            }
-            StmtKind::Branch(branch) => {
-                self.branch(branch);
-                self.end_line(Group::None);
-            }
-            StmtKind::Assign { target, op, value } => {
-                self.write(&format!(
-                    "{} {} ",
-                    flat::reference(target),
-                    flat::assign_op(op.node)
-                ));
-                self.expr(value, 0);
-                self.end_line(Group::None);
-            }
-            StmtKind::Call(call) => {
-                self.call(call, 0);
-                self.end_line(Group::None);
-            }
-            StmtKind::Error => self.end_line(Group::None),
-        }
+            } => row![
+                "for ",
+                ident(name),
+                " in ",
+                ident(domain),
+                " ",
+                self.block(block, true)
+            ],
+            StmtKind::Branch(branch) => self.branch(branch),
+            StmtKind::Assign { target, op, value } => row![
+                self.call(target).flat(),
+                " ",
+                op.node.spelling(),
+                " ",
+                self.expr(value)
+            ],
+            StmtKind::Call(call) => self.call(call),
+            StmtKind::Error => Doc::nothing(),
+        };
+        Entry::new(stmt.span, doc)
     }
 
-    fn branch(&mut self, branch: &Branch) {
-        self.write("if ");
-        self.expr(&branch.cond, 2);
-        self.write(" ");
-        self.block(
-            &branch.then,
-            if branch.otherwise.is_some() {
-                " else {".len()
-            } else {
-                0
-            },
-        );
+    fn branch<'a>(&self, branch: &'a Branch) -> Doc<'a> {
+        let cond = self.expr(&branch.cond).room(" {".len());
+        let then = self.block(&branch.then, true);
         match branch.otherwise.as_deref() {
-            Some(Else::If(next)) => {
-                self.write(" else ");
-                self.branch(next);
+            None => row!["if ", cond, " ", then],
+            Some(otherwise) => {
+                let then = then.room(" else {".len());
+                let otherwise = match otherwise {
+                    Else::If(next) => self.branch(next),
+                    Else::Block(block) => self.block(block, true),
+                };
+                row!["if ", cond, " ", then, " else ", otherwise]
             }
-            Some(Else::Block(block)) => {
-                self.write(" else ");
-                self.block(block, 0);
-            }
-            None => {}
         }
     }
-}
 
-/// A block of at most one plain statement, on one line.
-fn one_line(block: &Block) -> Option<String> {
-    match block.stmts.as_slice() {
-        [] => Some("{}".to_owned()),
-        [stmt] => {
-            let text = match &stmt.kind {
-                StmtKind::Assign { target, op, value } => {
-                    let target = flat::reference(target);
-                    format!(
-                        "{target} {} {}",
-                        flat::assign_op(op.node),
-                        flat::expr(value)
-                    )
-                }
-                StmtKind::Call(call) => flat::reference(call),
-                _ => return None,
-            };
-            Some(format!("{{ {text} }}"))
-        }
-        _ => None,
+    /// Entries in the braces that follow byte `head` and end with `span`, one a line.
+    pub(super) fn braces<'a>(&self, head: usize, span: Span, entries: Vec<Entry<'a>>) -> Doc<'a> {
+        let inside = self.braces_after(head, span);
+        let broken = if entries.is_empty() {
+            Break::Never
+        } else {
+            Break::Always
+        };
+        let list = Doc::list(Brackets::BLOCK, inside, entries).grouped(inside, broken);
+        row![Doc::hoist(inside.range().start), list]
+    }
+
+    /// From the first brace after byte `head` to the end of `span`.
+    pub(super) fn braces_after(&self, head: usize, span: Span) -> Span {
+        let open = self.source.map_or(0, |source| source.brace_after(head));
+        Span::new(span.file, open, span.range().end)
+    }
+
+    /// Whether `span` goes over several lines in the source, if there is one.
+    pub(super) fn is_broken(&self, span: Span) -> Option<bool> {
+        self.source.map(|source| source.is_broken(span))
     }
 }

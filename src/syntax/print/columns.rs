@@ -1,8 +1,8 @@
 //! Lines, and the columns into which adjacent ones are brought.
 
-/// What a line is; adjacent lines of one group are aligned.
+/// How a line is aligned with those next to it: adjacent lines of one kind share their columns.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Group {
+pub(super) enum Align {
     /// Not aligned.
     None,
     /// A comment on a line of its own: it does not part the lines around it.
@@ -13,7 +13,7 @@ pub(super) enum Group {
     Shaped(&'static str, String),
 }
 
-impl Group {
+impl Align {
     fn kind(&self) -> Option<&'static str> {
         match self {
             Self::None | Self::Comment => None,
@@ -36,7 +36,7 @@ pub(super) struct Trailing {
 pub(super) struct Line {
     pub(super) indent: usize,
     pub(super) cells: Vec<String>,
-    pub(super) group: Group,
+    pub(super) align: Align,
     pub(super) blank_before: bool,
     pub(super) comment: Option<Trailing>,
 }
@@ -69,15 +69,15 @@ fn unaligned(line: &Line) -> String {
     format!("{}{}", " ".repeat(4 * line.indent), cells.join(" "))
 }
 
-/// The runs of adjacent lines of one group.
+/// The runs of adjacent lines of one kind.
 fn runs(lines: &[Line]) -> Vec<Vec<usize>> {
     let mut runs: Vec<Vec<usize>> = Vec::new();
     let mut open: Option<(&'static str, usize)> = None;
     for (index, line) in lines.iter().enumerate() {
-        if line.group == Group::Comment && !line.blank_before {
+        if line.align == Align::Comment && !line.blank_before {
             continue;
         }
-        let key = line.group.kind().map(|kind| (kind, line.indent));
+        let key = line.align.kind().map(|kind| (kind, line.indent));
         match (key, runs.last_mut()) {
             (Some(key), Some(run)) if open == Some(key) && !line.blank_before => run.push(index),
             (Some(_), _) => runs.push(vec![index]),
@@ -95,10 +95,10 @@ fn align(lines: &[Line], run: &[usize], code: &mut [String]) {
         .collect();
     let same_shape = run
         .windows(2)
-        .all(|pair| matches!(pair, [(_, a), (_, b)] if a.group == b.group && a.cells.len() == b.cells.len()));
+        .all(|pair| matches!(pair, [(_, a), (_, b)] if a.align == b.align && a.cells.len() == b.cells.len()));
     let shaped = run
         .iter()
-        .any(|(_, line)| matches!(line.group, Group::Shaped(..)));
+        .any(|(_, line)| matches!(line.align, Align::Shaped(..)));
     let columns = if shaped && !same_shape { 1 } else { usize::MAX };
     let widths: Vec<usize> = (0..)
         .map_while(|column| {
@@ -130,33 +130,24 @@ fn align(lines: &[Line], run: &[usize], code: &mut [String]) {
 /// Puts the comments behind their lines: at the column at which they were written if the code leaves room for it,
 /// and at one column for adjacent lines.
 fn trailing(lines: &[Line], code: &mut [String]) {
-    let mut start = 0;
-    while start < lines.len() {
-        let run = lines
-            .iter()
-            .enumerate()
-            .skip(start)
-            .take_while(|(index, line)| {
-                line.comment.is_some() && (*index == start || !line.blank_before)
-            })
-            .count();
-        let columns = lines
-            .iter()
-            .zip(code.iter())
-            .skip(start)
-            .take(run)
-            .map(|(line, code)| {
-                let written = line.comment.as_ref().map_or(0, |comment| comment.column);
-                written.max(code.chars().count() + 1)
-            });
+    let mut rest = code;
+    let joined = |above: &Line, line: &Line| {
+        above.comment.is_some() && line.comment.is_some() && !line.blank_before
+    };
+    for lines in lines.chunk_by(joined) {
+        let (code, after) = std::mem::take(&mut rest).split_at_mut(lines.len());
+        rest = after;
+        let columns = lines.iter().zip(code.iter()).map(|(line, code)| {
+            let written = line.comment.as_ref().map_or(0, |comment| comment.column);
+            written.max(code.chars().count() + 1)
+        });
         let column = columns.max().unwrap_or(0);
-        for (line, code) in lines.iter().zip(code.iter_mut()).skip(start).take(run) {
+        for (line, code) in lines.iter().zip(code) {
             if let Some(comment) = &line.comment {
                 let blanks = column.saturating_sub(code.chars().count());
                 code.push_str(&" ".repeat(blanks));
                 code.push_str(&comment.text);
             }
         }
-        start += run.max(1);
     }
 }

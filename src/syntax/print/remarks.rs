@@ -1,27 +1,25 @@
 //! What the source says between the lines: comments and blank lines.
 
-use super::Printer;
-use super::columns::{Group, Line, Trailing};
+use super::columns::{Align, Line, Trailing};
+use super::layout::Layout;
+use super::source::Source;
 use crate::source::Span;
 use crate::syntax::ast::{Comment, CommentKind};
 use crate::syntax::comments::is_whole_line;
-use crate::syntax::tokens::{Kind, Token, tokens};
 use std::collections::VecDeque;
 
 /// The source with the comments that are still to be printed.
 pub(super) struct Remarks<'a> {
     text: &'a str,
-    tokens: Vec<Token>,
     comments: VecDeque<&'a Comment>,
     /// Up to where the source has been printed.
     printed: usize,
 }
 
 impl<'a> Remarks<'a> {
-    pub(super) fn new(text: &'a str, comments: &'a [Comment]) -> Self {
+    pub(super) fn new(source: &'a Source<'a>, comments: &'a [Comment]) -> Self {
         Self {
-            text,
-            tokens: tokens(text),
+            text: source.text,
             comments: comments.iter().collect(),
             printed: 0,
         }
@@ -43,14 +41,15 @@ impl<'a> Remarks<'a> {
 
     /// Whether a blank line stands between what is printed and byte `start`.
     fn blank_line_before(&self, start: usize) -> bool {
-        let gap = self.slice(self.printed, start);
-        gap.split('\n').count() > 2
-            && gap.split('\n').skip(1).any(|line| line.trim().is_empty())
-            && {
-                let lines: Vec<&str> = gap.split('\n').collect();
-                let inner = lines.get(1..lines.len() - 1).unwrap_or_default();
-                inner.iter().any(|line| line.trim().is_empty())
+        // The first line has been printed, and the last one is that of `start`.
+        let lines = self.slice(self.printed, start).split('\n').skip(1);
+        let mut lines = lines.map(|line| line.trim().is_empty()).peekable();
+        while let Some(is_blank) = lines.next() {
+            if is_blank && lines.peek().is_some() {
+                return true;
             }
+        }
+        false
     }
 
     fn column(&self, at: usize) -> usize {
@@ -77,27 +76,18 @@ fn spelled(comment: &Comment, plain: bool) -> String {
     )
 }
 
-impl Printer<'_> {
-    /// Begins an entry that stands at `span`: the comments above it are printed, and the blank line if there is one.
-    fn leading(&mut self, span: Span) {
+impl Layout<'_> {
+    /// Begins an entry that stands at `span`: the comments above it are printed, and the blank line if there is one;
+    /// without a source, one if the entry stands `apart`.
+    pub(super) fn leading(&mut self, span: Span, apart: bool) {
         let start = span.range().start;
         self.entry = self.lines.len();
         while self.whole_line_before(start) {}
-        let Some(remarks) = self.remarks.as_ref() else {
-            return;
+        self.blank = match &self.remarks {
+            Some(remarks) => !self.first && remarks.blank_line_before(start),
+            None => apart,
         };
-        self.blank = !self.first && remarks.blank_line_before(start);
         self.first = false;
-    }
-
-    /// Prints an entry between the comments above it and the one behind it.
-    pub(super) fn entry(&mut self, span: Span, print: impl FnOnce(&mut Self)) {
-        let outer = self.entry;
-        self.leading(span);
-        print(self);
-        self.hoist(span.range().end);
-        self.trailing(span.range().end);
-        self.entry = outer;
     }
 
     /// Prints the next comment if it stands before byte `end`, on a line of its own.
@@ -117,7 +107,7 @@ impl Printer<'_> {
         self.lines.push(Line {
             indent: self.indent,
             cells: vec![spelled(comment, plain)],
-            group: Group::Comment,
+            align: Align::Comment,
             blank_before,
             comment: None,
         });
@@ -162,7 +152,7 @@ impl Printer<'_> {
         let line = Line {
             indent,
             cells: vec![spelled(comment, true)],
-            group: Group::Comment,
+            align: Align::Comment,
             blank_before,
             comment: None,
         };
@@ -193,7 +183,7 @@ impl Printer<'_> {
         let Some(line) = self.lines.last_mut().filter(|line| line.comment.is_none()) else {
             return;
         };
-        if line.group == Group::Comment {
+        if line.align == Align::Comment {
             return;
         }
         line.comment = Some(Trailing {
@@ -204,17 +194,12 @@ impl Printer<'_> {
         remarks.comments.pop_front();
     }
 
-    /// Prints the comments that stand before the end of a block.
-    pub(super) fn rest_of_block(&mut self, end: usize) {
+    /// Prints the comments that stand before byte `end`, where a list ends.
+    pub(super) fn rest_of_list(&mut self, end: usize) {
         while self.whole_line_before(end) {}
         if let Some(remarks) = self.remarks.as_mut() {
             remarks.printed = remarks.printed.max(end);
         }
-    }
-
-    /// Prints the comments that stand at the end of the file.
-    pub(super) fn rest_of_file(&mut self) {
-        self.rest_of_block(usize::MAX);
     }
 
     /// Whether a comment that is still to be printed stands in `span`.
@@ -224,48 +209,5 @@ impl Printer<'_> {
             .as_ref()
             .and_then(|remarks| remarks.comments.front());
         next.is_some_and(|comment| comment.span.start < span.end)
-    }
-
-    /// Whether `span` goes over several lines in the source; nothing if there is no source.
-    pub(super) fn is_written_broken(&self, span: Span) -> Option<bool> {
-        let remarks = self.remarks.as_ref()?;
-        Some(
-            remarks
-                .slice(span.range().start, span.range().end)
-                .contains('\n'),
-        )
-    }
-
-    /// The end of the first token `spelling` at or after byte `at`.
-    pub(super) fn mark_after(&self, spelling: &str, at: usize) -> usize {
-        let Some(remarks) = self.remarks.as_ref() else {
-            return 0;
-        };
-        let first = remarks.tokens.partition_point(|token| token.end <= at);
-        remarks
-            .tokens
-            .get(first..)
-            .unwrap_or_default()
-            .iter()
-            .find(|token| token.kind == Kind::Mark && token.of(remarks.text) == spelling)
-            .map_or(at, |token| token.end)
-    }
-
-    /// From the last `word` before `span` to its end.
-    pub(super) fn word_before(&self, word: &str, span: Span) -> Span {
-        let Some(remarks) = self.remarks.as_ref() else {
-            return span;
-        };
-        let first = remarks
-            .tokens
-            .partition_point(|token| token.start < span.range().start);
-        let tokens = remarks.tokens.get(..first).unwrap_or_default();
-        let found = tokens
-            .iter()
-            .rev()
-            .find(|token| token.of(remarks.text) == word);
-        found.map_or(span, |token| {
-            Span::new(span.file, token.start, span.range().end)
-        })
     }
 }

@@ -1,147 +1,146 @@
 //! Tasks and learners.
 
-use super::columns::Group;
-use super::{Printer, WIDTH, flat};
+use super::Printer;
+use super::columns::Align;
+use super::doc::{Brackets, Break, Doc, Entry, row};
+use super::names::ident;
 use crate::source::Span;
+use crate::spelling::quoted;
 use crate::syntax::ast::{
-    Aspect, AspectKind, Expr, Learn, LearnEntry, RewardLine, Setting, Start, Task,
+    Aspect, AspectKind, Expr, Learn, LearnEntry, Outcome, RewardLine, Setting, Spanned, Start, Task,
 };
+use crate::syntax::words::ASPECTS;
 
 impl Printer<'_> {
-    pub(super) fn task(&mut self, task: &Task, span: Span) {
-        self.write(&format!("task {} ", flat::ident(&task.name)));
-        self.begin_braces(task.name.span.range().end);
-        for aspect in &task.aspects {
-            self.entry(aspect.span, |printer| printer.aspect(aspect));
-        }
-        self.end_braces(span.range().end, task.aspects.is_empty());
+    pub(super) fn task<'a>(&self, task: &'a Task, span: Span) -> Doc<'a> {
+        let aspects = task.aspects.iter().map(|aspect| self.aspect(aspect));
+        let braces = self.braces(task.name.span.range().end, span, aspects.collect());
+        row!["task ", ident(&task.name), " ", braces]
     }
 
-    fn aspect(&mut self, aspect: &Aspect) {
-        match &aspect.kind {
-            AspectKind::Observe(list) => self.list("observe", list, aspect.span),
-            AspectKind::Choose(list) => self.list("choose", list, aspect.span),
+    fn aspect<'a>(&self, aspect: &'a Aspect) -> Entry<'a> {
+        let in_columns = Align::Of("aspect");
+        let (align, doc) = match &aspect.kind {
+            AspectKind::Observe(list) => (in_columns, self.list("observe", list, aspect.span)),
+            AspectKind::Choose(list) => (in_columns, self.list("choose", list, aspect.span)),
             AspectKind::History { window, outcomes } => {
-                let outcomes = outcomes
-                    .iter()
-                    .map(|outcome| flat::outcome(outcome.node).to_owned());
-                self.write("history");
-                self.cell(&format!(
-                    "last {} {}",
-                    flat::expr(window),
-                    flat::joined(outcomes)
-                ));
-                self.end_line(Group::Of("aspect"));
+                let window = self.expr(window).flat();
+                let outcomes = joined(outcomes);
+                let last = row!["last ", window, " ", outcomes];
+                (in_columns, row!["history", Doc::column(), last])
             }
-            AspectKind::Patience(value) => {
-                self.write("patience");
-                self.cell("");
-                self.value("aspect", value);
-            }
-            AspectKind::Start(start) => self.start(start),
-            AspectKind::EndOn(value) => self.worded("end on ", value),
-            AspectKind::EndAfter(value) => self.worded("end after ", value),
+            AspectKind::Patience(value) => (
+                in_columns,
+                row!["patience", Doc::column(), self.expr(value)],
+            ),
+            AspectKind::Start(start) => (Align::None, self.start(start)),
+            AspectKind::EndOn(value) => (Align::None, row!["end on ", self.expr(value)]),
+            AspectKind::EndAfter(value) => (Align::None, row!["end after ", self.expr(value)]),
             AspectKind::Reward { lines, otherwise } => {
-                self.reward(lines, otherwise.as_ref(), aspect.span)
+                let doc = self.reward(lines, otherwise.as_ref(), aspect.span);
+                (Align::None, doc)
             }
-            AspectKind::Error => self.end_line(Group::None),
-        }
+            AspectKind::Error => (Align::None, Doc::nothing()),
+        };
+        Entry::aligned(aspect.span, align, doc)
     }
 
     /// `observe a, b`; one entry a line where one line cannot hold them.
-    fn list(&mut self, word: &str, list: &[Expr], span: Span) {
-        self.write(word);
-        let text = flat::joined(list.iter().map(flat::list_item));
-        // Columns may push the list a little to the right.
-        if !self.has_comment(span)
-            && 4 * self.indent + "patience ".len() + text.chars().count() <= WIDTH
-        {
-            self.cell(&text);
-            self.end_line(Group::Of("aspect"));
-            return;
-        }
-        self.end_line(Group::None);
-        self.trailing(span.range().start + word.len());
-        self.indent += 1;
-        self.first = true;
-        for item in list {
-            self.entry(item.span, |printer| {
-                printer.write(&flat::list_item(item));
-                printer.write(",");
-                printer.end_line(Group::None);
-            });
-        }
-        self.rest_of_block(span.range().end);
-        self.indent -= 1;
-        self.first = false;
+    fn list<'a>(&self, word: &'static str, list: &'a [Expr], span: Span) -> Doc<'a> {
+        let items = list
+            .iter()
+            .map(|item| Entry::new(item.span, self.list_item(item)))
+            .collect();
+        let range = span.range();
+        let inside = Span::new(span.file, range.start + word.len(), range.end);
+        let list = Doc::list(Brackets::NONE, inside, items);
+        // Columns may push the list to the right, as far as behind the longest word.
+        let room = "patience".len() - word.len();
+        row![
+            word,
+            row![Doc::column(), list]
+                .grouped(span, Break::TooLong)
+                .room(room)
+        ]
     }
 
-    pub(super) fn start(&mut self, start: &Start) {
-        self.write("start ");
-        self.begin_braces(start.span.range().start);
-        for line in &start.lines {
-            self.entry(line.span, |printer| {
-                printer.definition("start", &flat::reference(&line.target), &line.value);
-            });
+    /// An entry of `observe` or `choose`; one that begins with the word of an aspect has that in backquotes.
+    fn list_item<'a>(&self, item: &'a Expr) -> Doc<'a> {
+        let text = self.expr(item).on_one_line();
+        let is_name = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
+        let rest = text.trim_start_matches(is_name);
+        let word = text.get(..text.len() - rest.len()).unwrap_or_default();
+        if ASPECTS.contains(&word) && !rest.starts_with('(') {
+            Doc::from(quoted(word) + rest)
+        } else {
+            Doc::from(text)
         }
-        self.end_braces(start.span.range().end, start.lines.is_empty());
     }
 
-    fn reward(&mut self, lines: &[RewardLine], otherwise: Option<&Expr>, span: Span) {
-        self.write("reward ");
-        self.begin_braces(span.range().start);
-        for line in lines {
-            self.entry(line.span, |printer| {
-                printer.write(&format!("on {}:", flat::expr(&line.event)));
-                printer.cell("");
-                printer.value("reward", &line.value);
-            });
-        }
-        if let Some(value) = otherwise {
-            self.entry(self.word_before("otherwise", value.span), |printer| {
-                printer.write("otherwise:");
-                printer.cell("");
-                printer.value("reward", value);
-            });
-        }
-        self.end_braces(span.range().end, lines.is_empty() && otherwise.is_none());
-    }
-
-    pub(super) fn learn(&mut self, learn: &Learn, span: Span) {
-        let name = learn
-            .name
-            .as_ref()
-            .map_or(String::new(), |name| format!("{} for ", flat::ident(name)));
-        self.write(&format!("learn {name}{} ", flat::ident(&learn.task)));
-        self.begin_braces(learn.task.span.range().end);
-        for entry in &learn.entries {
-            match entry {
-                LearnEntry::Start(start) => self.entry(start.span, |printer| printer.start(start)),
-                LearnEntry::Setting(setting) => {
-                    self.entry(setting.span, |printer| printer.setting(setting))
-                }
-                LearnEntry::Error(_) => {}
-            }
-        }
-        self.end_braces(span.range().end, learn.entries.is_empty());
-    }
-
-    fn setting(&mut self, setting: &Setting) {
-        let before = self.ended;
-        self.write(&flat::ident(&setting.name));
-        self.cell("= ");
-        let tail = setting
-            .tail
-            .as_ref()
-            .map(|(link, value)| (flat::link(link.node), value));
-        let after = tail.map_or(0, |(link, value)| {
-            link.len() + flat::expr(value).chars().count() + 2
+    fn start<'a>(&self, start: &'a Start) -> Doc<'a> {
+        let lines = start.lines.iter().map(|line| {
+            let doc = self.definition(self.call(&line.target).flat(), &line.value);
+            Entry::aligned(line.span, Align::Of("start"), doc)
         });
-        self.expr(&setting.value, after);
-        if let Some((link, value)) = tail {
-            self.write(&format!(" {link} "));
-            self.expr(value, 0);
-        }
-        self.end_entry("setting", before);
+        let braces = self.braces(start.span.range().start, start.span, lines.collect());
+        row!["start ", braces]
     }
+
+    fn reward<'a>(
+        &self,
+        lines: &'a [RewardLine],
+        otherwise: Option<&'a Expr>,
+        span: Span,
+    ) -> Doc<'a> {
+        let entry = |span, head, value| {
+            let doc = row![head, ":", Doc::column(), self.expr(value)];
+            Entry::aligned(span, Align::Of("reward"), doc)
+        };
+        let mut entries: Vec<Entry<'a>> = lines
+            .iter()
+            .map(|line| {
+                let head = row!["on ", self.expr(&line.event).flat()];
+                entry(line.span, head, &line.value)
+            })
+            .collect();
+        entries.extend(otherwise.map(|value| {
+            let word = "otherwise";
+            let source = self.source;
+            let span = source.map_or(value.span, |source| source.word_before(word, value.span));
+            entry(span, Doc::from(word), value)
+        }));
+        row!["reward ", self.braces(span.range().start, span, entries)]
+    }
+
+    pub(super) fn learn<'a>(&self, learn: &'a Learn, span: Span) -> Doc<'a> {
+        let name = match &learn.name {
+            Some(name) => row![ident(name), " for "],
+            None => Doc::nothing(),
+        };
+        let entries = learn.entries.iter().filter_map(|entry| match entry {
+            LearnEntry::Start(start) => Some(Entry::new(start.span, self.start(start))),
+            LearnEntry::Setting(setting) => Some(self.setting(setting)),
+            LearnEntry::Error(_) => None,
+        });
+        let braces = self.braces(learn.task.span.range().end, span, entries.collect());
+        row!["learn ", name, ident(&learn.task), " ", braces]
+    }
+
+    fn setting<'a>(&self, setting: &'a Setting) -> Entry<'a> {
+        let tail = match &setting.tail {
+            Some((link, value)) => row![" ", link.node.spelling(), " ", self.expr(value)],
+            None => Doc::nothing(),
+        };
+        let value = self.expr(&setting.value).room(tail.width);
+        let doc = row![ident(&setting.name), Doc::column(), "= ", value, tail];
+        Entry::aligned(setting.span, Align::Of("setting"), doc)
+    }
+}
+
+fn joined(outcomes: &[Spanned<Outcome>]) -> String {
+    let words: Vec<&str> = outcomes
+        .iter()
+        .map(|outcome| outcome.node.spelling())
+        .collect();
+    words.join(", ")
 }

@@ -1,47 +1,30 @@
 //! Trees.
 
-use super::columns::Group;
-use super::{Printer, flat};
-use crate::source::Span;
+use super::Printer;
+use super::doc::{Brackets, Break, Doc, Entry, row};
+use super::names::ident;
 use crate::syntax::ast::{Node, NodeKind, Tree};
 
 impl Printer<'_> {
-    pub(super) fn tree(&mut self, tree: &Tree) {
-        self.write(&format!("tree {}", flat::ident(&tree.name)));
-        self.params(tree.params.as_ref(), 2);
-        if let Some(task) = &tree.task {
-            self.write(&format!(" for {}", flat::ident(task)));
-        }
-        self.write(" = ");
-        self.hoist(tree.root.span.range().start);
-        self.node(&tree.root, 0);
-        self.end_line(Group::None);
+    pub(super) fn tree<'a>(&self, tree: &'a Tree) -> Doc<'a> {
+        let params = self.params(tree.params.as_ref()).room(" =".len());
+        let task = match &tree.task {
+            Some(task) => row![" for ", ident(task)],
+            None => Doc::nothing(),
+        };
+        let comments = Doc::hoist(tree.root.span.range().start);
+        row![
+            "tree ",
+            ident(&tree.name),
+            params,
+            task,
+            " = ",
+            comments,
+            self.node(&tree.root)
+        ]
     }
 
-    /// A node that `after` more characters follow on its last line.
-    pub(super) fn node(&mut self, node: &Node, after: usize) {
-        match &node.kind {
-            NodeKind::Composite { word, args, .. } => {
-                let head = args
-                    .as_ref()
-                    .and_then(|args| args.last())
-                    .map_or(word.span, |arg| arg.span);
-                let open = self.mark_after("{", head.range().end);
-                self.hoist(open.saturating_sub(1));
-            }
-            NodeKind::Guarded { guard, node } => {
-                self.settle(guard);
-                self.hoist_unless(node.span.range().start, |at| {
-                    guard.span.range().contains(&at)
-                });
-            }
-            NodeKind::Leaf(_) | NodeKind::Error => {}
-        }
-        let text = flat::node(node);
-        if !is_several(node) && self.fits(&text, node.span, after) {
-            self.write(&text);
-            return;
-        }
+    pub(super) fn node<'a>(&self, node: &'a Node) -> Doc<'a> {
         match &node.kind {
             NodeKind::Composite {
                 memory,
@@ -49,42 +32,34 @@ impl Printer<'_> {
                 args,
                 children,
             } => {
-                self.write(&flat::composite_head(
-                    memory.is_some(),
-                    word.node,
-                    args.as_deref(),
-                ));
-                self.write(" ");
-                let head = args
-                    .as_ref()
-                    .and_then(|args| args.last())
-                    .map_or(word.span, |arg| arg.span);
-                self.children(children, head, node.span);
+                let memory = if memory.is_some() { "memory " } else { "" };
+                let last = args.as_ref().and_then(|args| args.last());
+                let head = last.map_or(word.span, |arg| arg.span).range().end;
+                let args = match args {
+                    Some(args) => self.args(args, node.span).flat(),
+                    None => Doc::nothing(),
+                };
+                let children = children
+                    .iter()
+                    .map(|child| Entry::new(child.span, self.node(child)))
+                    .collect();
+                let inside = self.braces_after(head, node.span);
+                let list = Doc::list(Brackets::BRACES, inside, children);
+                let doc = row![memory, word.node.spelling(), args, " ", list];
+                row![
+                    Doc::hoist(inside.range().start),
+                    doc.grouped(node.span, Break::always_if(is_several(node)))
+                ]
             }
-            NodeKind::Guarded { guard, node } => {
-                self.expr(guard, 4);
-                self.write(" => ");
-                self.node(node, after);
+            NodeKind::Guarded { guard, node: inner } => {
+                let guard = self.expr(guard).room(" => ".len());
+                row![guard, " => ", self.node(inner)]
+                    .grouped(node.span, Break::always_if(is_several(inner)))
+                    .settled(inner.span.range().start)
             }
-            NodeKind::Leaf(leaf) => self.expr(leaf, after),
-            NodeKind::Error => self.write(&text),
+            NodeKind::Leaf(leaf) => self.expr(leaf).grouped(node.span, Break::TooLong),
+            NodeKind::Error => Doc::from("`?`"),
         }
-    }
-
-    fn children(&mut self, children: &[Node], head: Span, span: Span) {
-        let open = self.mark_after("{", head.range().end);
-        self.hoist(open.saturating_sub(1));
-        self.open_block(Group::None);
-        self.trailing(open);
-        for child in children {
-            self.entry(child.span, |printer| {
-                printer.node(child, 1);
-                printer.write(",");
-                printer.end_line(Group::None);
-            });
-        }
-        self.rest_of_block(span.range().end.saturating_sub(1));
-        self.close_block();
     }
 }
 

@@ -1,35 +1,37 @@
 //! Worlds.
 
-use super::columns::Group;
-use super::{Printer, flat};
+use super::Printer;
+use super::columns::Align;
+use super::doc::{Break, Doc, Entry, row};
+use super::names::ident;
 use crate::source::Span;
 use crate::syntax::ast::{
-    ArgKind, Expr, ExprKind, Ident, RobotEntry, RobotEntryKind, World, WorldEntry, WorldEntryKind,
+    Arg, ArgKind, Expr, ExprKind, Field, Ident, RobotEntry, RobotEntryKind, World, WorldEntry,
+    WorldEntryKind,
 };
 
 impl Printer<'_> {
-    pub(super) fn world(&mut self, world: &World, span: Span) {
-        self.write(&format!("world {} ", flat::ident(&world.name)));
-        self.begin_braces(world.name.span.range().end);
-        for entry in &world.entries {
-            self.entry(entry.span, |printer| {
-                printer.docs(&entry.docs);
-                printer.world_entry(entry);
-            });
-        }
-        self.end_braces(span.range().end, world.entries.is_empty());
+    pub(super) fn world<'a>(&self, world: &'a World, span: Span) -> Doc<'a> {
+        let entries = world
+            .entries
+            .iter()
+            .map(|entry| self.world_entry(entry).documented(&entry.docs))
+            .collect();
+        let braces = self.braces(world.name.span.range().end, span, entries);
+        row!["world ", ident(&world.name), " ", braces]
     }
 
-    fn world_entry(&mut self, entry: &WorldEntry) {
-        match &entry.kind {
+    fn world_entry<'a>(&self, entry: &'a WorldEntry) -> Entry<'a> {
+        let (align, doc) = match &entry.kind {
             WorldEntryKind::Place {
                 name,
                 of_kind,
                 shape,
                 facing,
             } => {
-                let head = format!("place {}{}", flat::ident(name), kind(of_kind.as_ref()));
-                self.shape("place", &head, shape, " facing ", facing.as_ref());
+                let head = row!["place ", ident(name), kind(of_kind.as_ref())];
+                let doc = self.shape(head, shape, " facing ", facing.as_ref());
+                (Align::Of("place"), doc)
             }
             WorldEntryKind::Wall {
                 name,
@@ -37,95 +39,81 @@ impl Printer<'_> {
                 shape,
                 when,
             } => {
-                let head = format!("wall {}{}", flat::ident(name), kind(of_kind.as_ref()));
-                self.shape("wall", &head, shape, " when ", when.as_ref());
+                let head = row!["wall ", ident(name), kind(of_kind.as_ref())];
+                let doc = self.shape(head, shape, " when ", when.as_ref());
+                (Align::Of("wall"), doc)
             }
             WorldEntryKind::Robot { name, entries } => {
-                self.write(&format!("robot {} ", flat::ident(name)));
-                self.begin_braces(name.span.range().end);
-                for entry in entries {
-                    self.entry(entry.span, |printer| {
-                        printer.docs(&entry.docs);
-                        printer.robot_entry(entry);
-                    });
-                }
-                self.end_braces(entry.span.range().end, entries.is_empty());
+                let entries = entries
+                    .iter()
+                    .map(|entry| self.robot_entry(entry).documented(&entry.docs))
+                    .collect();
+                let braces = self.braces(name.span.range().end, entry.span, entries);
+                (Align::None, row!["robot ", ident(name), " ", braces])
             }
-            WorldEntryKind::Field(field) => {
-                self.definition("field", &flat::ident(&field.name), &field.value)
-            }
-            WorldEntryKind::Error => self.end_line(Group::None),
-        }
+            WorldEntryKind::Field(field) => (Align::Of("field"), self.field(field)),
+            WorldEntryKind::Error => (Align::None, Doc::nothing()),
+        };
+        Entry::aligned(entry.span, align, doc)
     }
 
-    fn shape(
-        &mut self,
-        kind: &'static str,
-        head: &str,
-        shape: &Expr,
-        word: &str,
-        last: Option<&Expr>,
-    ) {
-        let before = self.ended;
-        let tail = last.map_or(String::new(), |last| format!("{word}{}", flat::expr(last)));
-        self.write(head);
-        self.cell("= ");
-        self.expr(shape, tail.chars().count());
-        if let Some(last) = last {
-            self.write(word);
-            self.expr(last, 0);
-        }
-        self.end_entry(kind, before);
+    fn shape<'a>(
+        &self,
+        head: Doc<'a>,
+        shape: &'a Expr,
+        word: &'static str,
+        last: Option<&'a Expr>,
+    ) -> Doc<'a> {
+        let last = last.map_or(Doc::nothing(), |last| row![word, self.expr(last)]);
+        let shape = self.expr(shape).room(last.width);
+        row![head, Doc::column(), "= ", shape, last]
     }
 
-    fn robot_entry(&mut self, entry: &RobotEntry) {
-        match &entry.kind {
+    fn robot_entry<'a>(&self, entry: &'a RobotEntry) -> Entry<'a> {
+        let (align, doc) = match &entry.kind {
             RobotEntryKind::Sensor { name, value } => self.sensor(name, value),
-            RobotEntryKind::Field(field) => {
-                self.definition("field", &flat::ident(&field.name), &field.value)
-            }
-            RobotEntryKind::Error => self.end_line(Group::None),
-        }
+            RobotEntryKind::Field(field) => (Align::Of("field"), self.field(field)),
+            RobotEntryKind::Error => (Align::None, Doc::nothing()),
+        };
+        Entry::aligned(entry.span, align, doc)
     }
 
     /// A sensor; adjacent ones with the same named arguments have these in columns.
-    fn sensor(&mut self, name: &Ident, value: &Expr) {
-        let head = format!("sensor {}", flat::ident(name));
-        self.write(&head);
-        self.cell("= ");
-        self.settle(value);
-        let text = flat::expr(value);
-        if !self.fits(&text, value.span, 0) {
-            let before = self.ended;
-            self.expr(value, 0);
-            self.end_entry("sensor", before);
-            return;
-        }
-        let mut shape = String::new();
-        match &value.kind {
-            ExprKind::Ref(call) if call.args.as_ref().is_some_and(|args| !args.is_empty()) => {
-                shape.push_str(&call.name.name);
-                self.write(&format!("{}(", flat::ident(&call.name)));
+    fn sensor<'a>(&self, name: &'a Ident, value: &'a Expr) -> (Align, Doc<'a>) {
+        let (shape, doc) = match &value.kind {
+            ExprKind::Ref(call) => {
                 let args = call.args.as_deref().unwrap_or_default();
-                for (index, arg) in args.iter().enumerate() {
-                    if let ArgKind::Named(name, _) = &arg.kind {
-                        shape.push_str(&format!(" {}", name.name));
-                    }
-                    let end = if index + 1 == args.len() { ")" } else { "," };
-                    let text = format!("{}{end}", flat::arg(arg));
-                    if index == 0 {
-                        self.write(&text);
-                    } else {
-                        self.cell(&text);
-                    }
-                }
+                (shape_of(&call.name, args), self.call_in_columns(call))
             }
-            _ => self.write(&text),
-        }
-        self.end_line(Group::Shaped("sensor", shape));
+            _ => (String::new(), self.expr(value)),
+        };
+        let doc = doc
+            .grouped(value.span, Break::TooLong)
+            .settled(value.span.range().end);
+        let head = row!["sensor ", ident(name), Doc::column(), "= "];
+        (Align::Shaped("sensor", shape), row![head, doc])
+    }
+
+    fn field<'a>(&self, field: &'a Field) -> Doc<'a> {
+        self.definition(ident(&field.name), &field.value)
     }
 }
 
-fn kind(kind: Option<&Ident>) -> String {
-    kind.map_or(String::new(), |kind| format!(": {}", flat::ident(kind)))
+fn kind(kind: Option<&Ident>) -> Doc<'_> {
+    kind.map_or(Doc::nothing(), |kind| row![": ", ident(kind)])
+}
+
+/// What the calls of sensors whose arguments share columns have in common: the name, and those of the arguments.
+fn shape_of(call: &Ident, args: &[Arg]) -> String {
+    if args.is_empty() {
+        return String::new();
+    }
+    let mut shape = call.name.clone();
+    for arg in args {
+        if let ArgKind::Named(name, _) = &arg.kind {
+            shape.push(' ');
+            shape.push_str(&name.name);
+        }
+    }
+    shape
 }

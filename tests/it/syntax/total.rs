@@ -6,8 +6,8 @@ use btc::syntax::{parse, print};
 use proptest::prelude::*;
 
 const EXAMPLES: [&str; 2] = [
-    include_str!("../../examples/delivery_small.bt"),
-    include_str!("../../examples/delivery_large.bt"),
+    include_str!("../../../examples/delivery_small.bt"),
+    include_str!("../../../examples/delivery_large.bt"),
 ];
 
 /// Parses, and formats what parses.
@@ -207,5 +207,39 @@ fn deep_nests_end_in_a_message() {
                 assert!(!diagnostics.is_empty());
             }
         }
+    }
+}
+
+/// Depth is limited, not length: operands that stand beside each other do not nest.
+#[test]
+fn long_chains_of_short_operands_parse() {
+    let chains = [
+        vec!["a and b"; 500].join(" or "),
+        vec!["(a and not b)"; 500].join(" or "),
+        vec!["a * b"; 900].join(" + "),
+        format!("f({})", vec![vec!["a"; 900].join(" + "); 10].join(", ")),
+    ];
+    for chain in chains {
+        let text = format!("let x = {chain}");
+        assert!(parse(FileId(0), &text).1.is_empty());
+        assert!(
+            parse(FileId(0), &print::format(&text).unwrap())
+                .1
+                .is_empty()
+        );
+    }
+}
+
+/// A chain that begins with a bracket hangs this below all of its operators.
+#[test]
+fn chains_within_chains_add_up() {
+    let chain = "+ a ".repeat(300);
+    for (depth, parses) in [(3, true), (4, false)] {
+        let text = format!(
+            "let x = {}a {}",
+            "(".repeat(depth),
+            format!("{chain})").repeat(depth)
+        );
+        assert_eq!(parse(FileId(0), &text).1.is_empty(), parses);
     }
 }

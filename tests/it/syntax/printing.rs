@@ -5,8 +5,8 @@ use btc::syntax::{ast, parse, print};
 use proptest::prelude::*;
 
 const EXAMPLES: [&str; 2] = [
-    include_str!("../../examples/delivery_small.bt"),
-    include_str!("../../examples/delivery_large.bt"),
+    include_str!("../../../examples/delivery_small.bt"),
+    include_str!("../../../examples/delivery_large.bt"),
 ];
 
 /// The items of a text that parses, without their places.
@@ -136,6 +136,21 @@ fn expr() -> impl Strategy<Value = String> {
     })
 }
 
+/// Quantities, names and powers in a row, with and without the blanks that part a `^` from a unit.
+fn powers() -> impl Strategy<Value = String> {
+    let blank = || prop::sample::select(vec!["", " "]);
+    let operand = prop_oneof![
+        number(),
+        Just("x".to_owned()),
+        Just("-2".to_owned()),
+        Just("(2 m)".to_owned())
+    ];
+    let op = prop::sample::select(vec!["^", "^", "^", " * ", " / ", " - "]);
+    let more = (blank(), op, blank(), operand.clone())
+        .prop_map(|(left, op, right, operand)| [left, op, right, &operand].concat());
+    (operand, prop::collection::vec(more, 1..5)).prop_map(|(first, more)| first + &more.concat())
+}
+
 fn stmt() -> impl Strategy<Value = String> {
     let simple = prop_oneof![
         (name(), expr()).prop_map(|(n, e)| format!("{n} = {e}")),
@@ -225,6 +240,14 @@ proptest! {
     }
 
     #[test]
+    fn powers_of_quantities_keep_their_meaning(expr in powers()) {
+        let text = format!("let y = {expr}");
+        let diagnostics = parse(FileId(0), &text).1;
+        prop_assume!(diagnostics.is_empty());
+        check(&text)?;
+    }
+
+    #[test]
     fn comments_survive_wherever_they_stand(
         example in 0..2_usize,
         places in prop::collection::vec((any::<prop::sample::Index>(), 0..5_usize), 1..6),
@@ -244,5 +267,27 @@ proptest! {
             text.insert_str(at, &comment);
         }
         check(&text)?;
+    }
+}
+
+/// A `^` that touches a unit belongs to it; one that does not raises the whole quantity.
+#[test]
+fn a_power_is_parted_from_a_unit() {
+    let pairs = [
+        ("3 m ^ 2", "3 m ^ 2"),
+        ("3 m^2", "3 m^2"),
+        ("10% ^ 2", "10% ^ 2"),
+        ("3m^ 0.5", "3 m ^ 0.5"),
+        ("1 m ^ 2 m", "1 m ^ 2 m"),
+        ("2 m^2 ^ 3", "2 m^2 ^ 3"),
+        ("x ^ 2 m ^ 2", "x^2 m ^ 2"),
+    ];
+    for (written, formatted) in pairs {
+        let text = format!("let y = {written}\n");
+        assert_eq!(
+            print::format(&text).unwrap(),
+            format!("let y = {formatted}\n")
+        );
+        check(&text).unwrap();
     }
 }

@@ -1,0 +1,178 @@
+//! The entries of a block, up to its closing bracket, and the mistakes among them.
+
+use super::Builder;
+use crate::diagnostic::{Applicability, Code, Diagnostic};
+use crate::source::Span;
+use crate::syntax::brackets;
+use crate::syntax::diagnose::{self, Failure};
+use crate::syntax::grammar::{self, Node, Parts, Rule};
+use crate::syntax::tokens::{Kind, is_blank};
+
+impl<'i> Builder<'i> {
+    /// Hands each entry among `parts` to `push`, with its place; a bad one, which is reported here, without its
+    /// production. `strict` is the rule of the entries alone.
+    pub(super) fn entries(
+        &mut self,
+        parts: Parts<'i>,
+        strict: Rule,
+        mut push: impl FnMut(&mut Self, Option<Node<'i>>, Span),
+    ) {
+        let mut open = None;
+        let mut previous: Option<Span> = None;
+        for part in parts {
+            let span = self.span(&part);
+            match part.as_rule() {
+                Rule::open_brace => open = Some(span),
+                Rule::close_brace | Rule::comma | Rule::children_end | Rule::EOI => {}
+                Rule::missing_close => self.missing_close(part.as_span().start(), open),
+                Rule::missing_child_comma => {
+                    self.missing_comma(&part, previous, "the children of a node");
+                }
+                Rule::stray_mark => self.stray_mark(span),
+                Rule::stray_close => self.stray_close(span),
+                Rule::bad_item | Rule::bad_entry | Rule::bad_reward | Rule::bad_child => {
+                    self.bad(span.range().start, strict, previous);
+                    previous = Some(span);
+                    push(self, None, span);
+                }
+                _ => {
+                    previous = Some(span);
+                    push(self, Some(part), span);
+                }
+            }
+        }
+    }
+
+    /// Whether what is wrong at byte `at` follows from a mistake that has been reported.
+    pub(super) fn is_reported(&self, at: usize) -> bool {
+        self.failed_at.is_some_and(|failed| at <= failed)
+    }
+
+    /// Reports the text at byte `start`, which does not parse as `strict` entries.
+    fn bad(&mut self, start: usize, strict: Rule, previous: Option<Span>) {
+        if self.is_reported(start) {
+            return;
+        }
+        let mut failure = self.failure(strict, start, start);
+        if let Some(previous) = previous {
+            failure = self.continuation(&failure, previous).unwrap_or(failure);
+            failure = self.juxtaposition(&failure).unwrap_or(failure);
+        }
+        let (at, diagnostic) = diagnose::failure(self.file, self.text, self.tokens, &failure);
+        self.failed_at = Some(at);
+        self.report(diagnostic);
+    }
+
+    /// How the text at byte `start` fails to parse as `strict` entries, read from byte `from` on.
+    fn failure(&self, strict: Rule, from: usize, start: usize) -> Failure {
+        let rest = |at: usize| self.text.get(at..).unwrap_or_default();
+        let (at, expected) = match grammar::parse(strict, rest(from)) {
+            Ok(_) => (start, Vec::new()),
+            Err(stop) => {
+                let at = (from + stop.at).max(start);
+                (
+                    self.text.len() - rest(at).trim_start_matches(is_blank).len(),
+                    stop.expected,
+                )
+            }
+        };
+        Failure {
+            start,
+            at,
+            expected,
+            strict,
+        }
+    }
+
+    /// A text that fails at once may go on with the previous entry: read together, they fail further on, or they
+    /// stand on one line.
+    fn continuation(&self, alone: &Failure, previous: Span) -> Option<Failure> {
+        let start = alone.start;
+        if alone.at != start {
+            return None;
+        }
+        let together = self.failure(alone.strict, previous.range().start, start);
+        (together.at > start || self.goes_on(start)).then_some(together)
+    }
+
+    /// A text on the line of the previous entry that fails at its second token, which does not look like the second
+    /// one of an entry: it is the first token that does not belong there.
+    fn juxtaposition(&self, failure: &Failure) -> Option<Failure> {
+        let start = failure.start;
+        let index = self.tokens.partition_point(|token| token.end <= start);
+        let code = |index: usize| {
+            let token = self.tokens.get(index);
+            token.filter(|token| token.kind != Kind::Comment)
+        };
+        let (before, first, second) =
+            (code(index.checked_sub(1)?)?, code(index)?, code(index + 1)?);
+        let is_entry =
+            before.of(self.text) == "{" || first.kind != Kind::Word || second.kind == Kind::Mark;
+        (self.goes_on(start) && !is_entry && second.start == failure.at).then(|| Failure {
+            start,
+            at: start,
+            expected: Vec::new(),
+            strict: failure.strict,
+        })
+    }
+
+    /// Whether something stands before byte `start` on its line.
+    fn goes_on(&self, start: usize) -> bool {
+        let before = self.text.get(..start).unwrap_or_default();
+        let line = before.rsplit('\n').next().unwrap_or_default();
+        !line.chars().all(is_blank)
+    }
+
+    /// Reports a `;` or a `,` between entries.
+    pub(super) fn stray_mark(&mut self, span: Span) {
+        let mark = self.slice(span);
+        let message = format!("nothing needs a `{mark}` here");
+        let diagnostic = Diagnostic::new(Code::E0118, span, message)
+            .label("drop it")
+            .note("an entry ends where the next one begins")
+            .fix(format!("drop the `{mark}`"), span, "", Applicability::Safe);
+        self.report(diagnostic);
+    }
+
+    fn stray_close(&mut self, span: Span) {
+        if self.is_reported(span.range().start) {
+            return;
+        }
+        let mark = self.slice(span);
+        let open = if mark == ")" { "(" } else { "{" };
+        let message = format!("this `{mark}` closes nothing");
+        let drop = format!("drop the `{mark}`");
+        let diagnostic = Diagnostic::new(Code::E0103, span, message)
+            .label(format!("no `{open}` is open here"))
+            .fix(drop, span, "", Applicability::Unsafe);
+        self.report(diagnostic);
+    }
+
+    /// Reports that nothing closes the bracket `open` at byte `at`.
+    fn missing_close(&mut self, at: usize, open: Option<Span>) {
+        if self.is_reported(at) {
+            return;
+        }
+        self.failed_at = Some(at);
+        if let Some(open) = open {
+            let diagnostic = brackets::unclosed(self.file, self.text, self.tokens, open, at);
+            self.report(diagnostic);
+        }
+    }
+
+    /// Reports a comma that is missing just before `node`, after what stands at `before`.
+    pub(super) fn missing_comma(&mut self, node: &Node<'i>, before: Option<Span>, what: &str) {
+        let at = node.as_span().start();
+        let next = self.token_at(at);
+        let place = next.map_or(Span::new(self.file, at, at), |token| {
+            Span::new(self.file, token.start, token.end)
+        });
+        let comma = before.map_or(place.before(), Span::after);
+        let message = format!("a comma is missing before `{}`", self.slice(place));
+        let diagnostic = Diagnostic::new(Code::E0112, place, message)
+            .label("this begins another one")
+            .note(format!("commas part {what}"))
+            .fix("put a comma", comma, ",", Applicability::Safe);
+        self.report(diagnostic);
+    }
+}

@@ -1,0 +1,124 @@
+//! Characters and quotation marks that the language does not know, or does not allow here.
+
+use super::Place;
+use crate::diagnostic::{Applicability, Code, Diagnostic};
+use crate::source::{FileId, Span};
+use crate::spelling::RESERVED;
+use crate::syntax::grammar::Rule;
+use crate::syntax::tokens::{Kind, is_blank};
+
+/// Characters that look like those of the language, and the ones that they look like.
+const LOOK_ALIKES: [(char, &str); 20] = [
+    ('–', "-"),
+    ('—', "-"),
+    ('−', "-"),
+    ('“', "\""),
+    ('”', "\""),
+    ('„', "\""),
+    ('‘', "`"),
+    ('’', "`"),
+    ('´', "`"),
+    ('→', "->"),
+    ('⇒', "=>"),
+    ('≤', "<="),
+    ('≥', ">="),
+    ('≠', "!="),
+    ('×', "*"),
+    ('÷', "/"),
+    ('，', ","),
+    ('；', ";"),
+    ('：', ":"),
+    ('\u{A0}', " "),
+];
+
+impl Place<'_> {
+    pub(super) fn look_alike(&self) -> Option<Diagnostic> {
+        let letter = self.found().chars().next()?;
+        let (_, right) = LOOK_ALIKES.iter().find(|(look, _)| *look == letter)?;
+        let span = Span::new(
+            self.file,
+            self.found.start,
+            self.found.start + letter.len_utf8(),
+        );
+        let (shown, meant) = match *right {
+            " " => ("a non-breaking blank".to_owned(), "a blank".to_owned()),
+            right => (format!("`{letter}`"), format!("`{right}`")),
+        };
+        Some(
+            Diagnostic::new(
+                Code::E0121,
+                span,
+                format!("{shown} stands where {meant} should"),
+            )
+            .label(format!("write {meant}"))
+            .note("editors for prose put such characters in")
+            .fix(format!("write {meant}"), span, *right, Applicability::Safe),
+        )
+    }
+
+    pub(super) fn unclosed(&self) -> Option<Diagnostic> {
+        let quote = self.found().chars().next()?;
+        let closed = self.found().len() > 1 && self.found().ends_with(quote);
+        if closed || !matches!(quote, '`' | '"') {
+            return None;
+        }
+        let start = self.found.start;
+        Some(unclosed_quote(self.file, start, quote))
+    }
+
+    pub(super) fn text(&self) -> Option<Diagnostic> {
+        if self.found.kind != Kind::Text || self.expects(Rule::string) {
+            return None;
+        }
+        let inner = self.found().trim_matches('"');
+        let mut diagnostic = Diagnostic::new(Code::E0107, self.span(), "no text can stand here")
+            .label("quotation marks are for paths");
+        if self.expects(Rule::name) && !inner.is_empty() && !inner.contains('`') {
+            let name = format!("`{inner}`");
+            diagnostic = diagnostic.fix(
+                "write a name in backquotes",
+                self.span(),
+                name,
+                Applicability::Safe,
+            );
+        }
+        Some(diagnostic)
+    }
+
+    pub(super) fn modulo(&self) -> Option<Diagnostic> {
+        let percent = if self.found() == "%" {
+            self.found
+        } else {
+            self.before.filter(|before| before.of(self.text) == "%")?
+        };
+        let starts_value = matches!(self.found.kind, Kind::Word | Kind::Number | Kind::Name)
+            && !RESERVED.contains(&self.found());
+        if percent.start != self.found.start && !(starts_value && self.same_line_as_before()) {
+            return None;
+        }
+        let left = self.text.get(..percent.start).unwrap_or_default();
+        if percent.start != self.found.start && !left.ends_with(is_blank) {
+            return None;
+        }
+        let span = Span::new(self.file, percent.start, percent.end);
+        Some(
+            Diagnostic::new(Code::E0125, span, "`%` is a unit, never a remainder")
+                .label("it belongs after a number: `25%`")
+                .help("the language has no remainder"),
+        )
+    }
+}
+
+/// The message for the quote at byte `start`, which is not closed on its line.
+pub(in crate::syntax) fn unclosed_quote(file: FileId, start: usize, quote: char) -> Diagnostic {
+    let place = Span::new(file, start, start + quote.len_utf8());
+    let name = if quote == '`' {
+        "backquote"
+    } else {
+        "quotation mark"
+    };
+    let message = format!("this {name} is not closed on its line");
+    Diagnostic::new(Code::E0106, place, message)
+        .label("no second one follows")
+        .note("names and texts do not go over the end of a line")
+}
