@@ -6,11 +6,10 @@ use super::refused::Refused;
 use super::target;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::emit::bt;
-use crate::ir::tree::{Atom, Node, Tree};
+use crate::ir::tree::Tree;
 use crate::ir::{Name, Program};
-use crate::policy::{Minterm, Policy, Row, decisions};
+use crate::policy::decisions;
 use crate::syntax::print;
-use crate::tree::atoms::atoms;
 use crate::tree::canonicalise::{Canonical, canonicalise};
 use crate::tree::reading::{Irreducible, Reading};
 
@@ -97,32 +96,8 @@ fn is_declared_only(program: &Program) -> bool {
 
 /// The policy table of a tree.
 fn table(program: &Program, tree: &Tree, canonical: &Canonical) -> (String, Option<String>) {
-    let asked = canonical
-        .units
-        .iter()
-        .map(|unit| Node::Condition(unit.guard.clone()));
-    let atoms: Vec<Atom> = asked
-        .flat_map(|condition| atoms(&condition))
-        .collect::<std::collections::BTreeSet<Atom>>()
-        .into_iter()
-        .collect();
     let window = tree.task.map(|task| program.tasks[task].history.window);
-    let cubes = canonical.table(&atoms, window);
-    let rows = cubes.iter().map(|(cube, behavior)| {
-        let free = cube.iter().any(Option::is_none);
-        Row {
-            minterm: Minterm::new(cube.iter().map(|value| *value == Some(true))),
-            free: free.then(|| Minterm::new(cube.iter().map(Option::is_none))),
-            behavior: *behavior,
-            visits: 0,
-            values: Vec::new(),
-        }
-    });
-    let policy = Policy {
-        rows: rows.collect(),
-        atoms,
-        ..Policy::default()
-    };
+    let policy = canonical.policy(window);
     let warning = (!canonical.is_total(&policy.atoms, window)).then(|| {
         format!(
             "warning: `{}` selects nothing in some minterms, and these have no row",

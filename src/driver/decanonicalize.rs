@@ -11,12 +11,10 @@ use crate::ir::tree::Tree;
 use crate::ir::{Name, Program};
 use crate::policy::table::{AtomName, Table};
 use crate::policy::{Policy, decisions};
-use crate::report::words::rows;
+use crate::report::decanonicalised;
 use crate::source::{FileId, Span};
-use crate::tree::decanonicalise::{self, Care, Decanonicalised, Loosened, Method, Order};
+use crate::tree::decanonicalise::{self, Care, Method, Order};
 use crate::tree::prove::Refuted;
-
-mod report;
 
 /// What a user may set.
 #[derive(Clone, Copy, Debug)]
@@ -131,16 +129,21 @@ pub fn decanonicalize(asked: Asked, options: &Options) -> Result<Made, Refused> 
     } = asked;
     let refused = |refuted: Refuted| internal(&source, &refuted.to_string());
     let exact = decanonicalise::decanonicalise(&policy, &wanted).map_err(refused)?;
-    let slack = if options.slack > 0.0 {
+    let loosened = if options.slack > 0.0 {
         decanonicalise::loosen(&policy, &exact, &wanted, options.slack)
     } else {
         None
     };
-    let found = slack.as_ref().map_or(&exact, |slack| &slack.found);
-    let docs = vec![doc(&source, &policy, found, slack.as_ref(), options.slack)];
+    let found = loosened.as_ref().map_or(&exact, |loosened| &loosened.found);
+    let report = decanonicalised::Report {
+        policy: &policy,
+        exact: &exact,
+        loosened: loosened.as_ref(),
+        slack: options.slack,
+    };
     let id = program.trees.push(Tree {
         name: Name::word(options.name),
-        docs,
+        docs: vec![report.doc(&source)],
         task: None,
         root: found.root.clone(),
     });
@@ -154,39 +157,11 @@ pub fn decanonicalize(asked: Asked, options: &Options) -> Result<Made, Refused> 
             written.map_err(|mistake| Refused::text(nothing(&source), |_| vec![mistake]))?
         }
     };
-    let subject = report::Subject {
-        program: &program,
-        policy: &policy,
-        exact: &exact,
-        slack: slack.as_ref(),
-        allowed: options.slack,
-    };
     Ok(Made {
         text,
-        warnings: subject.warnings(),
-        report: subject.lines(),
+        warnings: report.warnings(&program),
+        report: report.lines(&program),
     })
-}
-
-/// Where the tree comes from and what was proved of it.
-fn doc(
-    source: &str,
-    policy: &Policy,
-    found: &Decanonicalised,
-    slack: Option<&Loosened>,
-    allowed: f64,
-) -> String {
-    let of = rows(policy);
-    if let Some(slack) = slack {
-        let otherwise = slack.deviations.len();
-        return format!(
-            "Made from {source} with a slack of {allowed}, and NOT equal to it: it decides {otherwise} of {of} otherwise."
-        );
-    }
-    format!(
-        "Made from {source}: proved on {}.",
-        report::proved(policy, found)
-    )
 }
 
 /// A bug of btc.

@@ -1,6 +1,7 @@
 //! Results in words, and the same figures as JSON documents.
 
 pub mod curve;
+pub mod decanonicalised;
 pub mod difference;
 pub mod episodes;
 mod json;

@@ -3,14 +3,42 @@
 use super::{Canonical, Unit};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
-use crate::ir::tree::Atom;
+use crate::ir::tree::{Atom, Node};
+use crate::policy::{Minterm, Policy, Row};
+use crate::tree::atoms::atoms;
 use crate::tree::guard::partial::value;
 use crate::tree::guard::{not, or};
+use std::collections::BTreeSet;
 
 /// A cube of a table, a value for each atom or nothing, and what is done in it.
 pub type Decided = (Vec<Option<bool>>, Id<Behavior>);
 
 impl Canonical {
+    /// The table of the tree as a policy over the atoms that it asks; see [`Canonical::table`].
+    pub fn policy(&self, window: Option<usize>) -> Policy {
+        let guards = self.units.iter();
+        let asked = guards.flat_map(|unit| atoms(&Node::Condition(unit.guard.clone())));
+        let atoms: Vec<Atom> = asked.collect::<BTreeSet<Atom>>().into_iter().collect();
+        let rows = self
+            .table(&atoms, window)
+            .into_iter()
+            .map(|(cube, behavior)| {
+                let free = cube.iter().any(Option::is_none);
+                Row {
+                    minterm: Minterm::new(cube.iter().map(|value| *value == Some(true))),
+                    free: free.then(|| Minterm::new(cube.iter().map(Option::is_none))),
+                    behavior,
+                    visits: 0,
+                    values: Vec::new(),
+                }
+            });
+        Policy {
+            rows: rows.collect(),
+            atoms,
+            ..Policy::default()
+        }
+    }
+
     /// Cubes over `atoms`, no two of which overlap, that together hold every minterm in which something is selected. Of
     /// the atoms that ask the history at most `window` hold together, if it is given; of other minterms nothing is said.
     pub fn table(&self, atoms: &[Atom], window: Option<usize>) -> Vec<Decided> {

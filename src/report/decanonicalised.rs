@@ -1,48 +1,67 @@
 //! The report on a tree that was made from a table.
 
+use super::words::{self, counted, rows};
 use crate::ir::Program;
 use crate::policy::Policy;
-use crate::report::words::{self, counted, rows};
 use crate::tree::Size;
 use crate::tree::decanonicalise::{Decanonicalised, Loosened};
 
-/// The subject of the report.
-pub(super) struct Subject<'a> {
-    pub(super) program: &'a Program,
-    pub(super) policy: &'a Policy,
-    pub(super) exact: &'a Decanonicalised,
-    pub(super) slack: Option<&'a Loosened>,
+/// What there is to report of a tree that was made from a table.
+#[derive(Clone, Copy, Debug)]
+pub struct Report<'a> {
+    /// The policy of the table.
+    pub policy: &'a Policy,
+    /// The tree that is equal to the table.
+    pub exact: &'a Decanonicalised,
+    /// The smaller tree that slack allows, if there is one.
+    pub loosened: Option<&'a Loosened>,
     /// The slack; 0 for none.
-    pub(super) allowed: f64,
+    pub slack: f64,
 }
 
-impl Subject<'_> {
+impl Report<'_> {
+    /// Where the tree comes from and what was proved of it, as a doc comment.
+    pub fn doc(&self, source: &str) -> String {
+        match self.loosened {
+            Some(loosened) => format!(
+                "Made from {source} with a slack of {}, and NOT equal to it: it decides {} of {} otherwise.",
+                self.slack,
+                loosened.deviations.len(),
+                rows(self.policy)
+            ),
+            None => format!(
+                "Made from {source}: proved on {}.",
+                proved(self.policy, self.exact)
+            ),
+        }
+    }
+
     /// Every minterm that the tree decides otherwise than the table.
-    pub(super) fn warnings(&self) -> Vec<String> {
-        let Some(slack) = self.slack else {
+    pub fn warnings(&self, program: &Program) -> Vec<String> {
+        let Some(loosened) = self.loosened else {
             return Vec::new();
         };
-        let name = |id| &self.program.behaviors[id].name;
+        let name = |id| &program.behaviors[id].name;
         let mut lines = vec![format!(
             "warning: the tree is NOT equal to the table: it decides {} of {} otherwise",
-            slack.deviations.len(),
+            loosened.deviations.len(),
             rows(self.policy)
         )];
-        lines.extend(slack.deviations.iter().filter_map(|change| {
+        lines.extend(loosened.deviations.iter().filter_map(|change| {
             let row = self.policy.rows.get(change.row)?;
             Some(format!(
                 "  {} instead of {}, worth {:.4} less, in {}",
                 name(change.behavior),
                 name(row.behavior),
                 change.loss,
-                words::minterm(self.program, &self.policy.atoms, &row.minterm)
+                words::minterm(program, &self.policy.atoms, &row.minterm)
             ))
         }));
         lines
     }
 
     /// The report in lines.
-    pub(super) fn lines(&self) -> Vec<String> {
+    pub fn lines(&self, program: &Program) -> Vec<String> {
         let policy = self.policy;
         let mut lines = Vec::new();
         let mut line = |title: &str, text: String| lines.push(words::line(title, &text));
@@ -60,33 +79,33 @@ impl Subject<'_> {
         }
         line("tree", size(&self.exact.size));
         line("proved", format!("on {}", proved(policy, self.exact)));
-        match self.slack {
-            Some(slack) => line(
+        match self.loosened {
+            Some(loosened) => line(
                 "slack",
                 format!(
                     "{}: {}, not equal to the table",
-                    self.allowed,
-                    size(&slack.found.size)
+                    self.slack,
+                    size(&loosened.found.size)
                 ),
             ),
-            None if self.allowed > 0.0 => line(
+            None if self.slack > 0.0 => line(
                 "slack",
                 format!(
                     "{}: no smaller tree, so the tree is the exact one",
-                    self.allowed
+                    self.slack
                 ),
             ),
             None => {}
         }
         for failing in &self.exact.failing {
-            line("fails", words::failing(self.program, policy, failing));
+            line("fails", words::failing(program, policy, failing));
         }
         lines
     }
 }
 
 /// What was proved of a tree, in words.
-pub(super) fn proved(policy: &Policy, found: &Decanonicalised) -> String {
+fn proved(policy: &Policy, found: &Decanonicalised) -> String {
     let proof = &found.proof;
     if proof.recorded {
         let closed = if proof.closed {
