@@ -2,6 +2,7 @@
 //! printed values and `statrs`, and whole runs.
 
 mod methods;
+mod results;
 mod runs;
 mod solving;
 mod statistics;

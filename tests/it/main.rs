@@ -15,7 +15,6 @@ mod export;
 mod functions;
 mod house;
 mod learn;
-mod learning;
 mod logic;
 mod naive;
 mod planted;

@@ -1,6 +1,7 @@
 //! Smaller trees: the moves, and the search that simulation judges.
 
-use btc::driver::load::{self, Loaded, Reader};
+use crate::program::NoFiles;
+use btc::driver::load::{self, Loaded};
 use btc::driver::target;
 use btc::emit;
 use btc::ir::Id;
@@ -11,21 +12,13 @@ use btc::simplify::{Simplified, simplify};
 use btc::tree::Size;
 use btc::tree::prune::{Change, Cost, Decided, candidates, flat, negated_literals, plainer, tidy};
 
-struct Nothing;
-
-impl Reader for Nothing {
-    fn read(&mut self, path: &str) -> Result<Vec<u8>, String> {
-        Err(format!("{path} is not there"))
-    }
-}
-
 /// Small delivery in short episodes, with a tree `given`.
 fn small(tree: &str) -> (Loaded, Id<Task>, Node) {
     let text = include_str!("../../examples/delivery_small.bt")
         .replace("end after 5_000 ticks", "end after 400 ticks");
     assert!(text.contains("400 ticks"));
     let text = format!("{text}\ntree given for delivery = {tree}\n");
-    let loaded = load::load("small.bt", text.into_bytes(), &mut Nothing);
+    let loaded = load::load("small.bt", text.into_bytes(), &mut NoFiles);
     assert!(!loaded.has_errors(), "{:?}", loaded.diagnostics);
     let tree = target::tree(&loaded, "given").unwrap();
     let task = target::task_of(&loaded, Some(tree)).unwrap();

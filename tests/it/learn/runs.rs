@@ -1,16 +1,9 @@
 //! Whole runs, from a program to its files.
 
+use crate::program::NoFiles;
 use btc::driver::learn::{Learned, Options, learn};
-use btc::driver::load::{Loaded, Reader, load};
+use btc::driver::load::{Loaded, load};
 use btc::tree::decanonicalise::{Care, Method};
-
-struct NoFiles;
-
-impl Reader for NoFiles {
-    fn read(&mut self, path: &str) -> Result<Vec<u8>, String> {
-        Err(format!("{path}: there are no files here"))
-    }
-}
 
 const SMALL: &str = include_str!("../../../examples/delivery_small.bt");
 const LARGE: &str = include_str!("../../../examples/delivery_large.bt");
@@ -27,7 +20,7 @@ fn program(text: &str, changes: &[(&str, &str)]) -> Loaded {
     loaded
 }
 
-const OPTIONS: Options = Options {
+pub(super) const OPTIONS: Options = Options {
     learner: None,
     seed: None,
     seeds: 1,

@@ -1,5 +1,6 @@
-//! From a program to a learned, proved, printed tree, and what may be asked of it.
+//! Learned trees and their files: proved, replayed and compared.
 
+use super::runs::OPTIONS;
 use crate::examples::example;
 use crate::snapshot;
 use btc::driver::learn::{Learned, Options, learn};
@@ -7,7 +8,7 @@ use btc::driver::load::{Loaded, Reader, load};
 use btc::driver::run::{self, Subject};
 use btc::driver::{Text, verify};
 use btc::policy::Policy;
-use btc::tree::decanonicalise::{Care, Method};
+use btc::tree::decanonicalise::Method;
 
 /// Learns small delivery in a moment: a tenth of its episodes show the same policy.
 fn learned(loaded: &Loaded, seed: u64, method: Method) -> Learned {
@@ -16,17 +17,12 @@ fn learned(loaded: &Loaded, seed: u64, method: Method) -> Learned {
 
 fn options(seed: u64, method: Method) -> Options<'static> {
     Options {
-        learner: None,
         seed: Some(seed),
-        seeds: 1,
-        episodes: Some(400),
         evidence: 1,
         method,
-        care: Care::Reachable,
-        simplify: None,
         roll_outs: 50,
-        tests: 0,
         source: "delivery_small.bt",
+        ..OPTIONS
     }
 }
 
