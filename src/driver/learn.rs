@@ -191,34 +191,29 @@ fn refuted(loaded: &Loaded, refuted: &Refuted, evidence: u64) -> Refused {
     if *refuted == Refuted::Empty {
         return nothing(loaded, evidence);
     }
-    let diagnostic = Diagnostic::new(
-        Code::E0609,
-        target::end_of_file(loaded),
-        format!("the tree that was found is not equal to the policy: {refuted}"),
-    )
-    .note("this is a mistake of btc itself; please report it with the program");
+    let message = format!("the tree that was found is not equal to the policy: {refuted}");
+    let at = target::end_of_file(loaded);
+    let diagnostic = Diagnostic::new(Code::E0609, at, message)
+        .note("this is a mistake of btc itself; please report it with the program");
     Refused::program(loaded, [diagnostic])
 }
 
 /// A reward such as 0 / 0 makes every comparison of values void.
 fn without_value(loaded: &Loaded) -> Refused {
-    let diagnostic = Diagnostic::new(
-        Code::E0505,
-        target::end_of_file(loaded),
-        "nothing was learned: the rewards come to no finite number",
-    )
-    .help(
-        "look for a division by zero, or a root or logarithm of a negative number, under `reward`",
-    );
-    Refused::program(loaded, [diagnostic])
+    let why = "the rewards come to no finite number";
+    let help =
+        "look for a division by zero, or a root or logarithm of a negative number, under `reward`";
+    nothing_learned(loaded, why, help)
 }
 
 fn nothing(loaded: &Loaded, evidence: u64) -> Refused {
-    let diagnostic = Diagnostic::new(
-        Code::E0505,
-        target::end_of_file(loaded),
-        format!("nothing was learned: no minterm has {evidence} completed decisions"),
-    )
-    .help("let there be more episodes, or longer ones, or ask for less `--evidence`");
-    Refused::program(loaded, [diagnostic])
+    let why = format!("no minterm has {evidence} completed decisions");
+    let help = "let there be more episodes, or longer ones, or ask for less `--evidence`";
+    nothing_learned(loaded, &why, help)
+}
+
+fn nothing_learned(loaded: &Loaded, why: &str, help: &str) -> Refused {
+    let message = format!("nothing was learned: {why}");
+    let diagnostic = Diagnostic::new(Code::E0505, target::end_of_file(loaded), message);
+    Refused::program(loaded, [diagnostic.help(help)])
 }

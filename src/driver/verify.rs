@@ -1,22 +1,21 @@
 //! `btc verify`: proofs that two trees take the same decisions, and tests of claims on events.
 
+mod claims;
 mod rows;
 
+pub use claims::{claims, claims_of_learned};
 pub use rows::table;
 
-use super::learn::Learned;
 use super::load::Loaded;
 use super::refused::Refused;
-use super::{table as tables, target, world};
+use super::{table as tables, target};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::ir::task::{Claim, ClaimKind, History, Occurrence, Task, TreeRef};
+use crate::ir::task::History;
 use crate::ir::tree::{Atom, Node, Tree};
-use crate::ir::{Id, Name, Program};
-use crate::policy::Policy;
-use crate::report::difference;
+use crate::ir::{Id, Name};
+use crate::report::verdict;
 use crate::tree::atoms::atoms;
 use crate::tree::equivalence::{Environment, Side, Verdict, compare};
-use crate::trial::claim::Tests;
 
 /// The outcome of a proof or a test.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -44,8 +43,7 @@ fn compared(loaded: &Loaded, left: Id<Tree>, right: Id<Tree>) -> Result<Proved, 
     if program.tasks.is_empty() {
         let pair = Pair {
             loaded,
-            history: assumed(&[&a.root, &b.root]),
-            recorded: None,
+            environment: Environment::Any(assumed(&[&a.root, &b.root])),
         };
         return pair.prove((&a.name, &a.root), (&b.name, &b.root));
     }
@@ -70,146 +68,18 @@ fn compared(loaded: &Loaded, left: Id<Tree>, right: Id<Tree>) -> Result<Proved, 
     };
     let pair = Pair {
         loaded,
-        history: program.tasks[task].history,
-        recorded: recorded.as_ref(),
+        environment: match &recorded {
+            Some(policy) => Environment::Greedy(policy),
+            None => Environment::Any(program.tasks[task].history),
+        },
     };
     pair.prove((&a.name, &a.root), (&b.name, &b.root))
-}
-
-/// Proves or tests every claim of the program whose trees exist.
-///
-/// # Errors
-/// As [`trees`], or the world cannot be built.
-pub fn claims(loaded: &Loaded) -> Result<Vec<Proved>, Refused> {
-    let program = &loaded.program;
-    let mut results = Vec::new();
-    let mut tests = Tests::new(program);
-    for claim in &program.claims {
-        let TreeRef::Tree(id) = claim.tree else {
-            results.push(not_learned(&claim.text));
-            continue;
-        };
-        let tree = &program.trees[id];
-        results.push(match &claim.kind {
-            ClaimKind::Equals(TreeRef::Tree(other)) => compared(loaded, id, *other)?,
-            ClaimKind::Equals(TreeRef::Learned(_)) => not_learned(&claim.text),
-            ClaimKind::Never(occurrence) | ClaimKind::Reaches(occurrence) => {
-                let task = target::task_of(loaded, Some(id))?;
-                tested(loaded, &mut tests, (task, &tree.root), claim, occurrence)?
-            }
-        });
-    }
-    if results.is_empty() {
-        results.push(Proved {
-            holds: true,
-            text: "the program claims nothing".to_owned(),
-        });
-    }
-    Ok(results)
-}
-
-fn not_learned(claim: &str) -> Proved {
-    Proved {
-        holds: true,
-        text: format!("{claim}: not learned yet"),
-    }
-}
-
-/// Proves or tests the claims on the tree that was just learned; proofs go along the greedy transitions of its policy.
-///
-/// # Errors
-/// A claim asks what the policy does not observe, or the world cannot be built.
-pub fn claims_of_learned(loaded: &Loaded, learned: &Learned) -> Result<Vec<Proved>, Refused> {
-    let program = &loaded.program;
-    let task = program.learners[learned.learner].task;
-    let pair = Pair {
-        loaded,
-        history: program.tasks[task].history,
-        recorded: Some(&learned.policy),
-    };
-    let mut tests = Tests::new(program);
-    let mut results = Vec::new();
-    for claim in &program.claims {
-        let subject = side(program, learned, claim.tree);
-        let own = is_learned(program, learned, claim.tree);
-        match (&claim.kind, subject) {
-            (ClaimKind::Equals(other), Some(left)) => {
-                let own = own || is_learned(program, learned, *other);
-                if let (true, Some(right)) = (own, side(program, learned, *other)) {
-                    results.push(pair.prove(left, right)?);
-                }
-            }
-            (ClaimKind::Never(occurrence) | ClaimKind::Reaches(occurrence), Some((_, root)))
-                if own =>
-            {
-                results.push(tested(loaded, &mut tests, (task, root), claim, occurrence)?);
-            }
-            _ => {}
-        }
-    }
-    Ok(results)
-}
-
-/// The test of a claim on an event.
-fn tested<'a>(
-    loaded: &Loaded,
-    tests: &mut Tests<'a>,
-    subject: (Id<Task>, &'a Node),
-    claim: &Claim,
-    occurrence: &Occurrence,
-) -> Result<Proved, Refused> {
-    let reaches = matches!(claim.kind, ClaimKind::Reaches(_));
-    let tested = tests
-        .event(subject, occurrence, reaches)
-        .map_err(|why| world::unplayable(loaded, why))?;
-    let (verdict, side) = match tested.refuted {
-        true => ("refuted", "above"),
-        false => ("not refuted", "below"),
-    };
-    Ok(Proved {
-        holds: !tested.refuted,
-        text: format!(
-            "{}: {verdict} in {} episodes; it fails in {} of them, a rate {side} {:.2} % at 95 %",
-            claim.text,
-            tested.episodes,
-            tested.failed,
-            100.0 * tested.bound()
-        ),
-    })
-}
-
-/// Whether a claim is about the tree that was learned: through the learner, or through an earlier result of the same
-/// name, which the new one replaces.
-fn is_learned(program: &Program, learned: &Learned, tree: TreeRef) -> bool {
-    match tree {
-        TreeRef::Tree(id) => program.trees[id].name == program.learners[learned.learner].name,
-        TreeRef::Learned(id) => id == learned.learner,
-    }
-}
-
-fn side<'a>(
-    program: &'a Program,
-    learned: &'a Learned,
-    tree: TreeRef,
-) -> Option<(&'a Name, &'a Node)> {
-    if is_learned(program, learned, tree) {
-        let learner = &program.learners[learned.learner];
-        return Some((&learner.name, &learned.root));
-    }
-    match tree {
-        TreeRef::Tree(id) => {
-            let tree = &program.trees[id];
-            Some((&tree.name, &tree.root))
-        }
-        TreeRef::Learned(_) => None,
-    }
 }
 
 /// Two trees in their environment.
 struct Pair<'a> {
     loaded: &'a Loaded,
-    history: History,
-    recorded: Option<&'a Policy>,
+    environment: Environment<'a>,
 }
 
 impl Pair<'_> {
@@ -219,14 +89,13 @@ impl Pair<'_> {
         (right, b): (&Name, &Node),
     ) -> Result<Proved, Refused> {
         let program = &self.loaded.program;
-        let environment = match self.recorded {
-            Some(policy) => Environment::Greedy(policy),
-            None => Environment::Any(self.history),
-        };
-        let verdict = compare(Side::Tree(a), Side::Tree(b), environment).map_err(|unknown| {
+        let (left_side, right_side) = (Side::Tree(a), Side::Tree(b));
+        let verdict = compare(left_side, right_side, self.environment).map_err(|unknown| {
+            let tables = self.loaded.tables.first();
+            let end = target::end_of_file(self.loaded);
             let diagnostic = Diagnostic::new(
                 Code::E0610,
-                self.place_of_table(),
+                tables.map_or(end, |(_, span)| *span),
                 format!(
                     "the table does not say whether `{}` holds, and a tree asks it",
                     program.atom_name(unknown.0)
@@ -235,65 +104,10 @@ impl Pair<'_> {
             .label("named here");
             Refused::program(self.loaded, [diagnostic])
         })?;
-        Ok(match verdict {
-            Verdict::Equal(explored) => Proved {
-                holds: true,
-                text: match self.recorded {
-                    Some(policy) => {
-                        let open = match explored.open {
-                            0 => "closed under them".to_owned(),
-                            n => format!(
-                                "with {n} places where the table says nothing of what follows"
-                            ),
-                        };
-                        format!(
-                            "equal: `{left}` and `{right}` select the same behaviour on {} minterms and {} of {} greedy \
-                             transitions, {open}",
-                            explored.minterms,
-                            explored.transitions,
-                            policy.transitions.len()
-                        )
-                    }
-                    None => format!(
-                        "equal: `{left}` and `{right}` select the same behaviour in every environment that is \
-                         consistent with {} ({})",
-                        self.window(),
-                        explored.means_text()
-                    ),
-                },
-            },
-            Verdict::Differ(trace) => Proved {
-                holds: false,
-                text: {
-                    let along = match self.recorded {
-                        Some(_) => "along the greedy transitions".to_owned(),
-                        None => format!("in an environment consistent with {}", self.window()),
-                    };
-                    difference::text(program, (left, right), &along, &trace)
-                },
-            },
-            Verdict::Undecided(explored) => Proved {
-                holds: false,
-                text: format!(
-                    "undecided: `{left}` and `{right}` agree on the {} states explored, and there are more",
-                    explored.states
-                ),
-            },
+        Ok(Proved {
+            holds: matches!(verdict, Verdict::Equal(_)),
+            text: verdict::text(program, (left, right), &self.environment, &verdict),
         })
-    }
-
-    fn place_of_table(&self) -> crate::source::Span {
-        let end = target::end_of_file(self.loaded);
-        self.loaded.tables.first().map_or(end, |(_, span)| *span)
-    }
-
-    /// The history window in words.
-    fn window(&self) -> String {
-        if self.loaded.program.tasks.is_empty() {
-            let window = self.history.window;
-            return format!("a history of {window}, as no task says another");
-        }
-        "the history window".to_owned()
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::emit::svg;
 use crate::learn::curve::{Point, pooled};
+use crate::learn::statistics::Mean;
 
 /// The curves of several seeds as CSV: all figures of a single one, else the interquartile mean over the seeds with its
 /// bootstrap interval, and the return of each.
@@ -52,31 +53,30 @@ fn several(curves: &[(u64, Vec<Point>)]) -> String {
 
 /// The curve of one seed with the interval over its episodes, or of several with that over the seeds, as SVG.
 pub fn picture(name: &str, curves: &[(u64, Vec<Point>)]) -> String {
+    let drawn = |ticks, total: &Mean, minterms| svg::curve::Point {
+        ticks,
+        mean: total.mean,
+        interval: total.ci95,
+        minterms,
+    };
     match curves {
         [(seed, points)] => {
-            let points: Vec<svg::curve::Point> = points
-                .iter()
-                .map(|point| svg::curve::Point {
-                    ticks: point.ticks,
-                    mean: point.total.mean,
-                    interval: point.total.ci95,
-                    minterms: point.minterms,
-                })
+            let points = points.iter();
+            let points: Vec<_> = points
+                .map(|p| drawn(p.ticks, &p.total, p.minterms))
                 .collect();
             svg::curve::curve(&points, &format!("{name}, seed {seed}"), "95 % interval")
         }
         _ => {
-            let count = curves.len();
-            let points: Vec<svg::curve::Point> = pooled(curves)
-                .iter()
-                .map(|point| svg::curve::Point {
-                    ticks: point.ticks,
-                    mean: point.total.mean,
-                    interval: point.total.ci95,
-                    minterms: point.minterms,
-                })
+            let points = pooled(curves);
+            let points = points.iter();
+            let points: Vec<_> = points
+                .map(|p| drawn(p.ticks, &p.total, p.minterms))
                 .collect();
-            let interval = format!("interquartile mean of {count} seeds, 95 % interval");
+            let interval = format!(
+                "interquartile mean of {} seeds, 95 % interval",
+                curves.len()
+            );
             svg::curve::curve(&points, name, &interval)
         }
     }

@@ -2,7 +2,6 @@
 
 pub mod curve;
 pub mod decanonicalised;
-pub mod difference;
 pub mod episodes;
 mod json;
 pub mod learned;
@@ -10,4 +9,5 @@ pub mod metrics;
 pub mod program;
 pub mod results;
 pub mod simplified;
+pub mod verdict;
 pub mod words;

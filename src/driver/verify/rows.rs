@@ -8,7 +8,7 @@ use crate::driver::{Refused, Text, table, target};
 use crate::ir::Program;
 use crate::policy::table::Table;
 use crate::policy::{Minterm, Policy, decisions};
-use crate::report::difference;
+use crate::report::verdict::difference;
 use crate::report::words::{self, counted, rows};
 use crate::source::Span;
 use crate::tree::disagreement::{Compared, compare};
@@ -114,7 +114,7 @@ impl Sides<'_> {
                     true => "in an environment consistent with the history window",
                     false => "along the transitions",
                 };
-                difference::text(self.program, (tree, table), along, &found)
+                difference(self.program, (tree, table), along, &found)
             }
             Refuted::Undecided => {
                 format!("undecided: there is too much to explore of `{tree}` and {table}")

@@ -1,0 +1,110 @@
+//! The verdict on two trees, in words.
+
+use super::words;
+use crate::ir::law::Behavior;
+use crate::ir::task::History;
+use crate::ir::{Id, Name, Program};
+use crate::tree::equivalence::{Environment, Trace, Verdict};
+use std::fmt::Display;
+
+/// The verdict on two trees in an environment, with the shortest trace on which they part.
+pub fn text(
+    program: &Program,
+    (left, right): (&Name, &Name),
+    environment: &Environment,
+    verdict: &Verdict,
+) -> String {
+    let (greedy, history) = match environment {
+        Environment::Greedy(policy) => (Some(policy), policy.history),
+        Environment::Observed(policy) => (None, policy.history),
+        Environment::Any(history) => (None, *history),
+    };
+    let window = window(program, history);
+    match (verdict, greedy) {
+        (Verdict::Equal(explored), Some(policy)) => {
+            let open = match explored.open {
+                0 => "closed under them".to_owned(),
+                n => format!("with {n} places where the table says nothing of what follows"),
+            };
+            format!(
+                "equal: `{left}` and `{right}` select the same behaviour on {} minterms and {} of {} greedy transitions, \
+                 {open}",
+                explored.minterms,
+                explored.transitions,
+                policy.transitions.len()
+            )
+        }
+        (Verdict::Equal(explored), None) => format!(
+            "equal: `{left}` and `{right}` select the same behaviour in every environment that is consistent with {} ({})",
+            window,
+            explored.means_text()
+        ),
+        (Verdict::Differ(trace), Some(_)) => difference(
+            program,
+            (left, right),
+            "along the greedy transitions",
+            trace,
+        ),
+        (Verdict::Differ(trace), None) => {
+            let along = format!("in an environment consistent with {window}");
+            difference(program, (left, right), &along, trace)
+        }
+        (Verdict::Undecided(explored), _) => format!(
+            "undecided: `{left}` and `{right}` agree on the {} states explored, and there are more",
+            explored.states
+        ),
+    }
+}
+
+/// The history window in words.
+fn window(program: &Program, history: History) -> String {
+    if program.tasks.is_empty() {
+        return format!("a history of {}, as no task says another", history.window);
+    }
+    "the history window".to_owned()
+}
+
+/// The ticks in which two sides agree, and the one in which they part.
+pub fn difference(
+    program: &Program,
+    (left, right): (impl Display, impl Display),
+    along: &str,
+    trace: &Trace,
+) -> String {
+    let name = |behavior: &Option<Id<Behavior>>| {
+        behavior.map_or_else(
+            || "nothing".to_owned(),
+            |id| program.behaviors[id].name.to_string(),
+        )
+    };
+    let held = |minterm| words::minterm(program, &trace.atoms, minterm);
+    let mut lines = vec![format!(
+        "different: `{left}` and `{right}` part after {} ticks {along}",
+        trace.steps.len()
+    )];
+    let mut first = 1;
+    for alike in trace.steps.chunk_by(|a, b| a == b) {
+        let Some(step) = alike.first() else { continue };
+        let last = first + alike.len() - 1;
+        let ticks = if first == last {
+            format!("tick {first:<3}")
+        } else {
+            format!("ticks {first} to {last}")
+        };
+        lines.push(format!(
+            "  {ticks} {}: both select {}, which answers {}",
+            held(&step.valuation),
+            name(&step.behavior),
+            step.status.name()
+        ));
+        first = last + 1;
+    }
+    lines.push(format!(
+        "  tick {:<3} {}: `{left}` selects {}, `{right}` selects {}",
+        trace.steps.len() + 1,
+        held(&trace.valuation),
+        name(&trace.left),
+        name(&trace.right)
+    ));
+    lines.join("\n")
+}
