@@ -1,4 +1,6 @@
-//! The commands as functions from texts to results: nothing here prints or touches a file.
+//! The commands as functions from texts to results, a file each: nothing here prints or touches a file.
+//!
+//! [`load`], [`table`] and [`target`] read what a command is given; [`Refused`] is why it has no result.
 
 pub mod canonicalize;
 pub mod check;

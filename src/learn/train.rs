@@ -7,6 +7,7 @@ use super::process::{End, Process};
 use super::q_table::QTable;
 use super::schedule::Schedule;
 use crate::random::Random;
+use serde::Serialize;
 
 /// The settings of training that hold for every method.
 #[derive(Clone, Copy, Debug)]
@@ -26,7 +27,7 @@ pub struct Course<'a> {
 }
 
 /// How much was simulated so far.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Counts {
     /// Episodes begun.
     pub episodes: u64,

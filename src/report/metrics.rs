@@ -8,6 +8,7 @@ use crate::ir::{Name, task};
 use crate::learn::agreement::Disputed;
 use crate::learn::binomial::upper95;
 use crate::learn::statistics::{Mean, Summary};
+use crate::learn::train::Counts;
 use crate::policy::Minterm;
 use crate::tree::Size;
 use crate::tree::decanonicalise::{Care, Decanonicalised, Method};
@@ -37,9 +38,8 @@ struct Metrics<'a> {
     learner: &'a Name,
     learning: task::Method,
     seed: Option<u64>,
-    episodes: u64,
-    decisions: u64,
-    ticks: u64,
+    #[serde(flatten)]
+    counts: Counts,
     roll_outs: u64,
     method: Method,
     care: Care,
@@ -175,7 +175,6 @@ impl<'a> Writer<'a> {
         let experiment = results.experiment;
         let found = results.trees.chosen();
         let run = results.run();
-        let counts = run.map_or_else(Default::default, |run| run.counts);
         let [predicted, simulated] = results.worth();
         let hashes = request.sha256.iter();
         let simplified = results.simplified.as_ref();
@@ -189,9 +188,7 @@ impl<'a> Writer<'a> {
             learner: &experiment.learner.name,
             learning: experiment.learner.method,
             seed: run.map(|run| run.seed),
-            episodes: counts.episodes,
-            decisions: counts.decisions,
-            ticks: counts.ticks,
+            counts: run.map_or_else(Counts::default, |run| run.counts),
             roll_outs: request.roll_outs,
             method: request.method,
             care: request.care,

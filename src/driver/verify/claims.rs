@@ -13,7 +13,7 @@ use crate::trial::claim::Tests;
 /// Proves or tests every claim of the program whose trees exist.
 ///
 /// # Errors
-/// As [`trees`], or the world cannot be built.
+/// As [`trees`](super::trees), or the world cannot be built.
 pub fn claims(loaded: &Loaded) -> Result<Vec<Proved>, Refused> {
     let program = &loaded.program;
     let mut results = Vec::new();
