@@ -5,7 +5,7 @@ use super::law::Behavior;
 use super::name::Name;
 use super::program::{Event, Predicate, State};
 use super::table::Id;
-use super::tree::Tree;
+use super::tree::{Status, Tree};
 
 /// What is worth doing, and when an episode starts and ends.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,12 +65,28 @@ pub enum StartLine {
     Heading(ExprId),
     /// A state variable.
     State(Id<State>, ExprId),
-    /// The newest termination in the window, as a code: twice the behaviour's index, plus one for a failure; −1 for
-    /// none. Older places of the window stay empty.
+    /// The newest termination in the window, as its [code](StartLine::code); −1 for none. Older places of the window stay
+    /// empty.
     History(ExprId),
 }
 
 impl StartLine {
+    /// A termination as a number: twice the behaviour's index, plus one for a failure.
+    pub fn code(behavior: Id<Behavior>, status: Status) -> f64 {
+        (behavior.index() * 2 + usize::from(status == Status::Failure)) as f64
+    }
+
+    /// The termination of a code, if it is one.
+    pub fn termination(code: f64) -> Option<(Id<Behavior>, Status)> {
+        let code = (code >= 0.0).then_some(code as usize)?;
+        let status = if code.is_multiple_of(2) {
+            Status::Success
+        } else {
+            Status::Failure
+        };
+        Some((Id::new(code / 2), status))
+    }
+
     /// Whether a line of a learner replaces this line of its task: it sets the same thing.
     pub fn replaced_by(&self, other: &Self) -> bool {
         match (self, other) {

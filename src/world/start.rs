@@ -4,10 +4,9 @@ use super::build::any_heading;
 use super::pose::Pose;
 use super::simulation::{Instance, Simulation};
 use crate::eval::{Code, Compiler, Fixed, Layout, TooLarge, run};
+use crate::ir::Pool;
 use crate::ir::law::{Block, Stmt};
 use crate::ir::task::StartLine;
-use crate::ir::tree::Status;
-use crate::ir::{Id, Pool};
 use crate::random::Random;
 
 /// How an episode starts.
@@ -170,15 +169,9 @@ impl Simulation<'_> {
                     run(code, &mut self.registers, &mut self.body);
                     let code = self.registers.get(Fixed::History.register());
                     self.history.clear();
-                    if code >= 0.0 {
-                        let code = code as usize;
-                        let status = if code.is_multiple_of(2) {
-                            Status::Success
-                        } else {
-                            Status::Failure
-                        };
-                        self.history
-                            .record(Id::new(code / 2), status, &self.simulator.atoms);
+                    if let Some((behavior, status)) = StartLine::termination(code) {
+                        let atoms = &self.simulator.atoms;
+                        self.history.record(behavior, status, atoms);
                     }
                 }
             }

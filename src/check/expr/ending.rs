@@ -5,6 +5,7 @@ use crate::check::builtin::Function;
 use crate::check::context::Region;
 use crate::check::types::{Type, Typed, Value};
 use crate::ir::expr::Expr;
+use crate::ir::task::StartLine;
 use crate::ir::tree::Status;
 use crate::syntax::ast::Ref;
 
@@ -32,27 +33,22 @@ impl<'a> Checker<'a> {
         }
         self.kept_in_history(function, reference);
         let behavior = self.expect(value, &Type::Behavior, "what ends");
-        let failed = function == Function::Failure;
+        let status = match function {
+            Function::Failure => Status::Failure,
+            _ => Status::Success,
+        };
         if behavior.ty == Type::Error {
             return None;
         }
         if region == Region::StartHistory {
             let code = match behavior.value {
-                Value::Behavior(id) => {
-                    let code = id.index() * 2 + usize::from(failed);
-                    Some(self.program.pool.num(code as f64))
-                }
+                Value::Behavior(id) => Some(self.program.pool.num(StartLine::code(id, status))),
                 _ => None,
             };
             return Some(Typed::new(Type::Termination, code, span));
         }
         let Value::Behavior(id) = behavior.value else {
             return Some(Typed::unknown(Type::Bool, span));
-        };
-        let status = if failed {
-            Status::Failure
-        } else {
-            Status::Success
         };
         Some(self.leaf(Expr::Ended(id, status), Type::Bool, span))
     }
