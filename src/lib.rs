@@ -1,7 +1,124 @@
 //! `btc` compiles behaviour trees that robots learn by themselves: a `.bt` file is checked, simulated, learned
 //! from, and the learned policy is printed as the tree that a person would have written, proved equal to it.
 //!
-//! The modules stand in the order in which a program goes through them; see `ARCHITECTURE.md`.
+//! # From a program to a tree
+//!
+//! [`Program`] reads and checks a `.bt` file. Learning gives a [`Tree`] that is proved equal to the learned policy:
+//!
+//! ```
+//! use btc::{LearnOptions, Program, TreeForm};
+//!
+//! # fn main() -> Result<(), btc::Error> {
+//! let program = Program::from_file("examples/delivery_small.bt")?;
+//! let options = LearnOptions {
+//!     episodes: Some(400),
+//!     roll_outs: 100,
+//!     ..LearnOptions::default()
+//! };
+//! let learned = program.learn(&options)?;
+//! println!("{}", learned.tree());
+//! assert_eq!(learned.tree().size().nodes, 10);
+//!
+//! // For a robot, and for other tools.
+//! let xml = learned.tree().emit(TreeForm::BtCpp)?;
+//! assert!(xml.contains("BTCPP_format=\"4\""));
+//! assert!(learned.file("policy.csv").is_some());
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # Any policy table as a tree
+//!
+//! ```
+//! use btc::{DecanonicaliseOptions, PolicyTable, Program};
+//!
+//! # fn main() -> Result<(), btc::Error> {
+//! let table = PolicyTable::from_text(
+//!     "dock.csv",
+//!     "low,at_dock,behavior\n1,0,find_dock\n1,1,charge\n0,-,patrol\n",
+//! );
+//! let tree = table.decanonicalise(&DecanonicaliseOptions::default())?;
+//! assert_eq!(
+//!     tree.to_string().lines().skip(1).collect::<Vec<_>>().join("\n"),
+//!     "tree learned = selector {
+//!     low and not at_dock => find_dock,
+//!     low => charge,
+//!     patrol,
+//! }"
+//! );
+//!
+//! // A tree by hand, held against the table.
+//! let program = Program::from_text(
+//!     "predicate low
+//!      predicate at_dock
+//!      behavior find_dock
+//!      behavior charge
+//!      behavior patrol
+//!      tree hand = selector { not low => patrol, at_dock => charge, find_dock }",
+//! )?;
+//! assert!(program.prove_decisions("hand", &table)?.holds);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # Proofs
+//!
+//! ```
+//! # fn main() -> Result<(), btc::Error> {
+//! let program = btc::Program::from_file("examples/delivery_large.bt")?;
+//! let proved = program.prove_equal("expert", "table_1")?;
+//! assert!(!proved.holds);
+//! println!("{}", proved.text); // a shortest trace on which they part
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # A tree in a loop of your own
+//!
+//! A [`Ticker`] asks your [`Robot`] for predicates and has it run behaviours:
+//!
+//! ```
+//! use btc::{Program, Robot, Status};
+//!
+//! struct Simulated {
+//!     battery: u32,
+//!     log: Vec<String>,
+//! }
+//!
+//! impl Robot for Simulated {
+//!     fn holds(&mut self, predicate: &str) -> bool {
+//!         predicate == "battery_low" && self.battery < 25
+//!     }
+//!     fn tick(&mut self, behavior: &str) -> Status {
+//!         self.log.push(behavior.to_owned());
+//!         if behavior == "dock(C)" {
+//!             self.battery = 100;
+//!         }
+//!         Status::Success
+//!     }
+//! }
+//!
+//! # fn main() -> Result<(), btc::Error> {
+//! let program = Program::from_file("examples/delivery_small.bt")?;
+//! let mut ticker = program.tree("expert")?.ticker();
+//! let mut robot = Simulated { battery: 20, log: Vec::new() };
+//! for _ in 0..3 {
+//!     ticker.tick(&mut robot);
+//! }
+//! assert_eq!(robot.log, ["goto(C)", "dock(C)", "goto(A)"]);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # The rooms of the crate
+//!
+//! All of the above stands on the modules below. They are internals: public, so that tests, benches and the command
+//! line share them, but they change with any version. They stand in the order in which a program goes through them;
+//! `ARCHITECTURE.md` shows the way.
+
+mod facade;
+
+pub use facade::*;
 
 pub mod source;
 

@@ -4,6 +4,7 @@ use super::report::{Format, Reporter};
 use super::{Failure, files};
 use crate::diagnostic::{Diagnostic, render};
 use crate::driver::{check, load};
+use crate::facade::disk::Disk;
 use clap::Args;
 
 #[derive(Debug, Args)]
@@ -26,7 +27,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
             fine = false;
             continue;
         };
-        let mut loaded = load::load(&name, bytes, &mut files::Disk);
+        let mut loaded = load::load(&name, bytes, &mut Disk);
         loaded.diagnostics.extend(check::worlds(&loaded));
         let wrong = |d: &Diagnostic| d.is_error() || arguments.deny_warnings;
         let clean = !loaded.diagnostics.iter().any(wrong);

@@ -3,21 +3,13 @@
 use super::report::{Reporter, tell};
 use super::{Failure, interrupt};
 use crate::driver::Text;
-use crate::driver::load::{self, Loaded, Reader};
+use crate::driver::load::{self, Loaded};
+use crate::facade::disk::Disk;
 use std::io::{self, Read, Write};
 use std::path::{Component, Path, PathBuf};
 
 /// The name that stands for standard input.
 pub(super) const STDIN: &str = "-";
-
-/// Files on disk.
-pub(super) struct Disk;
-
-impl Reader for Disk {
-    fn read(&mut self, path: &str) -> Result<Vec<u8>, String> {
-        std::fs::read(path).map_err(|error| error.to_string())
-    }
-}
 
 /// A file, or standard input, as it was read.
 pub(super) struct File {

@@ -104,7 +104,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     let learned = learn::learn(&loaded, &options, &|stage| bar.show(stage));
     bar.finish();
     let learned = learned.map_err(|refused| say.refused(&refused))?;
-    files::print(&learned.tree)?;
+    files::print(&learned.text)?;
     for (name, text) in &learned.files {
         files::write(&folder.join(name), text)?;
     }

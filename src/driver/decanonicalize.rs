@@ -8,7 +8,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::emit::bt;
 use crate::emit::form::TreeForm;
 use crate::ir::tree::Tree;
-use crate::ir::{Name, Program};
+use crate::ir::{Id, Name, Program};
 use crate::policy::table::{AtomName, Table};
 use crate::policy::{Policy, decisions};
 use crate::report::decanonicalised;
@@ -33,6 +33,20 @@ pub struct Options<'o> {
     pub form: TreeForm,
 }
 
+impl Default for Options<'_> {
+    fn default() -> Self {
+        let usual = decanonicalise::Options::default();
+        Self {
+            method: usual.method,
+            order: usual.order,
+            effort: usual.effort,
+            slack: 0.0,
+            name: "learned",
+            form: TreeForm::Bt,
+        }
+    }
+}
+
 /// A policy with a program that declares its names. The texts that it was read from are no longer needed.
 #[derive(Clone, Debug)]
 pub struct Asked {
@@ -47,6 +61,10 @@ pub struct Asked {
 pub struct Made {
     /// The tree in its form.
     pub text: String,
+    /// The program that declares the names of the table, with the tree.
+    pub program: Program,
+    /// The tree.
+    pub tree: Id<Tree>,
     /// Warnings, in lines.
     pub warnings: Vec<String>,
     /// The report, in lines.
@@ -157,10 +175,13 @@ pub fn decanonicalize(asked: Asked, options: &Options) -> Result<Made, Refused> 
             written.map_err(|mistake| Refused::text(nothing(&source), |_| vec![mistake]))?
         }
     };
+    let (warnings, report) = (report.warnings(&program), report.lines(&program));
     Ok(Made {
         text,
-        warnings: report.warnings(&program),
-        report: report.lines(&program),
+        program,
+        tree: id,
+        warnings,
+        report,
     })
 }
 

@@ -8,7 +8,7 @@ use super::{target, world};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::Id;
 use crate::ir::task::Learner;
-use crate::ir::tree::Node;
+use crate::ir::tree::Tree;
 use crate::learn::curve::Point;
 use crate::learn::experiment::{Experiment, Run};
 use crate::learn::extract;
@@ -48,6 +48,24 @@ pub struct Options<'o> {
     pub source: &'o str,
 }
 
+impl Default for Options<'_> {
+    fn default() -> Self {
+        Self {
+            learner: None,
+            seed: None,
+            seeds: 1,
+            episodes: None,
+            evidence: 10,
+            method: Method::Search,
+            care: Care::Reachable,
+            simplify: None,
+            roll_outs: 2000,
+            tests: 0,
+            source: "program.bt",
+        }
+    }
+}
+
 /// How far the learning has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
@@ -69,13 +87,13 @@ pub enum Stage {
 #[derive(Clone, Debug)]
 pub struct Learned {
     /// The tree as an item of the language.
-    pub tree: String,
+    pub text: String,
     /// The files to write, by name.
     pub files: Vec<(&'static str, String)>,
     /// The report, in lines.
     pub report: Vec<String>,
-    /// The tree.
-    pub root: Node,
+    /// The tree, with its documentation.
+    pub tree: Tree,
     /// The policy.
     pub policy: Policy,
     /// The learner.

@@ -112,7 +112,7 @@ impl Pair<'_> {
 }
 
 /// The window of a program without a task: the paper's if one of these trees has memory or asks the history, else none.
-fn assumed(trees: &[&Node]) -> History {
+pub(crate) fn assumed(trees: &[&Node]) -> History {
     let asks = |atom: &Atom| !matches!(atom, Atom::Predicate(_));
     let remembered = |root: &&Node| root.remembers() || atoms(root).iter().any(asks);
     let remembers = trees.iter().any(remembered);

@@ -4,6 +4,7 @@
 //! an enum its variant's index; every reference is a typed id.
 
 pub mod expr;
+pub mod history;
 pub mod law;
 pub mod name;
 pub(crate) mod operator;

@@ -52,8 +52,8 @@ pub(super) fn written(
         root = &simplified.root;
     }
     let learned = named(&learner.name, &docs, root);
-    let tree = bt::tree(program, &learned);
-    text.push_str(&tree);
+    let item = bt::tree(program, &learned);
+    text.push_str(&item);
     let curves = results.curves();
     let policy = &results.policy;
     let written = |form| {
@@ -85,10 +85,10 @@ pub(super) fn written(
         ("metrics.json", metrics::json(&results, &request)),
     ];
     Ok(Learned {
-        tree,
+        text: item,
         files,
         report: report::learned::lines(&results),
-        root: learned.root,
+        tree: learned,
         learner: id,
         curves,
         policy: results.policy,

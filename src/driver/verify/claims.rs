@@ -127,7 +127,7 @@ fn side<'a>(
 ) -> Option<(&'a Name, &'a Node)> {
     if is_learned(program, learned, tree) {
         let learner = &program.learners[learned.learner];
-        return Some((&learner.name, &learned.root));
+        return Some((&learner.name, &learned.tree.root));
     }
     match tree {
         TreeRef::Tree(id) => {

@@ -64,9 +64,9 @@ fn small_delivery_ends_with_figure_8() {
     for method in [Method::Paper, Method::Search] {
         let learned = learned(&loaded, 1, method);
         assert_eq!(learned.policy.rows.len(), 10);
-        snapshot::check("delivery_small.learned.bt", &learned.tree);
+        snapshot::check("delivery_small.learned.bt", &learned.text);
         let expert = loaded.program.trees.values().next().unwrap();
-        assert_eq!(learned.root, expert.root);
+        assert_eq!(learned.tree.root, expert.root);
     }
 }
 

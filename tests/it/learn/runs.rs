@@ -59,7 +59,7 @@ fn small(method: &str, care: Care) -> (String, String) {
         ..OPTIONS
     };
     let learned = run(&program(SMALL, &changes), &options);
-    let (origin, tree) = learned.tree.split_once('\n').unwrap();
+    let (origin, tree) = learned.text.split_once('\n').unwrap();
     (origin.to_owned(), tree.to_owned())
 }
 
@@ -98,7 +98,7 @@ fn several_seeds_are_the_same_on_any_number_of_threads() {
     let on = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         let learned = pool.unwrap().install(|| run(&loaded, &options));
-        (learned.tree, learned.files, learned.report)
+        (learned.text, learned.files, learned.report)
     };
     assert_eq!(on(1), on(3));
 }

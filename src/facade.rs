@@ -1,0 +1,26 @@
+//! What a Rust program does with btc: the types that the crate's root offers.
+//!
+//! They wrap the functions behind the commands and own what they were made from, so none has a lifetime.
+
+pub(crate) mod disk;
+mod error;
+mod learned;
+mod program;
+mod table;
+mod ticker;
+mod tree;
+
+pub use error::Error;
+pub use learned::Learned;
+pub use program::Program;
+pub use table::PolicyTable;
+pub use ticker::{Robot, Ticker};
+pub use tree::Tree;
+
+pub use crate::driver::decanonicalize::Options as DecanonicaliseOptions;
+pub use crate::driver::learn::Options as LearnOptions;
+pub use crate::driver::verify::Proved;
+pub use crate::emit::form::TreeForm;
+pub use crate::ir::tree::Status;
+pub use crate::report::episodes::Episodes;
+pub use crate::tree::Size;
