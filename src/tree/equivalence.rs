@@ -12,7 +12,6 @@ mod window;
 
 pub use environment::Environment;
 use environment::Follow;
-pub(super) use window::remembers;
 
 use crate::ir::Id;
 use crate::ir::law::Behavior;

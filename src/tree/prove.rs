@@ -7,7 +7,7 @@ mod wide;
 pub use refuted::Refuted;
 
 use super::atoms::atoms;
-use super::equivalence::{Environment, Explored, Side, Verdict, compare, remembers};
+use super::equivalence::{Environment, Explored, Side, Verdict, compare};
 use super::reading::{After, Answers, May, Plan, Reading, plan, read};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
@@ -203,7 +203,7 @@ impl<'a> Prover<'a> {
     /// Whether the policy knows the value of an atom: it observes it, or its window never makes it true.
     fn knows(&self, atom: Atom) -> bool {
         let history = !matches!(atom, Atom::Predicate(_));
-        self.positions.contains_key(&atom) || history && !remembers(self.policy.history, atom)
+        self.positions.contains_key(&atom) || history && !self.policy.history.remembers(atom)
     }
 
     /// P2: so does the tree itself, memory fresh, on every path.

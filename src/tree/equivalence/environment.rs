@@ -1,7 +1,7 @@
 //! What a recorded environment may do next.
 
 use super::oracle::Oracle;
-use super::window::{Termination, Window, enter, keeps, remembers, shows, termination};
+use super::window::{Termination, Window, enter, shows};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::task::History;
@@ -135,13 +135,13 @@ impl<'a> TableEnvironment<'a> {
             .atoms
             .iter()
             .filter(|atom| environment.remembers(**atom));
-        environment.kinds = kinds.filter_map(|atom| termination(*atom)).collect();
+        environment.kinds = kinds.filter_map(|atom| atom.termination()).collect();
         environment
     }
 
     /// Whether the window would remember what this atom asks.
     pub(super) fn remembers(&self, atom: Atom) -> bool {
-        remembers(self.history, atom)
+        self.history.remembers(atom)
     }
 
     /// The minterm in which a tick finds the environment, and where it stands then; before the first tick it is nowhere.
@@ -182,7 +182,7 @@ impl<'a> TableEnvironment<'a> {
                 let mut status = Status::Running;
                 if let Some(behavior) = selected {
                     status = oracle.status();
-                    if keeps(self.history, status) {
+                    if self.history.keeps(status) {
                         let termination = (behavior, status);
                         let asked = self.kinds.contains(&termination);
                         enter(&mut window, asked.then_some(termination));

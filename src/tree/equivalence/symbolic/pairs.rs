@@ -8,7 +8,7 @@ use crate::policy::Minterm;
 use crate::tree::circuit::{Circuit, Signal};
 use crate::tree::compiled::CompiledTree;
 use crate::tree::equivalence::unfold::{Inputs, Unfolded, unfold};
-use crate::tree::equivalence::window::{Termination, keeps, remembers, shows, termination};
+use crate::tree::equivalence::window::{Termination, shows};
 use crate::tree::equivalence::{Trace, TraceTick};
 use rustc_hash::FxHashMap;
 use std::collections::{BTreeMap, BTreeSet};
@@ -44,13 +44,13 @@ impl Pairs {
         let mut remembered = Vec::new();
         let mut signals = Vec::new();
         for atom in &atoms {
-            let asked = termination(*atom);
+            let asked = atom.termination();
             // What the window does not remember never holds.
-            let signal = match asked.is_none() || remembers(history, *atom) {
+            let signal = match asked.is_none() || history.remembers(*atom) {
                 true => circuit.input(),
                 false => Signal::FALSE,
             };
-            let asked = asked.filter(|_| remembers(history, *atom));
+            let asked = asked.filter(|_| history.remembers(*atom));
             remembered.extend(asked.map(|termination| (termination, *atom, signal)));
             signals.push(signal);
         }
@@ -146,7 +146,7 @@ impl Pairs {
         selects: &BTreeMap<Id<Behavior>, Signal>,
     ) -> Vec<(Option<Termination>, Signal)> {
         let mut kept = vec![Status::Success, Status::Failure];
-        kept.retain(|status| self.window() > 0 && keeps(self.history, *status));
+        kept.retain(|status| self.window() > 0 && self.history.keeps(*status));
         let mut entries: BTreeMap<Termination, Signal> = BTreeMap::new();
         let mut some = Signal::FALSE;
         for (behavior, selected) in selects {
