@@ -41,9 +41,9 @@
 //! assert_eq!(
 //!     tree.to_string().lines().skip(1).collect::<Vec<_>>().join("\n"),
 //!     "tree learned = selector {
-//!     low and not at_dock => find_dock,
-//!     low => charge,
-//!     patrol,
+//!     not low => patrol,
+//!     not at_dock => find_dock,
+//!     charge,
 //! }"
 //! );
 //!
@@ -54,7 +54,7 @@
 //!      behavior find_dock
 //!      behavior charge
 //!      behavior patrol
-//!      tree hand = selector { not low => patrol, at_dock => charge, find_dock }",
+//!      tree hand = selector { low and at_dock => charge, low => find_dock, patrol }",
 //! )?;
 //! assert!(program.prove_decisions("hand", &table)?.holds);
 //! # Ok(())
