@@ -32,7 +32,7 @@ pub const RESERVED: [&str; 23] = [
 /// Words of other languages that would be taken for `true` and `false`.
 const TRUTHS: [&str; 4] = ["True", "TRUE", "False", "FALSE"];
 
-/// A name as text of the language: in backquotes if it is no identifier or means something already.
+/// A name as text of the language: in backquotes if it is not an identifier or means something already.
 pub fn spelled(name: &str) -> Cow<'_, str> {
     if is_identifier(name) && !RESERVED.contains(&name) && !TRUTHS.contains(&name) {
         Cow::Borrowed(name)

@@ -103,7 +103,7 @@ pub(super) fn put(path: Option<&Path>, text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Writes to standard output; a reader that has gone away is no mistake.
+/// Writes to standard output; a reader that has gone away is not an error.
 pub(super) fn print(text: &str) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {

@@ -20,7 +20,7 @@ pub(super) struct Progress {
 }
 
 impl Progress {
-    /// A bar that comes when the command takes long, and never if standard error is no terminal.
+    /// A bar that comes when the command takes long, and never if standard error is not a terminal.
     pub(super) fn new() -> Self {
         let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
         let (done, wait) = mpsc::channel::<()>();

@@ -109,7 +109,7 @@ codes! {
     E0504 "nothing of that name in the program",
     E0505 "nothing was learned",
 
-    E0601 "a guard that is no predicate",
+    E0601 "a guard that is not a predicate",
     E0602 "an empty composite",
     E0603 "a decorator with several children",
     E0604 "a memory that the node cannot have",
@@ -128,9 +128,9 @@ codes! {
     E0804 "a PLA without its size",
     E0805 "a PLA that contradicts itself",
     E0806 "a complement that is too large",
-    E0807 "a PLA that is no decision list",
+    E0807 "a PLA that is not a decision list",
 
-    E0811 "a text that is no table",
+    E0811 "a text that is not a table",
     E0812 "a row that is not whole",
     E0813 "a column that is missing or does not belong there",
     E0814 "a value that a cell cannot have",

@@ -22,7 +22,7 @@ pub(super) fn decode(sources: &mut Sources, text: Text) -> (FileId, Option<Diagn
             let file = sources.add(Source::new(text.name, lossy));
             let span = Span::new(file, at, at + '\u{fffd}'.len_utf8());
             let diagnostic = Diagnostic::new(Code::E0130, span, "the file is not text (UTF-8)")
-                .label("this byte belongs to no character");
+                .label("this byte is not part of a character");
             (file, Some(diagnostic))
         }
     }

@@ -15,7 +15,7 @@ pub struct TableError {
 /// What can be wrong with a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum TableErrorKind {
-    /// It is not comma-separated text, or a line is no object of JSON.
+    /// It is not comma-separated text, or a line is not a JSON object.
     Malformed(String),
     /// Bytes that are no characters (UTF-8).
     NoText,
@@ -81,7 +81,7 @@ pub enum TableErrorKind {
 impl fmt::Display for TableError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.kind {
-            TableErrorKind::Malformed(why) => write!(f, "this is no table: {why}"),
+            TableErrorKind::Malformed(why) => write!(f, "this is not a table: {why}"),
             TableErrorKind::NoText => write!(f, "this is not text (UTF-8)"),
             TableErrorKind::Empty => write!(f, "the table has no rows"),
             TableErrorKind::Ragged { found, expected } => {

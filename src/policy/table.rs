@@ -43,7 +43,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// The format that a file's name tells, or else its first character that is no blank.
+    /// The format, by the ending of the file's name or else by the first character that is not blank.
     pub fn of(name: &str, text: &[u8]) -> Self {
         let ends = |ending: &str| {
             let tail = name

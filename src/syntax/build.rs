@@ -83,7 +83,7 @@ impl<'i> Builder<'i> {
             .map_or(start, |token| token.end.max(start))
     }
 
-    /// The first token at or after byte `at` that is no comment.
+    /// The first token at or after byte `at` that is not a comment.
     fn token_at(&self, at: usize) -> Option<Token> {
         let first = self.tokens.partition_point(|token| token.end <= at);
         self.tokens

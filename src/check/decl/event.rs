@@ -127,7 +127,7 @@ impl<'a> Checker<'a> {
         self.error(
             Code::E0203,
             name.span,
-            format!("`{}` is no family of events", name.name),
+            format!("`{}` is not a family of events", name.name),
         )
         .this_is(found);
     }

@@ -100,7 +100,7 @@ impl<'a> Checker<'a> {
                 .error(
                     Code::E0303,
                     span,
-                    format!("the state `{}` is no constant", reference.name.name),
+                    format!("the state `{}` is not a constant", reference.name.name),
                 )
                 .label("this changes as the program runs")
                 .none();

@@ -106,7 +106,7 @@ impl<'a> Checker<'a> {
             self.error(
                 Code::E0302,
                 op.span,
-                format!("{role} is {ty}, which is no number"),
+                format!("{role} is {ty}, which is not a number"),
             )
             .label("arithmetic needs a number; `=` sets it");
             self.expr(value);

@@ -16,7 +16,7 @@ impl<'a> Checker<'a> {
             Some(n) if n.fract() == 0.0 && (1.0..=64.0).contains(&n) => n as usize,
             Some(n) => {
                 let label = if n.fract() != 0.0 {
-                    "this is no whole number"
+                    "this is not a whole number"
                 } else if n < 1.0 {
                     "nothing would be remembered"
                 } else {

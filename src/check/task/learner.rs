@@ -204,7 +204,7 @@ impl<'a> Checker<'a> {
         } else if number.fract() == 0.0 {
             "this is too large"
         } else {
-            "this is no whole number"
+            "this is not a whole number"
         };
         self.out_of_range(
             value.span,

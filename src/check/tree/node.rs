@@ -232,7 +232,7 @@ impl<'a> Checker<'a> {
                 .error(
                     Code::E0203,
                     reference.span,
-                    format!("`{name}` is no node of a tree"),
+                    format!("`{name}` is not a node of a tree"),
                 )
                 .this_is(decl.what())
                 .help("a node is a behaviour, a subtree, or a predicate")

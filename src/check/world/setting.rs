@@ -24,7 +24,7 @@ impl<'a> Checker<'a> {
         self.settings_after(None, reference, wanted).1
     }
 
-    /// Settings of which the `first` is no constant: what it is given, and the values of the others.
+    /// Settings of which the `first` is not a constant: what it is given, and the values of the others.
     pub fn settings_after<const N: usize>(
         &mut self,
         first: Option<&'static str>,

@@ -108,7 +108,7 @@ impl<'a> Checker<'a> {
     }
 
     fn senseless<T>(&mut self, span: Span, what: &str) -> Option<T> {
-        self.error(Code::E0404, span, format!("{what} is no shape"))
+        self.error(Code::E0404, span, format!("{what} is not a shape"))
             .label("no robot could meet this")
             .none()
     }

@@ -177,7 +177,7 @@ impl<'i> Builder<'i> {
             Diagnostic::new(
                 Code::E0101,
                 span,
-                format!("the name `{name}` alone is no statement"),
+                format!("the name `{name}` alone is not a statement"),
             )
             .label("a statement sets something or calls something")
         };

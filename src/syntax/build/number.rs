@@ -75,7 +75,8 @@ impl<'i> Builder<'i> {
         if let Some(value) = value.filter(|_| is_well_written(digits)) {
             return Some(value);
         }
-        let mut diagnostic = Diagnostic::new(Code::E0124, span, format!("`{digits}` is no number"));
+        let mut diagnostic =
+            Diagnostic::new(Code::E0124, span, format!("`{digits}` is not a number"));
         if is_well_written(digits) {
             diagnostic = diagnostic.label("larger than any number that can be held");
         } else if let Some(hexadecimal) = digits
@@ -130,7 +131,8 @@ impl<'i> Builder<'i> {
                 right.push_str(power);
             }
         }
-        let mut diagnostic = Diagnostic::new(Code::E0114, span, format!("`{written}` is no unit"));
+        let mut diagnostic =
+            Diagnostic::new(Code::E0114, span, format!("`{written}` is not a unit"));
         diagnostic = match note {
             Some(fact) => diagnostic.label("not a unit here").note(fact),
             None => diagnostic.label(format!("write `{right}`")).fix(
@@ -143,7 +145,7 @@ impl<'i> Builder<'i> {
         self.report(diagnostic.note(units_note()));
     }
 
-    /// `6 m / s`, where `s` is no name of this file: a unit with blanks inside.
+    /// `6 m / s`, where `s` is not a name in this file: a unit with blanks inside.
     pub(super) fn blank_in_unit(&mut self, left: &Expr, right: &Expr, span: Span) -> Option<Expr> {
         let ExprKind::Number(literal) = &left.kind else {
             return None;

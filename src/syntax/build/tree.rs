@@ -119,7 +119,7 @@ impl<'i> Builder<'i> {
                     .and_then(|near| find(&NODES, near))
             });
         let mut diagnostic =
-            Diagnostic::new(Code::E0120, span, format!("`{name}` is no kind of node"));
+            Diagnostic::new(Code::E0120, span, format!("`{name}` is not a kind of node"));
         diagnostic = match meant {
             Some(word) => diagnostic
                 .label(format!("did you mean `{}`?", word.spelling()))

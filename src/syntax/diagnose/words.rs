@@ -135,7 +135,7 @@ pub(in crate::syntax) fn units_note() -> String {
 
 /// The message for a word that follows a number and is not a unit; `others` may follow a number too.
 pub(in crate::syntax) fn no_such_unit(span: Span, word: &str, others: &[&str]) -> Diagnostic {
-    let diagnostic = Diagnostic::new(Code::E0114, span, format!("`{word}` is no unit"));
+    let diagnostic = Diagnostic::new(Code::E0114, span, format!("`{word}` is not a unit"));
     let units = UNITS.into_iter().filter(|unit| unit.len() > 1);
     let near = suggest::nearest(word, units.chain(others.iter().copied())).or_else(|| {
         UNITS

@@ -36,7 +36,7 @@ pub(super) enum Part<'a> {
     Group(Box<Doc<'a>>, Span, Break),
     /// On one line, however long.
     Flat(Box<Doc<'a>>),
-    /// With so many characters kept free behind it on its last line.
+    /// With this many characters kept free behind it on its last line.
     Room(usize, Box<Doc<'a>>),
     List(List<'a>),
     /// The comments before this byte that have no place in the document move above the entry around it.
