@@ -154,7 +154,7 @@ fn memory(c: &mut Criterion) {
     group.finish();
 }
 
-/// A table of random minterms of so many predicates.
+/// A table of random minterms over this many predicates.
 fn table(rows: usize, predicates: usize) -> Policy {
     let mut dice = Dice(Random::new(3, 0, 0));
     let minterms = (0..rows).map(|_| Minterm::new((0..predicates).map(|_| dice.below(2) == 1)));

@@ -24,7 +24,7 @@ impl Reader for NoFiles {
     }
 }
 
-/// The first learner of a program, on so many of its episodes.
+/// The first learner of a program, on a number of its episodes.
 fn learn(loaded: &Loaded, simulator: &Simulator, episodes: u64) -> Counts {
     let program = &loaded.program;
     let learner = &program.learners[Id::new(0)];

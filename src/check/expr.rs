@@ -24,7 +24,7 @@ impl<'a> Checker<'a> {
     pub fn expr(&mut self, expr: &'a Expr) -> Typed {
         self.depth += 1;
         let typed = if self.depth > DEEP {
-            self.too_much(expr.span, "this stands too deep within");
+            self.too_much(expr.span, "this is nested too deeply within");
             None
         } else {
             self.meaning(expr)

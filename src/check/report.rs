@@ -145,14 +145,14 @@ impl<'a> Checker<'a> {
 
     /// Reports something that is given a second time.
     pub fn said_twice(&mut self, what: &str, here: Span, first: Span) {
-        self.error(Code::E0503, here, format!("`{what}` is there twice"))
-            .label("said again here")
-            .also(first, "first said here");
+        self.error(Code::E0503, here, format!("`{what}` is given twice"))
+            .label("given again here")
+            .also(first, "first given here");
     }
 
     /// Reports a part that `owner` lacks.
     pub fn missing(&mut self, code: Code, span: Span, owner: &str, missing: &str, example: &str) {
-        self.error(code, span, format!("{owner} does not say its `{missing}`"))
+        self.error(code, span, format!("{owner} has no `{missing}`"))
             .label(format!("`{missing}` is missing"))
             .help(format!("for example: `{example}`"));
     }

@@ -94,7 +94,7 @@ pub fn read(text: Text, recorded: Option<Recorded>, options: &Options) -> Result
             Code::E0816,
             format!("`{}` is the tree and {what}", options.name),
         );
-        let help = "call the tree otherwise, with `--name NAME`";
+        let help = "choose another name for the tree, with `--name NAME`";
         return Err(Refused::text(text, |file| vec![found(file).help(help)]));
     }
     let (program, policy) = decisions::declared(&read);

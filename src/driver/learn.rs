@@ -218,7 +218,7 @@ fn refuted(loaded: &Loaded, refuted: &Refuted, evidence: u64) -> Refused {
 
 /// A reward such as 0 / 0 makes every comparison of values void.
 fn without_value(loaded: &Loaded) -> Refused {
-    let why = "the rewards come to no finite number";
+    let why = "the rewards are not finite";
     let help =
         "look for a division by zero, or a root or logarithm of a negative number, under `reward`";
     nothing_learned(loaded, why, help)

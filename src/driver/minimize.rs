@@ -83,7 +83,7 @@ fn uncovered(why: Uncovered, file: FileId, pla: &Pla, text: &str) -> Diagnostic 
             row(conflict.second),
             "this row contradicts an earlier one",
         )
-        .also(row(conflict.first), "this row says otherwise")
+        .also(row(conflict.first), "this row differs")
         .note("both hold on some minterm"),
         Uncovered::TooLarge(output) => Diagnostic::new(
             Code::E0806,

@@ -5,7 +5,7 @@ use super::refused::Refused;
 use super::run::Subject;
 use super::world;
 use crate::emit::svg;
-use crate::emit::svg::track::{Stand, Step, Track};
+use crate::emit::svg::track::{Stand, Track, TrackTick};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::Status;
@@ -81,14 +81,14 @@ fn record(
     simulation: &mut Simulation,
     ticks: u64,
     mut tick: impl FnMut(&mut Simulation) -> Option<Id<Behavior>>,
-) -> (Stand, Vec<Step>, Option<End>) {
+) -> (Stand, Vec<TrackTick>, Option<End>) {
     let start = stand(simulation);
     let mut steps = Vec::new();
     for _ in 0..ticks {
         simulation.begin_tick();
         let behavior = tick(simulation);
         let outcome = simulation.end_tick();
-        steps.push(Step {
+        steps.push(TrackTick {
             behavior,
             stand: stand(simulation),
             events: simulation.fired().collect(),

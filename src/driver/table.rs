@@ -49,7 +49,7 @@ pub fn record(policy: &mut Policy, program: &Program, recorded: Recorded) -> Res
     if policy.starts.is_empty() {
         return Err(Refused::text(recorded.transitions, |file| {
             let start = Span::new(file, 0, 0);
-            let message = "no minterm is said to be one in which an episode starts";
+            let message = "no start minterm is given";
             vec![
                 Diagnostic::new(Code::E0818, start, message)
                     .label("no row here has the status `start`")
@@ -109,9 +109,9 @@ fn located(file: FileId, error: &TableError) -> Diagnostic {
     let found = Diagnostic::new(code(&error.kind), span(&error.span), error.to_string());
     match &error.kind {
         TableErrorKind::Contradiction { earlier, overlap } => {
-            let found = found.also(span(earlier), "this row says otherwise");
+            let found = found.also(span(earlier), "this row differs");
             match overlap {
-                Some(common) => found.note(format!("both rows speak of minterms with {common}")),
+                Some(common) => found.note(format!("both rows cover minterms with {common}")),
                 None => found,
             }
         }

@@ -14,7 +14,7 @@ pub(super) fn unbuilt(loaded: &Loaded, error: &BuildError) -> Diagnostic {
         target::world_span(loaded),
         format!("the world cannot be built: {error}"),
     )
-    .label("of this world")
+    .label("this world")
 }
 
 /// A tree or a policy that cannot be played.

@@ -34,7 +34,7 @@ pub enum TableErrorKind {
     UnknownKey(String),
     /// A column names nothing that the program has.
     UnknownColumn(String),
-    /// A column stands twice.
+    /// A column appears twice.
     RepeatedColumn(String),
     /// Two columns say what is done.
     SecondBehavior(String),
@@ -92,7 +92,7 @@ impl fmt::Display for TableError {
                 write!(f, "the first row does not say `{name}`, this one does")
             }
             TableErrorKind::UnknownColumn(name) => write!(f, "unknown column `{name}`"),
-            TableErrorKind::RepeatedColumn(name) => write!(f, "column `{name}` stands twice"),
+            TableErrorKind::RepeatedColumn(name) => write!(f, "column `{name}` appears twice"),
             TableErrorKind::SecondBehavior(name) => {
                 write!(f, "`{name}` is a second column that says what is done")
             }

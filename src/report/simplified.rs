@@ -127,7 +127,7 @@ pub(super) struct Document<'a> {
     after: Measured,
     loss: &'a Mean,
     ticks: u64,
-    steps: Vec<Step>,
+    steps: Vec<StepFigures>,
 }
 
 #[derive(Serialize)]
@@ -138,7 +138,7 @@ struct Measured {
 }
 
 #[derive(Serialize)]
-struct Step {
+struct StepFigures {
     change: String,
     nodes: usize,
     loss: f64,
@@ -151,7 +151,7 @@ impl<'a> Document<'a> {
             size: figures.size,
             ran: Episodes::new(program, task, figures.summary.clone()),
         };
-        let steps = simplified.steps.iter().map(|kept| Step {
+        let steps = simplified.steps.iter().map(|kept| StepFigures {
             change: kept.change.to_string(),
             nodes: kept.size.nodes,
             loss: kept.loss.mean,

@@ -59,7 +59,7 @@ pub fn text(
 /// The history window in words.
 fn window(program: &Program, history: History) -> String {
     if program.tasks.is_empty() {
-        return format!("a history of {}, as no task says another", history.window);
+        return format!("a history of {}, since no task sets one", history.window);
     }
     "the history window".to_owned()
 }

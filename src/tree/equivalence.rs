@@ -83,7 +83,7 @@ impl Explored {
     pub fn means_text(&self) -> String {
         match self.means {
             Means::Paths => format!("{} states explored", self.states),
-            Means::Table { atoms: 0 } => "both come to the same circuit".to_owned(),
+            Means::Table { atoms: 0 } => "both reduce to the same circuit".to_owned(),
             Means::Table { atoms } => format!("by a truth table over {atoms} predicates"),
             Means::Solver { atoms } => format!("by a SAT solver over {atoms} predicates"),
         }

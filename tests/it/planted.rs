@@ -64,7 +64,7 @@ pub fn below(random: &mut impl Rng, bound: usize) -> usize {
     (random.next_u64() % bound as u64) as usize
 }
 
-/// A random cube of so many literals.
+/// A random cube of this many literals.
 pub fn cube(random: &mut impl Rng, atoms: usize, literals: usize) -> Cube {
     let mut found: Vec<Literal> = Vec::new();
     while found.len() < literals {

@@ -77,7 +77,7 @@ impl<'a> Checker<'a> {
         if radius > 0.0 {
             Some(radius)
         } else {
-            self.senseless(value.span, "a disc of no size")
+            self.senseless(value.span, "a disc without size")
         }
     }
 

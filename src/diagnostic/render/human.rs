@@ -19,7 +19,7 @@ pub fn human(sources: &Sources, diagnostics: &[Diagnostic], color: bool) -> Stri
         tab_width: 4,
         ..Config::default()
     };
-    let files = Table(sources);
+    let files = SourceFiles(sources);
     for diagnostic in diagnostics {
         // Writing into memory does not fail, and a place outside its file shows no line.
         let _ =
@@ -110,9 +110,9 @@ fn shortened(line: &str) -> String {
 }
 
 /// The sources as codespan reads them.
-struct Table<'a>(&'a Sources);
+struct SourceFiles<'a>(&'a Sources);
 
-impl Table<'_> {
+impl SourceFiles<'_> {
     fn source(&self, id: usize) -> Result<&crate::source::Source, Error> {
         let mut files = self.0.iter();
         files
@@ -122,7 +122,7 @@ impl Table<'_> {
     }
 }
 
-impl<'a> Files<'a> for Table<'a> {
+impl<'a> Files<'a> for SourceFiles<'a> {
     type FileId = usize;
     type Name = &'a str;
     type Source = &'a str;
@@ -132,16 +132,16 @@ impl<'a> Files<'a> for Table<'a> {
     }
 
     fn source(&'a self, id: usize) -> Result<&'a str, Error> {
-        Ok(&Table::source(self, id)?.text)
+        Ok(&SourceFiles::source(self, id)?.text)
     }
 
     fn line_index(&'a self, id: usize, offset: usize) -> Result<usize, Error> {
         let offset = u32::try_from(offset).unwrap_or(u32::MAX);
-        Ok(Table::source(self, id)?.line(offset).0)
+        Ok(SourceFiles::source(self, id)?.line(offset).0)
     }
 
     fn line_range(&'a self, id: usize, line: usize) -> Result<Range<usize>, Error> {
-        let source = Table::source(self, id)?;
+        let source = SourceFiles::source(self, id)?;
         let start = source.line_start(line).ok_or(Error::LineTooLarge {
             given: line,
             max: source.line_count().saturating_sub(1),

@@ -20,7 +20,7 @@ pub struct Stand {
 
 /// A tick.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Step {
+pub struct TrackTick {
     /// The behaviour that drove the robot or, where none did, was ticked last.
     pub behavior: Option<Id<Behavior>>,
     /// Where the robot stood after it.
@@ -40,7 +40,7 @@ pub struct Track {
     /// Where the robot stood before the first tick.
     pub start: Stand,
     /// The ticks.
-    pub steps: Vec<Step>,
+    pub steps: Vec<TrackTick>,
 }
 
 /// Points nearer than this are drawn as one, in px.

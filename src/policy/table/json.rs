@@ -74,7 +74,7 @@ impl Keys {
         let mut names: Vec<_> = names
             .map(|(name, _)| (name.to_owned(), line.place(name)))
             .collect();
-        // A key that stands twice is reported with its row.
+        // A key that appears twice is reported with its row.
         let mut known: Vec<String> = Vec::new();
         names.retain(|(name, _)| {
             let new = !known.contains(name);

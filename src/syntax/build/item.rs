@@ -58,7 +58,7 @@ impl<'i> Builder<'i> {
             self.respell(
                 Code::E0121,
                 span,
-                "a path stands in straight quotes".into(),
+                "a path is written in straight quotes".into(),
                 &right,
             );
         }

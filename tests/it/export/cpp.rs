@@ -197,7 +197,7 @@ impl Node {
         }
     }
 
-    /// Up to so many times as long as the child answers `with`.
+    /// Up to this many times, as long as the child answers `with`.
     fn again(&mut self, world: &mut World, times: u32, with: Status) -> Status {
         loop {
             let fresh = !self.children[0].running;

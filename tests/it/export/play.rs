@@ -26,7 +26,7 @@ pub(super) struct Tick {
 }
 
 impl Play {
-    /// A random one of so many ticks, in which the atoms change now and then.
+    /// A random one of this many ticks, in which the atoms change now and then.
     pub(super) fn new(random: &mut Random, atoms: usize, ticks: usize, steady: bool) -> Self {
         let mut values: Vec<bool> = (0..atoms).map(|_| random.chance(50)).collect();
         let mut valuations = Vec::new();
