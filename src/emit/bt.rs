@@ -11,6 +11,7 @@ use crate::syntax::ast::{
     NodeKind, Ref, Spanned, UnaryOp, Unit, Word,
 };
 use crate::syntax::print;
+use crate::tree::unit::parts;
 
 /// A tree as an item of the language, with its documentation.
 pub fn tree(program: &Program, tree: &Tree) -> String {
@@ -76,15 +77,11 @@ fn node(program: &Program, at: &Node) -> ast::Node {
             kind,
             memory,
             children,
-        } => match (kind, children.as_slice()) {
-            (Composite::Sequence, [Node::Condition(guard), child])
-                if !memory && !matches!(child, Node::Condition(_)) =>
-            {
-                NodeKind::Guarded {
-                    guard: formula(program, guard),
-                    node: Box::new(node(program, child)),
-                }
-            }
+        } => match parts(at) {
+            Some((guard, body)) if !matches!(body, Node::Condition(_)) => NodeKind::Guarded {
+                guard: formula(program, guard),
+                node: Box::new(node(program, body)),
+            },
             _ => {
                 let word = match kind {
                     Composite::Selector => Word::Selector,
