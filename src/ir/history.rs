@@ -24,6 +24,14 @@ impl History {
         atom.termination()
             .is_some_and(|(_, status)| self.keeps(status))
     }
+
+    /// How many terminations the window holds where these are remembered; none where there is nothing to remember.
+    pub fn length<T>(self, remembered: &[T]) -> usize {
+        match remembered.is_empty() {
+            true => 0,
+            false => self.window,
+        }
+    }
 }
 
 impl Atom {

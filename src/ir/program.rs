@@ -5,7 +5,7 @@ use super::law::{Behavior, Block};
 use super::name::Name;
 use super::table::{Id, Table};
 use super::task::{Claim, Learner, Task};
-use super::tree::{Atom, Tree};
+use super::tree::{Atom, Status, Tree};
 use super::world::World;
 
 /// A checked program.
@@ -102,18 +102,16 @@ impl Program {
     /// window keeps them.
     pub fn atoms(&self, task: Id<Task>) -> Vec<Atom> {
         let task = &self.tasks[task];
-        let remembered = |kept: bool| {
-            task.choose
-                .iter()
-                .copied()
-                .filter(move |_| kept && task.history.window > 0)
+        let remembered = |status: Status| {
+            let behaviors = task.choose.iter().copied();
+            behaviors.filter(move |_| task.history.keeps(status))
         };
         task.observe
             .iter()
             .copied()
             .map(Atom::Predicate)
-            .chain(remembered(task.history.success).map(Atom::Done))
-            .chain(remembered(task.history.failure).map(Atom::Failed))
+            .chain(remembered(Status::Success).map(Atom::Done))
+            .chain(remembered(Status::Failure).map(Atom::Failed))
             .collect()
     }
 }

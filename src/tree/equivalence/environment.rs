@@ -230,12 +230,8 @@ impl<'a> TableEnvironment<'a> {
     }
 
     fn any_window(&self, oracle: &mut Oracle) -> Window {
-        let length = match self.kinds.is_empty() {
-            true => 0,
-            false => self.history.window,
-        };
         let mut any = || oracle.choose(self.kinds.len() + 1).checked_sub(1);
-        (0..length)
+        (0..self.history.length(&self.kinds))
             .map(|_| any().and_then(|kind| self.kinds.get(kind).copied()))
             .collect()
     }

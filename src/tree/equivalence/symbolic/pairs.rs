@@ -81,10 +81,7 @@ impl Pairs {
 
     /// How many terminations a window holds; none where there is nothing to remember.
     pub(super) fn window(&self) -> usize {
-        match self.remembered.is_empty() {
-            true => 0,
-            false => self.history.window,
-        }
+        self.history.length(&self.remembered)
     }
 
     /// Where no window is long enough for what the atoms say.
@@ -146,7 +143,7 @@ impl Pairs {
         selects: &BTreeMap<Id<Behavior>, Signal>,
     ) -> Vec<(Option<Termination>, Signal)> {
         let mut kept = vec![Status::Success, Status::Failure];
-        kept.retain(|status| self.window() > 0 && self.history.keeps(*status));
+        kept.retain(|status| !self.remembered.is_empty() && self.history.keeps(*status));
         let mut entries: BTreeMap<Termination, Signal> = BTreeMap::new();
         let mut some = Signal::FALSE;
         for (behavior, selected) in selects {
