@@ -107,3 +107,21 @@ impl<'a> Checker<'a> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::LIBRARY;
+    use crate::source::FileId;
+    use crate::syntax::ast::ItemKind;
+    use crate::syntax::parse;
+
+    #[test]
+    fn the_list_is_that_of_the_library() {
+        let (file, _) = parse(FileId(0), include_str!("../../library/std.bt"));
+        let behaviors = file.items.iter().filter_map(|item| match &item.kind {
+            ItemKind::Behavior(behavior) => Some(behavior.name.name.as_str()),
+            _ => None,
+        });
+        assert_eq!(behaviors.collect::<Vec<_>>(), LIBRARY);
+    }
+}
