@@ -18,6 +18,7 @@ use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::task::History;
 use crate::ir::tree::{Atom, Status};
+use crate::logic::minterm::agree;
 use crate::logic::packed::Packed;
 use std::collections::BTreeMap;
 
@@ -123,10 +124,7 @@ impl Row {
     /// Whether it stands for this minterm.
     pub fn speaks_of(&self, minterm: &Minterm) -> bool {
         let free = self.free.iter().flat_map(|free| free.words());
-        let words = self.minterm.words().iter().zip(minterm.words());
-        words
-            .zip(free.copied().chain(std::iter::repeat(0)))
-            .all(|((own, other), free)| (own ^ other) & !free == 0)
+        agree(self.minterm.words(), minterm.words(), free.copied())
     }
 
     /// How much better the best behaviour looks than the second; `None` if only one was tried.

@@ -106,6 +106,13 @@ pub(crate) fn order(a: &[u64], b: &[u64]) -> Ordering {
     (a >> first & 1).cmp(&(b >> first & 1))
 }
 
+/// Whether minterms in words have the same values in all atoms but those that are `free`; past its end none is.
+pub(crate) fn agree(a: &[u64], b: &[u64], free: impl IntoIterator<Item = u64>) -> bool {
+    let free = free.into_iter().chain(std::iter::repeat(0));
+    let mut words = a.iter().zip(b).zip(free);
+    words.all(|((a, b), free)| (a ^ b) & !free == 0)
+}
+
 /// The bit of an atom in words; false past the end.
 pub(crate) fn bit(words: &[u64], atom: usize) -> bool {
     let word = words.get(atom / 64);

@@ -4,6 +4,7 @@
 //! a side holds one behaviour, or no free atoms, or so few rows that each is compared with each.
 
 use super::rows::{Rows, Truth};
+use crate::logic::minterm::agree;
 
 /// As many rows are compared pair by pair.
 const FEW: usize = 64;
@@ -80,9 +81,6 @@ fn leaves_free(rows: &Rows, row: usize) -> bool {
 
 /// Whether some minterm is of both rows.
 fn common(rows: &Rows, a: usize, b: usize) -> bool {
-    let words = rows.words(a).iter().zip(rows.words(b));
     let free = rows.free(a).iter().zip(rows.free(b));
-    words
-        .zip(free)
-        .all(|((x, y), (f, g))| (x ^ y) & !f & !g == 0)
+    agree(rows.words(a), rows.words(b), free.map(|(a, b)| a | b))
 }

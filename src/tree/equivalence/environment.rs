@@ -6,6 +6,7 @@ use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::task::History;
 use crate::ir::tree::{Atom, Status};
+use crate::logic::minterm::agree;
 use crate::policy::{Minterm, Policy};
 use rustc_hash::FxHashMap;
 use std::cell::RefCell;
@@ -261,13 +262,10 @@ impl<'a> TableEnvironment<'a> {
 impl Care<'_> {
     /// Whether it has the values of `other` in the atoms of `among`.
     fn agrees(&self, other: &Minterm, among: &Minterm) -> bool {
-        let pairs = self.minterm.words().iter().zip(other.words());
-        pairs
-            .zip(among.words())
-            .enumerate()
-            .all(|(i, ((a, b), among))| {
-                let free = self.free.and_then(|free| free.words().get(i));
-                (a ^ b) & among & !free.copied().unwrap_or(0) == 0
-            })
+        let free = self.free.into_iter().flat_map(Minterm::words).copied();
+        let free = free.chain(std::iter::repeat(0));
+        let ignored = among.words().iter().zip(free);
+        let ignored = ignored.map(|(among, free)| !among | free);
+        agree(self.minterm.words(), other.words(), ignored)
     }
 }
