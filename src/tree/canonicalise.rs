@@ -27,12 +27,12 @@ pub(super) const LITERALS: usize = 2_000;
 pub struct Canonical {
     /// The units, one per behaviour. No two guards of what [`canonicalise`] gives hold together, so that their order
     /// does not matter; in other orders the guards can be shorter, see [`permute`](super::permute::permute).
-    pub units: Vec<Unit>,
+    pub units: Vec<CanonicalUnit>,
 }
 
 /// A guard and the behaviour that it lets through.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Unit {
+pub struct CanonicalUnit {
     /// When the behaviour is selected.
     pub guard: Guard,
     /// The behaviour.
@@ -87,7 +87,7 @@ pub fn canonicalise(root: &Node, by: Reading) -> Result<Canonical, Irreducible> 
             reason: Reason::Large(behavior),
         })?;
         if guard != Guard::Const(false) {
-            units.push(Unit { guard, behavior });
+            units.push(CanonicalUnit { guard, behavior });
         }
     }
     Ok(Canonical { units })

@@ -1,6 +1,6 @@
 //! Canonical trees in other orders (paper, Theorem 2).
 
-use super::canonicalise::{Canonical, LITERALS, Unit, shorten};
+use super::canonicalise::{Canonical, CanonicalUnit, LITERALS, shorten};
 use super::circuit::Signal;
 use super::circuit::guards::Guards;
 use crate::ir::Id;
@@ -34,7 +34,7 @@ pub fn permute(canonical: &Canonical, order: &[Id<Behavior>]) -> Result<Canonica
         }
     }
     let mut guards = Guards::new();
-    let mut shifted: Vec<(usize, &Unit, Signal)> = Vec::new();
+    let mut shifted: Vec<(usize, &CanonicalUnit, Signal)> = Vec::new();
     for (old, unit) in before.iter().enumerate() {
         let new = place(unit.behavior).ok_or(Unordered::Mismatch(unit.behavior))?;
         let mut when = guards.signal(&unit.guard);
@@ -51,7 +51,7 @@ pub fn permute(canonical: &Canonical, order: &[Id<Behavior>]) -> Result<Canonica
     let mut units = Vec::new();
     for (_, unit, when) in shifted {
         let guard = shorten(when, taken, LITERALS, &mut guards);
-        units.push(Unit {
+        units.push(CanonicalUnit {
             guard: guard.ok_or(Unordered::Large(unit.behavior))?,
             behavior: unit.behavior,
         });

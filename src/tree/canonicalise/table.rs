@@ -1,6 +1,6 @@
 //! A canonical tree as a policy table.
 
-use super::{Canonical, Unit};
+use super::{Canonical, CanonicalUnit};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::{Atom, Node};
@@ -58,7 +58,7 @@ impl Canonical {
             return false;
         };
         let whole = Self {
-            units: vec![Unit {
+            units: vec![CanonicalUnit {
                 guard: not(any),
                 behavior: unit.behavior,
             }],

@@ -1,6 +1,6 @@
 //! What a table decides, looked up by minterm or cube.
 
-use super::environment::Care;
+use super::environment::TableCube;
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::policy::Policy;
@@ -24,9 +24,9 @@ impl<'a> Choices<'a> {
     }
 
     /// What a row decides that holds wherever the minterm or cube does.
-    pub(super) fn choice(&self, care: &Care) -> Option<Id<Behavior>> {
-        let free = care.free.map_or(&[][..], |free| free.words());
-        let words = care.minterm.words();
+    pub(super) fn choice(&self, cube: &TableCube) -> Option<Id<Behavior>> {
+        let free = cube.free.map_or(&[][..], |free| free.words());
+        let words = cube.minterm.words();
         let covers = |wider: &&[u64]| {
             let mut pairs = free.iter().enumerate();
             pairs.all(|(i, free)| free & !wider.get(i).copied().unwrap_or(0) == 0)

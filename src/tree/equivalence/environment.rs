@@ -46,7 +46,7 @@ pub(super) enum Place {
 
 /// A minterm of the table, or a cube of it.
 #[derive(Clone, Debug)]
-pub(super) struct Care<'a> {
+pub(super) struct TableCube<'a> {
     pub(super) minterm: &'a Minterm,
     /// The atoms that may have either value.
     pub(super) free: Option<&'a Minterm>,
@@ -58,7 +58,7 @@ pub(super) struct TableEnvironment<'a> {
     history: History,
     pub(super) atoms: &'a [Atom],
     /// The rows of the table, then what else it mentions.
-    pub(super) minterms: Vec<Care<'a>>,
+    pub(super) minterms: Vec<TableCube<'a>>,
     rows: usize,
     /// The transitions from each minterm: behaviour, status, next minterm, position in the table.
     recorded: BTreeMap<usize, Vec<Record>>,
@@ -87,20 +87,20 @@ pub(super) struct Consequence {
 
 impl<'a> TableEnvironment<'a> {
     pub(super) fn new(policy: &'a Policy, follow: Follow) -> Self {
-        let mut minterms: Vec<Care> = Vec::new();
+        let mut minterms: Vec<TableCube> = Vec::new();
         let mut numbers: BTreeMap<&Minterm, usize> = BTreeMap::new();
         for row in &policy.rows {
             if row.free.is_none() {
                 numbers.insert(&row.minterm, minterms.len());
             }
-            minterms.push(Care {
+            minterms.push(TableCube {
                 minterm: &row.minterm,
                 free: row.free.as_ref(),
             });
         }
         let mut number = |minterm: &'a Minterm| {
             *numbers.entry(minterm).or_insert_with(|| {
-                minterms.push(Care {
+                minterms.push(TableCube {
                     minterm,
                     free: None,
                 });
@@ -247,8 +247,8 @@ impl<'a> TableEnvironment<'a> {
         }
         let remembered = Minterm::new(self.atoms.iter().map(|atom| self.remembers(*atom)));
         let shows = |minterm: &usize| {
-            let care = self.minterms.get(*minterm);
-            care.is_some_and(|care| care.agrees(&key.1, &remembered))
+            let cube = self.minterms.get(*minterm);
+            cube.is_some_and(|cube| cube.agrees(&key.1, &remembered))
         };
         let found: Rc<[usize]> = match starts {
             true => self.starts.iter().copied().filter(shows).collect(),
@@ -259,7 +259,7 @@ impl<'a> TableEnvironment<'a> {
     }
 }
 
-impl Care<'_> {
+impl TableCube<'_> {
     /// Whether it has the values of `other` in the atoms of `among`.
     fn agrees(&self, other: &Minterm, among: &Minterm) -> bool {
         let free = self.free.into_iter().flat_map(Minterm::words).copied();

@@ -3,7 +3,7 @@
 //! Both sides tick in the same moment, and nothing moves in between: an atom has one value, and a behaviour one status,
 //! whoever asks and however often. What nobody asks is not chosen.
 
-use super::environment::{Care, Consequence, Place, TableEnvironment};
+use super::environment::{Consequence, Place, TableCube, TableEnvironment};
 use super::oracle::Oracle;
 use super::window::shows;
 use crate::ir::Id;
@@ -18,7 +18,7 @@ pub(super) struct Moment<'a> {
     place: Place,
     /// The number of the minterm, or of the cube.
     pub(super) minterm: usize,
-    care: &'a Care<'a>,
+    cube: &'a TableCube<'a>,
     /// The values of the free atoms that were asked, a word at a time: which are known, and which of these hold.
     asked: Vec<(u64, u64)>,
     /// The behaviour that was ticked first, and what comes of it.
@@ -39,7 +39,7 @@ impl<'a> Moment<'a> {
             environment,
             place,
             minterm,
-            care: environment.minterms.get(minterm)?,
+            cube: environment.minterms.get(minterm)?,
             asked: Vec::new(),
             oracle,
             selected: None,
@@ -50,8 +50,8 @@ impl<'a> Moment<'a> {
     /// Whether the bits of `mask` in this word of the valuation are those of `value`.
     pub(super) fn matches(&mut self, word: usize, mask: u64, value: u64) -> bool {
         let of = |minterm: &Minterm| minterm.words().get(word).copied().unwrap_or(0);
-        let free = self.care.free.map_or(0, of) & mask;
-        of(self.care.minterm) & mask & !free == value & !free
+        let free = self.cube.free.map_or(0, of) & mask;
+        of(self.cube.minterm) & mask & !free == value & !free
             && (0..64)
                 .filter(|bit| free >> bit & 1 == 1)
                 .all(|bit| self.free(word * 64 + bit) == (value >> bit & 1 == 1))
@@ -110,13 +110,13 @@ impl<'a> Moment<'a> {
 
     /// The values of this moment, false where nobody asked.
     pub(super) fn valuation(&self) -> Minterm {
-        if self.care.free.is_none() {
-            return self.care.minterm.clone();
+        if self.cube.free.is_none() {
+            return self.cube.minterm.clone();
         }
         let atoms = self.environment.atoms.iter().enumerate();
         Minterm::new(atoms.map(|(i, atom)| {
             let (_, value) = self.asked.get(i / 64).copied().unwrap_or_default();
-            self.care.minterm.get(i) || self.is_shown(*atom) || value >> (i % 64) & 1 == 1
+            self.cube.minterm.get(i) || self.is_shown(*atom) || value >> (i % 64) & 1 == 1
         }))
     }
 

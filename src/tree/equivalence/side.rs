@@ -30,7 +30,7 @@ impl Automaton {
             Side::Policy(policy) => {
                 let choices = Choices::new(policy);
                 let minterms = environment.minterms.iter();
-                let choices = minterms.map(|care| choices.choice(care));
+                let choices = minterms.map(|cube| choices.choice(cube));
                 Ok(Automaton::Table(choices.collect()))
             }
             Side::Tree(root) => {

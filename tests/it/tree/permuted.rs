@@ -7,13 +7,13 @@ use btc::ir::Id;
 use btc::ir::law::Behavior;
 use btc::ir::task::History;
 use btc::ir::tree::{Guard, Node};
-use btc::tree::canonicalise::{Canonical, Unit, canonicalise};
+use btc::tree::canonicalise::{Canonical, CanonicalUnit, canonicalise};
 use btc::tree::equivalence::{Environment, Side, Verdict, compare};
 use btc::tree::permute::{Unordered, permute};
 use btc::tree::reading::Reading;
 
-fn unit(guard: Guard, behavior: usize) -> Unit {
-    Unit {
+fn unit(guard: Guard, behavior: usize) -> CanonicalUnit {
+    CanonicalUnit {
         guard,
         behavior: Id::new(behavior),
     }
