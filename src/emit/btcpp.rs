@@ -11,7 +11,7 @@ use super::refusal::{self, Reason, Refusal, answers_at_once};
 use super::xml::Xml;
 use crate::ir::Program;
 use crate::ir::task::History;
-use crate::ir::tree::{Atom, Composite, Decorator, Node, Tree};
+use crate::ir::tree::{Composite, Decorator, Node, Tree};
 use crate::spelling::spelled;
 use crate::tree::drawing::{Drawing, Shape};
 
@@ -261,8 +261,7 @@ fn model(leaves: &Leaves, history: Option<History>, xml: &mut Xml) {
                 ("type", "std::string".to_owned()),
             ];
             let outcome = match first {
-                Some(Subject::Condition(Atom::Done(_))) => Some("success"),
-                Some(Subject::Condition(Atom::Failed(_))) => Some("failure"),
+                Some(Subject::Condition(atom)) => atom.outcome(),
                 _ => None,
             };
             match outcome {

@@ -58,12 +58,8 @@ fn look(shape: Shape, program: &Program) -> String {
         Shape::Parallel(successes) => control(&format!("⇉{successes}")),
         Shape::Decorator(kind) => {
             let label = match kind {
-                Decorator::Invert => "invert".to_owned(),
-                Decorator::Succeed => "succeed".to_owned(),
-                Decorator::Fail => "fail".to_owned(),
-                Decorator::Retry(times) => format!("retry {times}"),
-                Decorator::Repeat(times) => format!("repeat {times}"),
-                Decorator::Timeout(ticks) => format!("timeout\n{ticks} ticks"),
+                Decorator::Timeout(ticks) => format!("{}\n{ticks} ticks", kind.word()),
+                _ => kind.to_string(),
             };
             format!(
                 r##"shape=diamond, margin="0.02,0.02", fillcolor="#ede7f6", label={}"##,

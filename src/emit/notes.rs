@@ -2,7 +2,7 @@
 
 use crate::ir::Program;
 use crate::ir::task::History;
-use crate::ir::tree::{Decorator, Node};
+use crate::ir::tree::{Decorator, Node, Status};
 
 /// The length of a tick in milliseconds, to the nanosecond, if there is a world.
 pub(super) fn tick(program: &Program) -> Option<f64> {
@@ -24,13 +24,14 @@ pub(super) fn has_decorator(node: &Node, test: &impl Fn(Decorator) -> bool) -> b
 }
 
 /// When `done` (of a success) or `failed` (of a failure) of `what` holds.
-pub(super) fn window(outcome: &str, what: &str, history: Option<History>) -> String {
+pub(super) fn window(outcome: Status, what: &str, history: Option<History>) -> String {
+    let outcome = outcome.name();
     let Some(history) = history else {
         return format!("a {outcome} of {what} is in the history window");
     };
     let (one, several) = match (history.success, history.failure) {
-        (true, false) => ("success", "successes"),
-        (false, true) => ("failure", "failures"),
+        (true, false) => (Status::Success.name(), "successes"),
+        (false, true) => (Status::Failure.name(), "failures"),
         _ => ("termination", "terminations"),
     };
     match history.window {

@@ -114,11 +114,10 @@ impl Writer<'_> {
     fn node(&mut self, drawing: &Drawing, name: Option<&str>) -> Code {
         match drawing.shape {
             Shape::Composite(kind, memory) => {
-                let (class, word) = match (kind, memory) {
-                    (Composite::Selector, false) => ("Selector", "selector"),
-                    (Composite::Selector, true) => ("Selector", "memory selector"),
-                    (Composite::Sequence, false) => ("Sequence", "sequence"),
-                    (Composite::Sequence, true) => ("Sequence", "memory sequence"),
+                let word = kind.word(memory);
+                let class = match kind {
+                    Composite::Selector => "Selector",
+                    Composite::Sequence => "Sequence",
                 };
                 self.imports.take("composites", class);
                 let memory = if memory {
@@ -176,27 +175,28 @@ impl Writer<'_> {
     }
 
     fn decorator(&mut self, kind: Decorator, name: Option<&str>, child: Option<Code>) -> Code {
-        let (class, word, setting) = match kind {
-            Decorator::Invert => ("Inverter", "invert".to_owned(), None),
-            Decorator::Succeed => ("FailureIsSuccess", "succeed".to_owned(), None),
-            Decorator::Fail => ("SuccessIsFailure", "fail".to_owned(), None),
+        let word = kind.word();
+        let (class, words, setting) = match kind {
+            Decorator::Invert => ("Inverter", word.to_owned(), None),
+            Decorator::Succeed => ("FailureIsSuccess", word.to_owned(), None),
+            Decorator::Fail => ("SuccessIsFailure", word.to_owned(), None),
             // The first attempt is none of the retries.
             Decorator::Retry(times) => {
                 let failures = format!("num_failures={times}");
-                ("Retry", format!("retry({times})"), Some(failures))
+                ("Retry", format!("{word}({times})"), Some(failures))
             }
             Decorator::Repeat(times) => {
                 let successes = format!("num_success={times}");
-                ("Repeat", format!("repeat({times})"), Some(successes))
+                ("Repeat", format!("{word}({times})"), Some(successes))
             }
             Decorator::Timeout(ticks) => {
                 let seconds = ticks as f64 * self.tick / 1e3;
                 let duration = format!("duration={seconds:?}");
-                ("Timeout", format!("timeout({ticks} ticks)"), Some(duration))
+                ("Timeout", format!("{word}({ticks} ticks)"), Some(duration))
             }
         };
         self.imports.take("decorators", class);
-        let mut arguments = vec![string(name.unwrap_or(&word))];
+        let mut arguments = vec![string(name.unwrap_or(&words))];
         arguments.extend(child);
         arguments.extend(setting.map(Code::Plain));
         Code::call(class, arguments)

@@ -5,6 +5,7 @@ use super::name::Name;
 use super::program::Predicate;
 use super::table::Id;
 use super::task::Task;
+use std::fmt;
 
 /// A named tree.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,6 +41,17 @@ pub enum Atom {
     Done(Id<Behavior>),
     /// `failed(b)`: a failure of b is in the window.
     Failed(Id<Behavior>),
+}
+
+impl Atom {
+    /// What the history window says, if that is what it asks: success for `done`, failure for `failed`.
+    pub fn outcome(self) -> Option<Status> {
+        match self {
+            Atom::Predicate(_) => None,
+            Atom::Done(_) => Some(Status::Success),
+            Atom::Failed(_) => Some(Status::Failure),
+        }
+    }
 }
 
 /// A boolean formula over atoms.
@@ -135,6 +147,18 @@ pub enum Composite {
     Sequence,
 }
 
+impl Composite {
+    /// Its words in the language: `selector`, `memory selector`, `sequence` or `memory sequence`.
+    pub fn word(self, memory: bool) -> &'static str {
+        match (self, memory) {
+            (Composite::Selector, false) => "selector",
+            (Composite::Selector, true) => "memory selector",
+            (Composite::Sequence, false) => "sequence",
+            (Composite::Sequence, true) => "memory sequence",
+        }
+    }
+}
+
 /// The decorators.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Decorator {
@@ -150,6 +174,33 @@ pub enum Decorator {
     Repeat(u32),
     /// Fails once it has been reached for this many ticks.
     Timeout(u64),
+}
+
+impl Decorator {
+    /// Its word in the language, without its number.
+    pub fn word(self) -> &'static str {
+        match self {
+            Decorator::Invert => "invert",
+            Decorator::Succeed => "succeed",
+            Decorator::Fail => "fail",
+            Decorator::Retry(_) => "retry",
+            Decorator::Repeat(_) => "repeat",
+            Decorator::Timeout(_) => "timeout",
+        }
+    }
+}
+
+/// As a drawing shows it: `invert`, `retry 3`, `timeout 2 ticks`.
+impl fmt::Display for Decorator {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let word = self.word();
+        match self {
+            Decorator::Invert | Decorator::Succeed | Decorator::Fail => f.write_str(word),
+            Decorator::Retry(times) | Decorator::Repeat(times) => write!(f, "{word} {times}"),
+            Decorator::Timeout(1) => write!(f, "{word} 1 tick"),
+            Decorator::Timeout(ticks) => write!(f, "{word} {ticks} ticks"),
+        }
+    }
 }
 
 impl Guard {

@@ -4,7 +4,7 @@ use super::code::{Code, WIDTH, quoted, wrapped};
 use crate::emit::leaves::{Family, Leaves, Subject};
 use crate::emit::notes;
 use crate::ir::task::History;
-use crate::ir::tree::{Atom, Decorator, Tree};
+use crate::ir::tree::{Decorator, Tree};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The names that are imported from the modules of py_trees.
@@ -95,11 +95,14 @@ impl Parts<'_> {
     /// The abstract method of a family.
     fn method(&self, family: &Family) -> String {
         let name = signature(family);
-        let holds = |outcome| notes::window(outcome, "`behavior`", self.history);
         let says = match family.subjects.first() {
-            Some(Subject::Condition(Atom::Done(_))) => format!("Whether {}.", holds("success")),
-            Some(Subject::Condition(Atom::Failed(_))) => format!("Whether {}.", holds("failure")),
-            Some(Subject::Condition(Atom::Predicate(_))) => format!("Whether `{name}` holds."),
+            Some(Subject::Condition(atom)) => match atom.outcome() {
+                Some(outcome) => {
+                    let holds = notes::window(outcome, "`behavior`", self.history);
+                    format!("Whether {holds}.")
+                }
+                None => format!("Whether `{name}` holds."),
+            },
             _ => format!("A new `{name}`."),
         };
         format!(

@@ -8,7 +8,7 @@ use super::page::{self, Head, Page, number};
 use super::paint::{Rule, rule};
 use crate::emit::bt;
 use crate::ir::Program;
-use crate::ir::tree::{Composite, Decorator, Tree};
+use crate::ir::tree::{Composite, Tree};
 use crate::tree::drawing::{Drawing, Shape};
 
 /// Around the tree.
@@ -114,15 +114,7 @@ fn label(shape: Shape, program: &Program) -> String {
     match shape {
         Shape::Composite(_, memory) => if memory { "*" } else { "" }.to_owned(),
         Shape::Parallel(successes) => successes.to_string(),
-        Shape::Decorator(kind) => match kind {
-            Decorator::Invert => "invert".to_owned(),
-            Decorator::Succeed => "succeed".to_owned(),
-            Decorator::Fail => "fail".to_owned(),
-            Decorator::Retry(times) => format!("retry {times}"),
-            Decorator::Repeat(times) => format!("repeat {times}"),
-            Decorator::Timeout(1) => "timeout 1 tick".to_owned(),
-            Decorator::Timeout(ticks) => format!("timeout {ticks} ticks"),
-        },
+        Shape::Decorator(kind) => kind.to_string(),
         Shape::Behavior(id) => program.behaviors[id].name.to_string(),
         Shape::Literal(atom, true) => program.atom_name(atom).to_string(),
         Shape::Literal(atom, false) => format!("not {}", program.atom_name(atom)),
@@ -133,10 +125,7 @@ fn label(shape: Shape, program: &Program) -> String {
 /// What a node is, in words.
 fn kind(shape: Shape) -> &'static str {
     match shape {
-        Shape::Composite(Composite::Sequence, false) => "sequence",
-        Shape::Composite(Composite::Sequence, true) => "memory sequence",
-        Shape::Composite(Composite::Selector, false) => "selector",
-        Shape::Composite(Composite::Selector, true) => "memory selector",
+        Shape::Composite(kind, memory) => kind.word(memory),
         Shape::Parallel(_) => "parallel",
         Shape::Decorator(_) => "decorator",
         Shape::Behavior(_) => "behavior",
