@@ -50,7 +50,7 @@ impl Subject {
 }
 
 /// The conditions that ask the history window.
-const HISTORY: [&str; 2] = ["done", "failed"];
+const HISTORY: [&str; 2] = [Atom::DONE, Atom::FAILED];
 
 /// A family of conditions or of actions: what a robot has to provide once.
 #[derive(Clone, Debug)]

@@ -93,8 +93,8 @@ impl Program {
     pub fn atom_name(&self, atom: Atom) -> Name {
         match atom {
             Atom::Predicate(id) => self.predicates[id].name.clone(),
-            Atom::Done(id) => Name::history("done", &self.behaviors[id].name),
-            Atom::Failed(id) => Name::history("failed", &self.behaviors[id].name),
+            Atom::Done(id) => Name::history(Atom::DONE, &self.behaviors[id].name),
+            Atom::Failed(id) => Name::history(Atom::FAILED, &self.behaviors[id].name),
         }
     }
 

@@ -44,6 +44,11 @@ pub enum Atom {
 }
 
 impl Atom {
+    /// The word that asks for a success in the history window.
+    pub const DONE: &str = "done";
+    /// The word that asks for a failure in the history window.
+    pub const FAILED: &str = "failed";
+
     /// What the history window says, if that is what it asks: success for `done`, failure for `failed`.
     pub fn outcome(self) -> Option<Status> {
         match self {

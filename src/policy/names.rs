@@ -34,8 +34,11 @@ impl AtomName {
 
     /// What a column of this name asks. `done(NAME)` and `failed(NAME)` ask the history; all else is a predicate.
     pub(super) fn read(column: &str) -> Self {
-        let inside = |word: &str| column.strip_prefix(word)?.strip_suffix(')');
-        match (inside("done("), inside("failed(")) {
+        let inside = |word: &str| {
+            let argument = column.strip_prefix(word)?.strip_prefix('(')?;
+            argument.strip_suffix(')')
+        };
+        match (inside(Atom::DONE), inside(Atom::FAILED)) {
             (Some(behavior), _) => Self::Done(bare(behavior).to_owned()),
             (_, Some(behavior)) => Self::Failed(bare(behavior).to_owned()),
             _ => Self::Predicate(bare(column).to_owned()),
@@ -62,8 +65,8 @@ impl fmt::Display for AtomName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Predicate(name) => f.write_str(name),
-            Self::Done(name) => write!(f, "done({name})"),
-            Self::Failed(name) => write!(f, "failed({name})"),
+            Self::Done(name) => write!(f, "{}({name})", Atom::DONE),
+            Self::Failed(name) => write!(f, "{}({name})", Atom::FAILED),
         }
     }
 }
@@ -90,7 +93,7 @@ pub(super) fn atoms(program: &Program) -> BTreeMap<AtomName, Atom> {
 /// Whether the language can call something so, in backquotes where it has to.
 pub(super) fn check(name: &str) -> Result<(), TableErrorKind> {
     let why = match name {
-        "done" | "failed" => Some("it asks the history, in the language as in a table"),
+        Atom::DONE | Atom::FAILED => Some("it asks the history, in the language as in a table"),
         _ => spelling::unusable(name),
     };
     why.map_or(Ok(()), |why| {
