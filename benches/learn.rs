@@ -10,7 +10,7 @@ use btc::ir::Id;
 use btc::learn::discount::Discounting;
 use btc::learn::method::{self, Settings};
 use btc::learn::schedule::Schedule;
-use btc::learn::simulated::{Purpose, Simulated};
+use btc::learn::simulated::Purpose;
 use btc::learn::train::{Counts, Course, train};
 use btc::world::{Simulator, Start};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
@@ -35,7 +35,7 @@ fn learn(loaded: &Loaded, simulator: &Simulator, episodes: u64) -> Counts {
         limit: learner.episode_ticks,
         ..Start::default()
     };
-    let mut process = Simulated::new(simulator.simulation(), task, start);
+    let mut process = simulator.simulation();
     let settings = Settings {
         choices: task.choose.len(),
         initial: learner.initial,
@@ -44,7 +44,9 @@ fn learn(loaded: &Loaded, simulator: &Simulator, episodes: u64) -> Counts {
     };
     let mut method = method::of(learner.method, &settings);
     let course = Course {
-        choices: task.choose.len(),
+        choices: &task.choose,
+        patience: task.patience,
+        start,
         episodes,
         explore: Schedule::new(&program.pool, learner.explore),
         discounting: Discounting {

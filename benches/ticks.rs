@@ -10,6 +10,7 @@ use btc::geometry::Shape;
 use btc::ir::law::Behavior;
 use btc::ir::task::Task;
 use btc::ir::{Id, Program};
+use btc::learn::process::{End, Process};
 use btc::random::Random;
 use btc::world::{Scene, Simulation, Simulator, Start};
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
@@ -61,9 +62,9 @@ fn run(
         });
         loop {
             let behavior = choose[policy(simulation.key())];
-            let transition = simulation.run_option(behavior, patience, 0);
+            let transition = simulation.decide(behavior, patience, 0);
             left -= transition.ticks.min(left);
-            if transition.end.is_some() {
+            if transition.end != End::Not {
                 break;
             }
         }

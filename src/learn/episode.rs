@@ -1,6 +1,7 @@
 //! Whole episodes under a controller: a policy, a tree, or anything else that acts once a tick.
 
-use crate::world::{End, Simulation, Start};
+use super::process::Process;
+use crate::world::{End, Start};
 use rayon::prelude::*;
 
 /// What decides in each tick what a robot does.
@@ -8,8 +9,8 @@ pub trait Controller {
     /// Forgets everything: an episode starts.
     fn reset(&mut self);
 
-    /// Ticks behaviours of the simulation, between its `begin_tick` and its `end_tick`.
-    fn tick(&mut self, simulation: &mut Simulation);
+    /// Ticks behaviours of the process, between its `begin_tick` and its `end_tick`.
+    fn tick(&mut self, process: &mut impl Process);
 
     /// In how many ticks since the last [`Controller::reset`] the controller had no decision of its own to follow.
     fn outside(&self) -> u64 {
@@ -35,19 +36,19 @@ pub struct Episode {
 /// Plays one episode. A transition, which is rewarded once, ends as a decision comes due: when a behaviour terminates,
 /// the minterm changes, a rewarded event fires, or `patience` ticks have passed.
 pub fn play(
-    simulation: &mut Simulation,
+    process: &mut impl Process,
     controller: &mut impl Controller,
     start: Start,
     patience: Option<u64>,
 ) -> Episode {
-    simulation.start(start);
+    process.start(start);
     controller.reset();
     let patience = patience.unwrap_or(u64::MAX);
     let (mut total, mut since) = (0.0, 0);
     loop {
-        simulation.begin_tick();
-        controller.tick(simulation);
-        let outcome = simulation.end_tick();
+        process.begin_tick();
+        controller.tick(process);
+        let outcome = process.end_tick();
         since += 1;
         let due = outcome.terminated || outcome.changed || outcome.closed || since >= patience;
         if due || outcome.end.is_some() {
@@ -56,9 +57,9 @@ pub fn play(
         }
         if let Some(end) = outcome.end {
             return Episode {
-                ticks: simulation.ticks(),
+                ticks: process.ticks(),
                 total,
-                events: simulation.counts().to_vec(),
+                events: process.events().to_vec(),
                 end,
                 outside: controller.outside(),
             };
@@ -67,17 +68,17 @@ pub fn play(
 }
 
 /// Plays episodes 0 … n − 1 on all threads; the result is in their order.
-pub fn play_all<'s, C: Controller>(
+pub fn play_all<P: Process, C: Controller>(
     episodes: u64,
     start: Start,
     patience: Option<u64>,
-    make: impl Fn() -> (Simulation<'s>, C) + Sync + Send,
+    make: impl Fn() -> (P, C) + Sync + Send,
 ) -> Vec<Episode> {
     (0..episodes)
         .into_par_iter()
-        .map_init(&make, |(simulation, controller), episode| {
+        .map_init(&make, |(process, controller), episode| {
             let start = Start { episode, ..start };
-            play(simulation, controller, start, patience)
+            play(process, controller, start, patience)
         })
         .collect()
 }

@@ -5,10 +5,11 @@ use super::discount::Discounting;
 use super::extract::{self, Decided, Decisions};
 use super::greedy;
 use super::method::{self, Settings};
+use super::process::World;
 use super::q_table::QTable;
 use super::rollout::{Frozen, RollOut, roll_out};
 use super::schedule::Schedule;
-use super::simulated::{Purpose, Simulated};
+use super::simulated::Purpose;
 use super::statistics::{Mean, Summary};
 use super::train::{Counts, Course, train};
 use crate::ir::program::Event;
@@ -99,10 +100,6 @@ impl<'a> Experiment<'a> {
         }
     }
 
-    fn process(&self, start: Start) -> Simulated<'_> {
-        Simulated::new(self.simulator.simulation(), self.task, start)
-    }
-
     fn discounting(&self) -> Discounting {
         Discounting {
             discount: self.learner.discount,
@@ -110,7 +107,7 @@ impl<'a> Experiment<'a> {
         }
     }
 
-    fn frozen<'p>(&self, decisions: &'p Decisions) -> Frozen<'p> {
+    fn frozen<'p>(&'p self, decisions: &'p Decisions) -> Frozen<'p> {
         let unseen = greedy::unseen(self.program, self.learner.task);
         let choice = self.task.choose.iter().position(|&choice| choice == unseen);
         Frozen {
@@ -120,6 +117,8 @@ impl<'a> Experiment<'a> {
                 value: self.learner.initial,
             },
             discounting: self.discounting(),
+            choices: &self.task.choose,
+            patience: self.task.patience,
         }
     }
 
@@ -147,17 +146,19 @@ impl<'a> Experiment<'a> {
             },
         );
         let course = Course {
-            choices,
+            choices: &self.task.choose,
+            patience: self.task.patience,
+            start: Start {
+                lines: EXPLORING,
+                ..Purpose::Learn.start(seed, learner.episode_ticks)
+            },
             episodes: self.episodes,
             explore: Schedule::new(pool, learner.explore),
             discounting: self.discounting(),
             dwell: learner.dwell,
             seed,
         };
-        let mut process = self.process(Start {
-            lines: EXPLORING,
-            ..Purpose::Learn.start(seed, learner.episode_ticks)
-        });
+        let mut process = self.simulator.process();
         let proposes = method.proposes();
         // Rounds are measured on other threads while learning goes on.
         let measured: Mutex<Vec<(Point, Option<QTable>)>> = Mutex::default();
@@ -201,7 +202,7 @@ impl<'a> Experiment<'a> {
         let decisions = extract::greedy(table, self.evidence);
         let start = self.measured(Purpose::Curve, seed);
         let policy = self.frozen(&decisions);
-        let met = roll_out(curve::EPISODES, &policy, || self.process(start));
+        let met = roll_out(curve::EPISODES, &policy, start, || self.simulator.process());
         let ended = met.episodes.iter().filter(|e| e.end != End::Cut);
         let totals: Vec<f64> = met.episodes.iter().map(|e| e.total).collect();
         Point {
@@ -223,7 +224,7 @@ impl<'a> Experiment<'a> {
     ) -> (RollOut, Summary) {
         let start = self.measured(purpose, seed);
         let policy = self.frozen(decisions);
-        let met = roll_out(episodes, &policy, || self.process(start));
+        let met = roll_out(episodes, &policy, start, || self.simulator.process());
         let summary = Summary::of(&met.episodes, self.task.end_on.len());
         (met, summary)
     }

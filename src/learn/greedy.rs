@@ -1,12 +1,11 @@
 //! A policy at work, tick by tick.
 
 use super::episode::Controller;
-use super::process::Key;
+use super::process::{Key, Process};
 use crate::ir::law::Behavior;
 use crate::ir::task::Task;
 use crate::ir::{Id, Program};
 use crate::policy::Policy;
-use crate::world::Simulation;
 use rustc_hash::FxHashMap;
 use std::sync::Arc;
 
@@ -46,9 +45,9 @@ impl Controller for Greedy {
         self.last = None;
     }
 
-    fn tick(&mut self, simulation: &mut Simulation) {
-        let behavior = self.choose(simulation.key());
-        simulation.act(behavior);
+    fn tick(&mut self, process: &mut impl Process) {
+        let behavior = self.choose(process.key());
+        process.act(behavior);
     }
 }
 

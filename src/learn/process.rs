@@ -1,24 +1,91 @@
-//! The decision process as a learner sees it (semi-Markov: Sutton, Precup and Singh 1999).
+//! The decision process as a learner or a tree sees it (semi-Markov: Sutton, Precup and Singh 1999).
+//!
+//! Nothing above this trait needs to know what is behind it: btc's simulator or an environment of a user's own.
 
-use crate::ir::tree::Status;
+use crate::ir::Id;
+use crate::ir::law::Behavior;
+use crate::ir::tree::{Atom, Status};
+use crate::world::{self, Start, Tick};
 
 /// A minterm in a machine word: bit i is the i-th atom.
 pub type Key = u128;
 
-/// A process to decide over.
+/// A process to decide over, tick by tick. A tick is [`Process::begin_tick`], any number of [`Process::act`], of which at
+/// most the last may go on running, and [`Process::end_tick`].
 pub trait Process {
-    /// Starts an episode; the same number starts the same episode again.
-    fn start(&mut self, episode: u64);
+    /// Starts an episode; the same start is the same episode again.
+    fn start(&mut self, start: Start);
 
-    /// The minterm that holds now.
+    /// The minterm that holds now: the atoms that a policy decides by.
     fn key(&self) -> Key;
 
-    /// Carries a choice out until the next decision is due. `choice` counts the behaviours of the task, `dwell` is the
-    /// number of ticks for which the choice is kept whatever changes.
-    fn decide(&mut self, choice: usize, dwell: u64) -> Step;
+    /// Every atom that a tree may ask now.
+    fn atoms(&self) -> Key {
+        self.key()
+    }
+
+    /// Begins a tick.
+    fn begin_tick(&mut self);
+
+    /// Ticks a behaviour. A behaviour that was ticked in the tick before and did not terminate goes on, any other starts.
+    fn act(&mut self, behavior: Id<Behavior>) -> Status;
+
+    /// Ends a tick: the world moves on.
+    fn end_tick(&mut self) -> Tick;
+
+    /// How many ticks of the episode have begun.
+    fn ticks(&self) -> u64;
 
     /// How often each event of the program has fired in this episode.
     fn events(&self) -> &[u64];
+
+    /// Ticks a behaviour until a decision is due: it terminates, a rewarded event fires, the episode ends, `patience`
+    /// ticks have passed, or the minterm is another than before, this last one only after `dwell` ticks.
+    #[inline]
+    fn decide(&mut self, behavior: Id<Behavior>, patience: Option<u64>, dwell: u64) -> Step {
+        let from = self.key();
+        let patience = patience.unwrap_or(u64::MAX);
+        let mut ticks = 0;
+        loop {
+            self.begin_tick();
+            let status = self.act(behavior);
+            let tick = self.end_tick();
+            ticks += 1;
+            if tick.terminated
+                || tick.closed
+                || tick.end.is_some()
+                || ticks >= patience
+                || (ticks >= dwell && self.key() != from)
+            {
+                return Step {
+                    to: self.key(),
+                    status,
+                    reward: tick.reward,
+                    ticks,
+                    closed: tick.closed,
+                    end: match tick.end {
+                        None => End::Not,
+                        Some(world::End::On(line)) => End::Terminal(line),
+                        Some(world::End::Cut) => End::Cut,
+                    },
+                };
+            }
+        }
+    }
+}
+
+/// A world that processes run in; it is shared between threads.
+pub trait World: Sync {
+    /// A process in this world.
+    type Process<'w>: Process
+    where
+        Self: 'w;
+
+    /// A process that has not started.
+    fn process(&self) -> Self::Process<'_>;
+
+    /// What the bits of [`Process::atoms`] mean; those of a minterm come first.
+    fn atoms(&self) -> &[Atom];
 }
 
 /// What a decision led to.
@@ -32,6 +99,8 @@ pub struct Step {
     pub reward: f64,
     /// How many ticks it took.
     pub ticks: u64,
+    /// Whether a rewarded event fired in its last tick.
+    pub closed: bool,
     /// Whether the episode goes on.
     pub end: End,
 }

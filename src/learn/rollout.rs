@@ -4,8 +4,10 @@ use super::discount::Discounting;
 use super::episode::Episode;
 use super::extract::{Decided, Decisions};
 use super::process::{End, Key, Process};
+use crate::ir::Id;
+use crate::ir::law::Behavior;
 use crate::ir::tree::Status;
-use crate::world;
+use crate::world::{self, Start};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -18,6 +20,10 @@ pub struct Frozen<'p> {
     pub unseen: Decided,
     /// How its future reward counts.
     pub discounting: Discounting,
+    /// The behaviours that choices count.
+    pub choices: &'p [Id<Behavior>],
+    /// A decision is due after this many ticks without another reason.
+    pub patience: Option<u64>,
 }
 
 /// A decision with its outcome: minterm, choice, how the behaviour stood, the minterm found if the episode went on.
@@ -76,6 +82,7 @@ const CHUNK: u64 = 10;
 pub fn roll_out<P: Process>(
     episodes: u64,
     policy: &Frozen,
+    start: Start,
     make: impl Fn() -> P + Sync,
 ) -> RollOut {
     let chunks: Vec<RollOut> = (0..episodes.div_ceil(CHUNK))
@@ -84,7 +91,7 @@ pub fn roll_out<P: Process>(
             let mut process = make();
             let mut met = RollOut::default();
             for episode in chunk * CHUNK..((chunk + 1) * CHUNK).min(episodes) {
-                process.start(episode);
+                process.start(Start { episode, ..start });
                 play(&mut process, policy, &mut met);
             }
             met
@@ -106,7 +113,11 @@ fn play(process: &mut impl Process, policy: &Frozen, met: &mut RollOut) {
     let (mut simulated, mut weight) = (0.0, 1.0);
     let end = loop {
         let (Decided { choice, .. }, seen) = look(&key);
-        let step = process.decide(choice, 0);
+        let Some(behavior) = policy.choices.get(choice) else {
+            // The checker lets no task through that has nothing to choose from.
+            break world::End::Cut;
+        };
+        let step = process.decide(*behavior, policy.patience, 0);
         ticks += step.ticks;
         total += step.reward;
         simulated += weight * step.reward;

@@ -1,10 +1,10 @@
 //! The decision process over the simulator.
 
-use super::process::{self, Key, Process, Step};
+use super::process::{Key, Process, World};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
-use crate::ir::task::Task;
-use crate::world::{End, Simulation, Start};
+use crate::ir::tree::{Atom, Status};
+use crate::world::{Simulation, Simulator, Start, Tick};
 
 /// What an episode's random numbers are for; the seeds of one purpose never meet those of another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,66 +45,54 @@ impl Purpose {
     }
 }
 
-/// A simulation to decide over.
-#[derive(Clone, Debug)]
-pub struct Simulated<'a> {
-    simulation: Simulation<'a>,
-    choices: &'a [Id<Behavior>],
-    patience: Option<u64>,
-    start: Start,
-}
-
-impl<'a> Simulated<'a> {
-    /// The process of a task from these starts.
-    pub fn new(simulation: Simulation<'a>, task: &'a Task, start: Start) -> Self {
-        Self {
-            simulation,
-            choices: &task.choose,
-            patience: task.patience,
-            start,
-        }
-    }
-}
-
-impl Process for Simulated<'_> {
-    fn start(&mut self, episode: u64) {
-        self.simulation.start(Start {
-            episode,
-            ..self.start
-        });
+impl Process for Simulation<'_> {
+    #[inline]
+    fn start(&mut self, start: Start) {
+        Simulation::start(self, start);
     }
 
+    #[inline]
     fn key(&self) -> Key {
-        self.simulation.key()
+        Simulation::key(self)
     }
 
-    fn decide(&mut self, choice: usize, dwell: u64) -> Step {
-        let behavior = self.choices.get(choice).or(self.choices.first());
-        let Some(&behavior) = behavior else {
-            // The checker lets no task through that has nothing to choose from.
-            return Step {
-                to: self.key(),
-                status: crate::ir::tree::Status::Failure,
-                reward: 0.0,
-                ticks: 1,
-                end: process::End::Cut,
-            };
-        };
-        let transition = self.simulation.run_option(behavior, self.patience, dwell);
-        Step {
-            to: transition.key,
-            status: transition.status,
-            reward: transition.reward,
-            ticks: transition.ticks,
-            end: match transition.end {
-                None => process::End::Not,
-                Some(End::On(line)) => process::End::Terminal(line),
-                Some(End::Cut) => process::End::Cut,
-            },
-        }
+    #[inline]
+    fn atoms(&self) -> Key {
+        Simulation::atoms(self)
+    }
+
+    #[inline]
+    fn begin_tick(&mut self) {
+        Simulation::begin_tick(self);
+    }
+
+    #[inline]
+    fn act(&mut self, behavior: Id<Behavior>) -> Status {
+        Simulation::act(self, behavior)
+    }
+
+    #[inline]
+    fn end_tick(&mut self) -> Tick {
+        Simulation::end_tick(self)
+    }
+
+    fn ticks(&self) -> u64 {
+        Simulation::ticks(self)
     }
 
     fn events(&self) -> &[u64] {
-        self.simulation.counts()
+        self.counts()
+    }
+}
+
+impl World for Simulator {
+    type Process<'w> = Simulation<'w>;
+
+    fn process(&self) -> Simulation<'_> {
+        self.simulation()
+    }
+
+    fn atoms(&self) -> &[Atom] {
+        Simulator::atoms(self)
     }
 }

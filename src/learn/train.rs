@@ -6,14 +6,21 @@ use super::method::{Decision, Method};
 use super::process::{End, Process};
 use super::q_table::QTable;
 use super::schedule::Schedule;
+use crate::ir::Id;
+use crate::ir::law::Behavior;
 use crate::random::Random;
+use crate::world::Start;
 use serde::Serialize;
 
 /// The settings of training that hold for every method.
 #[derive(Clone, Copy, Debug)]
 pub struct Course<'a> {
-    /// The number of behaviours to choose from.
-    pub choices: usize,
+    /// The behaviours to choose from.
+    pub choices: &'a [Id<Behavior>],
+    /// A decision is due after this many ticks without another reason.
+    pub patience: Option<u64>,
+    /// The start of episode 0.
+    pub start: Start,
     /// The number of episodes.
     pub episodes: u64,
     /// The probability of a random choice, by a minterm's visits and the progress.
@@ -53,7 +60,10 @@ pub fn train(
     let mut random = Random::new(course.seed, EXPLORATION, 0);
     for episode in 0..course.episodes {
         let share = episode as f64 / course.episodes as f64;
-        process.start(episode);
+        process.start(Start {
+            episode,
+            ..course.start
+        });
         counts.episodes += 1;
         play(process, method, course, share, &mut random, &mut counts);
         if curve::due(episode, course.episodes) {
@@ -80,9 +90,13 @@ fn play(
         let epsilon = course.explore.at(visits as f64, progress);
         let choice = match method.greedy(row) {
             Some(best) if random.unit() >= epsilon => best,
-            _ => random.below(course.choices as u64) as usize,
+            _ => random.below(course.choices.len() as u64) as usize,
         };
-        let step = process.decide(choice, course.dwell);
+        let Some(behavior) = course.choices.get(choice) else {
+            // The checker lets no task through that has nothing to choose from.
+            return;
+        };
+        let step = process.decide(*behavior, course.patience, course.dwell);
         counts.decisions += 1;
         counts.ticks += step.ticks;
         let next = method.row(step.to);

@@ -5,13 +5,12 @@ use crate::ir::tree::{Atom, Node};
 use crate::learn::episode::{Controller, play_all};
 use crate::learn::experiment::Experiment;
 use crate::learn::extract::Decisions;
-use crate::learn::process::Key;
+use crate::learn::process::{Key, Process};
 use crate::learn::rollout::RollOut;
 use crate::learn::simulated::Purpose;
 use crate::learn::statistics::Summary;
 use crate::tree::Runner;
 use crate::tree::decanonicalise::Care;
-use crate::world::Simulation;
 use rustc_hash::FxHashSet;
 
 /// The minterms in which the tree takes the decisions of the policy.
@@ -66,11 +65,11 @@ impl Controller for Watched<'_> {
         self.outside = 0;
     }
 
-    fn tick(&mut self, simulation: &mut Simulation) {
-        if !self.care.contains(&simulation.key()) {
+    fn tick(&mut self, process: &mut impl Process) {
+        if !self.care.contains(&process.key()) {
             self.outside += 1;
         }
-        self.tree.tick(simulation);
+        self.tree.tick(process);
     }
 
     fn outside(&self) -> u64 {

@@ -6,10 +6,11 @@ use crate::ir::tree::{Atom, Node, Status};
 use crate::ir::{Id, Program};
 use crate::learn::episode::{Controller, Episode, play_all};
 use crate::learn::greedy::Greedy;
+use crate::learn::process::Process;
 use crate::policy::Policy;
 use crate::tree::Runner;
 use crate::tree::atoms::atoms;
-use crate::world::{BuildError, Simulation, Simulator, Start};
+use crate::world::{BuildError, Simulator, Start};
 
 /// Why a tree or a policy cannot be played.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -36,11 +37,11 @@ impl Ticked {
     /// Ticks the tree; `note` gets every behaviour that it ticks, with its answer.
     pub fn tick_noting(
         &mut self,
-        simulation: &mut Simulation,
+        process: &mut impl Process,
         mut note: impl FnMut(Id<Behavior>, Status),
     ) {
-        self.0.tick_key(simulation.atoms(), |behavior| {
-            let status = simulation.act(behavior);
+        self.0.tick_key(process.atoms(), |behavior| {
+            let status = process.act(behavior);
             note(behavior, status);
             status
         });
@@ -52,8 +53,8 @@ impl Controller for Ticked {
         self.0.reset();
     }
 
-    fn tick(&mut self, simulation: &mut Simulation) {
-        self.tick_noting(simulation, |_, _| {});
+    fn tick(&mut self, process: &mut impl Process) {
+        self.tick_noting(process, |_, _| {});
     }
 }
 

@@ -8,9 +8,9 @@ use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::Status;
 use crate::learn::episode::Controller;
+use crate::learn::process::Process;
 use crate::tree::Runner;
 use crate::tree::prune::Decided;
-use crate::world::Simulation;
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
 
@@ -60,12 +60,12 @@ impl Controller for Recorded {
         self.trace.met.clear();
     }
 
-    fn tick(&mut self, simulation: &mut Simulation) {
-        let atoms = simulation.atoms();
+    fn tick(&mut self, process: &mut impl Process) {
+        let atoms = process.atoms();
         self.now.clear();
         let now = &mut self.now;
         self.runner
-            .tick_noting(simulation, |behavior, status| now.push((behavior, status)));
+            .tick_noting(process, |behavior, status| now.push((behavior, status)));
         match self.trace.met.last_mut() {
             Some((met, times)) if met.atoms == atoms && met.calls == *now => *times += 1,
             _ => {

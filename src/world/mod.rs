@@ -3,7 +3,7 @@
 //! A [`Simulator`] is a program's world compiled for one task; it is shared between threads. A [`Simulation`] is one
 //! run of it: [`Simulation::start`] begins an episode, and each tick is [`Simulation::begin_tick`],
 //! [`Simulation::act`], [`Simulation::end_tick`], so that a tree or a learner can sit on top without the world knowing
-//! either. [`Simulation::run_option`] ticks one behaviour until a decision is due.
+//! either.
 //!
 //! Lengths are in metres, angles in radians counter-clockwise from the x axis, times in seconds.
 
@@ -11,7 +11,6 @@ mod atoms;
 mod body;
 mod build;
 mod compiled;
-mod decision;
 mod ending;
 mod error;
 mod history;
@@ -23,7 +22,6 @@ mod simulation;
 mod start;
 
 pub use build::Simulator;
-pub use decision::Transition;
 pub use error::BuildError;
 pub use motion::{Command, Motion};
 pub use pose::Pose;

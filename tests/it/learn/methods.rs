@@ -2,14 +2,16 @@
 
 use super::toys;
 use btc::ir::expr::Binary;
+use btc::ir::law::Behavior;
 use btc::ir::task::{Discount, Method as Kind};
-use btc::ir::{Expr, Pool};
+use btc::ir::{Expr, Id, Pool};
 use btc::learn::discount::Discounting;
 use btc::learn::method::{self, Settings};
 use btc::learn::process::{End, Key, Process};
 use btc::learn::q_table::QTable;
 use btc::learn::schedule::Schedule;
 use btc::learn::train::{Course, train};
+use btc::world::Start;
 
 const ALL: [Kind; 3] = [Kind::QLearning, Kind::DoubleQ, Kind::Model];
 
@@ -37,8 +39,11 @@ fn learned(
             seed: 3,
         },
     );
+    let choices: Vec<Id<Behavior>> = (0..choices).map(Id::new).collect();
     let course = Course {
-        choices,
+        choices: &choices,
+        patience: None,
+        start: Start::default(),
         episodes,
         explore: Schedule::new(&pool, explore),
         discounting: Discounting {

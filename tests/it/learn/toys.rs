@@ -1,8 +1,11 @@
 //! Small decision processes with known values.
 
+use btc::ir::Id;
+use btc::ir::law::Behavior;
 use btc::ir::tree::Status;
 use btc::learn::process::{End, Key, Process, Step};
 use btc::random::Random;
+use btc::world::{Start, Tick};
 
 /// A process that is a function from state, choice and noise to what follows.
 pub(crate) struct Toy<F> {
@@ -28,7 +31,7 @@ impl<F: FnMut(Key, usize, &mut Random) -> Said> Toy<F> {
 }
 
 impl<F: FnMut(Key, usize, &mut Random) -> Said> Process for Toy<F> {
-    fn start(&mut self, _: u64) {
+    fn start(&mut self, _: Start) {
         self.state = self.first;
     }
 
@@ -36,7 +39,25 @@ impl<F: FnMut(Key, usize, &mut Random) -> Said> Process for Toy<F> {
         self.state
     }
 
-    fn decide(&mut self, choice: usize, _: u64) -> Step {
+    // A rule says how long a decision takes, so there are no ticks to go through one by one.
+    fn begin_tick(&mut self) {
+        unreachable!("decisions are taken whole");
+    }
+
+    fn act(&mut self, _: Id<Behavior>) -> Status {
+        unreachable!("decisions are taken whole");
+    }
+
+    fn end_tick(&mut self) -> Tick {
+        unreachable!("decisions are taken whole");
+    }
+
+    fn ticks(&self) -> u64 {
+        0
+    }
+
+    fn decide(&mut self, behavior: Id<Behavior>, _: Option<u64>, _: u64) -> Step {
+        let choice = behavior.index();
         let (to, reward, ticks, end) = (self.rule)(self.state, choice, &mut self.random);
         self.state = to;
         Step {
@@ -44,6 +65,7 @@ impl<F: FnMut(Key, usize, &mut Random) -> Said> Process for Toy<F> {
             status: Status::Running,
             reward,
             ticks,
+            closed: false,
             end,
         }
     }

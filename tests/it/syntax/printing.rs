@@ -120,7 +120,7 @@ fn expr() -> impl Strategy<Value = String> {
         let op = prop::sample::select(vec!["or", "and", "+", "-", "*", "/"]);
         prop_oneof![
             3 => (inner.clone(), op, inner.clone()).prop_map(|(a, op, b)| format!("{a} {op} {b}")),
-            1 => (inner.clone(), inner.clone()).prop_map(|(a, b)| format!("({a}) <= ({b})")),
+            1 => (inner.clone(), inner.clone()).prop_map(|(a, b)| format!("(({a}) <= ({b}))")),
             1 => (inner.clone(), inner.clone()).prop_map(|(a, b)| format!("({a})^({b})")),
             1 => inner.clone().prop_map(|a| format!("-({a})")),
             1 => inner.clone().prop_map(|a| format!("(not {a})")),

@@ -9,7 +9,8 @@ use btc::ir::task::{History, StartLine};
 use btc::ir::tree::{Atom, Status};
 use btc::ir::world::Wall;
 use btc::ir::{Expr, Id, Name, Program};
-use btc::world::{BuildError, End, Simulation, Simulator, Start};
+use btc::learn::process::{End, Process};
+use btc::world::{BuildError, Simulation, Simulator, Start};
 use std::path::Path;
 
 /// One world is shared between threads.
@@ -48,9 +49,10 @@ fn an_expert_delivers_in_the_small_world() {
                 (true, _) => 1,
                 _ => 0,
             };
-            let transition = simulation.run_option(choose[behavior], None, 0);
-            if let Some(end) = transition.end {
-                deaths += u32::from(end == End::On(0));
+            let transition = simulation.decide(choose[behavior], None, 0);
+            if transition.end != End::Not {
+                let end = transition.end;
+                deaths += u32::from(end == End::Terminal(0));
                 break;
             }
         }
@@ -102,8 +104,8 @@ fn build(program: &Program) -> Result<Simulator, BuildError> {
     Simulator::build(program, task, &[start], &[Atom::Predicate(Id::new(1))])
 }
 
-fn option(simulation: &mut Simulation, behavior: usize) -> btc::world::Transition {
-    simulation.run_option(Id::new(behavior), Some(1), 0)
+fn option(simulation: &mut Simulation, behavior: usize) -> btc::learn::process::Step {
+    simulation.decide(Id::new(behavior), Some(1), 0)
 }
 
 fn state(simulation: &Simulation, id: usize) -> f64 {
@@ -119,16 +121,16 @@ fn success_and_outright_failure_take_one_tick_each() {
     let before = simulation.key();
     let refused = option(&mut simulation, REFUSED);
     assert_eq!((refused.status, refused.ticks), (Status::Failure, 1));
-    assert_eq!(refused.key, before);
+    assert_eq!(refused.to, before);
     assert_eq!(state(&simulation, BATTERY), 0.75);
     let done = option(&mut simulation, DONE);
     assert_eq!((done.status, done.ticks), (Status::Success, 1));
     // carrying and done(done), from bit 1; low is bit 6, after the five behaviours.
-    assert_eq!(done.key, 0b11);
+    assert_eq!(done.to, 0b11);
     assert_eq!(simulation.ticks(), 2);
-    let go = simulation.run_option(Id::new(GO), None, 0);
+    let go = simulation.decide(Id::new(GO), None, 0);
     assert_eq!((go.status, go.ticks), (Status::Running, 2));
-    assert_eq!(go.end, Some(End::On(0)));
+    assert_eq!(go.end, End::Terminal(0));
 }
 
 #[test]
@@ -139,11 +141,11 @@ fn a_death_and_a_pickup_in_one_tick_are_a_death_and_both_happen() {
     simulation.start(Start::default());
     for _ in 0..3 {
         let go = option(&mut simulation, GO);
-        assert_eq!((go.reward, go.closed, go.end), (-0.1, false, None));
+        assert_eq!((go.reward, go.closed, go.end), (-0.1, false, End::Not));
     }
     let last = option(&mut simulation, DONE);
     assert_eq!((last.reward, last.closed), (-5.0, true));
-    assert_eq!(last.end, Some(End::On(0)));
+    assert_eq!(last.end, End::Terminal(0));
     assert_eq!(
         simulation.fired().map(Id::index).collect::<Vec<_>>(),
         [0, 2]
@@ -207,7 +209,7 @@ fn the_window_holds_the_last_terminations_of_its_kinds() {
         simulation.start(Start::default());
         let mut seen = Vec::new();
         for behavior in [DONE, REFUSED, REFUSED, GO, DONE] {
-            let key = option(&mut simulation, behavior).key;
+            let key = option(&mut simulation, behavior).to;
             let atoms = program.atoms(task);
             let held = atoms
                 .iter()
@@ -280,14 +282,14 @@ fn a_decision_waits_for_patience_and_dwell() {
     // The battery is low after the fourth tick; from then on `dead` fires in every tick.
     program.tasks[task].reward.clear();
     simulation.start(start);
-    assert_eq!(simulation.run_option(go, Some(2), 0).ticks, 2);
-    assert_eq!(simulation.run_option(go, Some(9), 0).ticks, 2);
+    assert_eq!(simulation.decide(go, Some(2), 0).ticks, 2);
+    assert_eq!(simulation.decide(go, Some(9), 0).ticks, 2);
     let simulator = build(&program).unwrap();
     let mut simulation = simulator.simulation();
     simulation.start(start);
-    assert_eq!(simulation.run_option(go, None, 6).ticks, 6);
-    let rest = simulation.run_option(go, None, 0);
-    assert_eq!((rest.ticks, rest.end), (14, Some(End::Cut)));
+    assert_eq!(simulation.decide(go, None, 6).ticks, 6);
+    let rest = simulation.decide(go, None, 0);
+    assert_eq!((rest.ticks, rest.end), (14, End::Cut));
 }
 
 #[test]
@@ -320,10 +322,10 @@ fn an_episode_does_not_depend_on_what_ran_before_it() {
         });
         let mut trace = Vec::new();
         for i in 0.. {
-            let transition = simulation.run_option(choose[4 + i % 2], Some(50), 0);
+            let transition = simulation.decide(choose[4 + i % 2], Some(50), 0);
             let pose = simulation.pose();
-            trace.push((transition.key, pose.position.map(f64::to_bits)));
-            if transition.end.is_some() {
+            trace.push((transition.to, pose.position.map(f64::to_bits)));
+            if transition.end != End::Not {
                 return trace;
             }
         }
@@ -431,12 +433,12 @@ fn a_seed_is_a_course_to_the_last_bit() {
     });
     let mut course = 0u64;
     for i in 0.. {
-        let transition = simulation.run_option(choose[i % 6], Some(40), 0);
+        let transition = simulation.decide(choose[i % 6], Some(40), 0);
         let pose = simulation.pose();
         for value in [pose.position[0], pose.position[1], pose.heading] {
             course = course.rotate_left(5) ^ value.to_bits();
         }
-        if transition.end.is_some() {
+        if transition.end != End::Not {
             break;
         }
     }
