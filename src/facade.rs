@@ -23,4 +23,5 @@ pub use crate::driver::verify::Proved;
 pub use crate::emit::form::TreeForm;
 pub use crate::ir::tree::Status;
 pub use crate::report::episodes::Episodes;
+pub use crate::report::verdict::Answer;
 pub use crate::tree::Size;

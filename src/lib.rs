@@ -56,7 +56,7 @@
 //!      behavior patrol
 //!      tree hand = selector { low and at_dock => charge, low => find_dock, patrol }",
 //! )?;
-//! assert!(program.prove_decisions("hand", &table)?.holds);
+//! assert!(program.prove_decisions("hand", &table)?.holds());
 //! # Ok(())
 //! # }
 //! ```
@@ -67,7 +67,7 @@
 //! # fn main() -> Result<(), btc::Error> {
 //! let program = btc::Program::from_file("examples/delivery_large.bt")?;
 //! let proved = program.prove_equal("expert", "table_1")?;
-//! assert!(!proved.holds);
+//! assert!(!proved.holds());
 //! println!("{}", proved.text); // a shortest trace on which they part
 //! # Ok(())
 //! # }

@@ -117,9 +117,5 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
         tell(&claim.text);
     }
     tell(&format!("written to {}", folder.display()));
-    if claims.iter().all(|claim| claim.holds) {
-        Ok(())
-    } else {
-        Err(Failure::Input)
-    }
+    super::verify::verdict(&claims)
 }

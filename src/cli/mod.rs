@@ -1,7 +1,7 @@
 //! Arguments, files, progress, exit codes: one file per command.
 //!
 //! Results go to standard output, diagnostics and reports to standard error. Exit codes: 0 for success, 1 for a program
-//! with mistakes or a refuted claim, 2 for a bad command line, 130 for an interrupt.
+//! with mistakes or a refuted claim, 2 for a bad command line, 3 for a claim that is undecided, 130 for an interrupt.
 
 mod canonicalize;
 mod check;
@@ -72,6 +72,8 @@ enum Failure {
     Input,
     /// The command line is wrong.
     Usage,
+    /// No claim is refuted, but one is undecided.
+    Undecided,
 }
 
 impl From<Failure> for ExitCode {
@@ -79,6 +81,7 @@ impl From<Failure> for ExitCode {
         match failure {
             Failure::Input => ExitCode::from(1),
             Failure::Usage => ExitCode::from(2),
+            Failure::Undecided => ExitCode::from(3),
         }
     }
 }

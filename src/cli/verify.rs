@@ -6,6 +6,7 @@ use super::{Failure, files};
 use crate::driver::load::Loaded;
 use crate::driver::table::Recorded;
 use crate::driver::verify::{self, Proved};
+use crate::facade::Answer;
 use clap::Args;
 
 #[derive(Debug, Args)]
@@ -47,10 +48,18 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     for result in &results {
         files::print(&format!("{}\n", result.text))?;
     }
-    if results.iter().all(|result| result.holds) {
-        Ok(())
-    } else {
+    verdict(&results)
+}
+
+/// What the answers say together: one that fails counts before one that is undecided.
+pub(super) fn verdict(results: &[Proved]) -> Result<(), Failure> {
+    let any = |answer| results.iter().any(|result| result.answer == answer);
+    if any(Answer::Fails) {
         Err(Failure::Input)
+    } else if any(Answer::Undecided) {
+        Err(Failure::Undecided)
+    } else {
+        Ok(())
     }
 }
 

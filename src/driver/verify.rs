@@ -13,17 +13,24 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::task::History;
 use crate::ir::tree::{Atom, Node, Tree};
 use crate::ir::{Id, Name};
-use crate::report::verdict;
+use crate::report::verdict::{self, Answer};
 use crate::tree::atoms::atoms;
-use crate::tree::equivalence::{Environment, Side, Verdict, compare};
+use crate::tree::equivalence::{Environment, Side, compare};
 
 /// The outcome of a proof or a test.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Proved {
     /// Whether the claim holds.
-    pub holds: bool,
+    pub answer: Answer,
     /// The answer in words: equal, with environment and care set, or the shortest trace on which they part.
     pub text: String,
+}
+
+impl Proved {
+    /// Whether the claim holds: not where it is undecided.
+    pub fn holds(&self) -> bool {
+        self.answer == Answer::Holds
+    }
 }
 
 /// Compares two trees of a program, in the environment that its main file names or else in any that is consistent with
@@ -105,7 +112,7 @@ impl Pair<'_> {
             Refused::program(self.loaded, [diagnostic])
         })?;
         Ok(Proved {
-            holds: matches!(verdict, Verdict::Equal(_)),
+            answer: verdict::answer(&self.environment, &verdict),
             text: verdict::text(program, (left, right), &self.environment, &verdict),
         })
     }

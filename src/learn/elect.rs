@@ -72,7 +72,7 @@ impl Experiment<'_> {
     fn broken(&self, summary: &Summary) -> u64 {
         let events = self.never.iter().map(|event| event.index());
         let counts = events.filter_map(|event| summary.events.get(event));
-        counts.map(|(count, _)| count).sum()
+        counts.map(|rate| rate.count).sum()
     }
 }
 

@@ -25,6 +25,8 @@ pub struct Episode {
     pub ticks: u64,
     /// The sum of the rewards of its transitions.
     pub total: f64,
+    /// The reward of its last transition.
+    pub last: f64,
     /// How often each event fired.
     pub events: Vec<u64>,
     /// Why it ended.
@@ -59,6 +61,7 @@ pub fn play(
             return Episode {
                 ticks: process.ticks(),
                 total,
+                last: outcome.reward,
                 events: process.events().to_vec(),
                 end,
                 outside: controller.outside(),

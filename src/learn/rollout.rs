@@ -111,11 +111,11 @@ fn play(process: &mut impl Process, policy: &Frozen, met: &mut RollOut) {
     let predicted = look(&key).0.value;
     let (mut ticks, mut total, mut outside) = (0, 0.0, 0);
     let (mut simulated, mut weight) = (0.0, 1.0);
-    let end = loop {
+    let (end, last) = loop {
         let (Decided { choice, .. }, seen) = look(&key);
         let Some(behavior) = policy.choices.get(choice) else {
             // The checker lets no task through that has nothing to choose from.
-            break world::End::Cut;
+            break (world::End::Cut, 0.0);
         };
         let step = process.decide(*behavior, policy.patience, 0);
         ticks += step.ticks;
@@ -135,7 +135,7 @@ fn play(process: &mut impl Process, policy: &Frozen, met: &mut RollOut) {
         }
         key = step.to;
         if let Some(end) = end {
-            break end;
+            break (end, step.reward);
         }
     };
     if end == world::End::Cut {
@@ -148,6 +148,7 @@ fn play(process: &mut impl Process, policy: &Frozen, met: &mut RollOut) {
     met.episodes.push(Episode {
         ticks,
         total,
+        last,
         events: process.events().to_vec(),
         end,
         outside,

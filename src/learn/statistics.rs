@@ -1,11 +1,12 @@
 //! Figures of a sample.
 
 use super::episode::Episode;
+use super::rate::Rate;
 use crate::world::End;
 use serde::Serialize;
 
 /// The 97.5 % point of the standard normal distribution.
-const Z: f64 = 1.959_963_984_540_054;
+pub(super) const Z: f64 = 1.959_963_984_540_054;
 
 /// A mean with its 95 % interval (normal approximation: mean ± 1.96 s/√n).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -46,10 +47,12 @@ pub struct Summary {
     pub ticks: u64,
     /// The return of an episode.
     pub total: Mean,
-    /// For each event, how often it fired, and its rate in 1000 ticks of an episode.
-    pub events: Vec<(u64, Mean)>,
+    /// How often each event happened.
+    pub events: Vec<Rate>,
     /// The number of episodes that each line of `end on` ended.
     pub ended: Vec<u64>,
+    /// The mean reward of the transitions that these ended with; zero for a line that ended none.
+    pub paid: Vec<f64>,
     /// The number that the tick limit cut.
     pub cut: u64,
     /// Ticks outside the care set.
@@ -63,24 +66,19 @@ impl Summary {
         let events = episodes.first().map_or(0, |episode| episode.events.len());
         let count =
             |event: usize, episode: &Episode| episode.events.get(event).copied().unwrap_or(0);
+        let ended = |line| episodes.iter().filter(move |e| e.end == End::On(line));
         Self {
             episodes: episodes.len() as u64,
             ticks: episodes.iter().map(|episode| episode.ticks).sum(),
             total: Mean::of(&totals),
             events: (0..events)
-                .map(|event| {
-                    let rates: Vec<f64> = episodes
-                        .iter()
-                        .map(|e| 1000.0 * count(event, e) as f64 / e.ticks.max(1) as f64)
-                        .collect();
-                    let all = episodes.iter().map(|e| count(event, e)).sum();
-                    (all, Mean::of(&rates))
-                })
+                .map(|event| Rate::of(episodes.iter().map(|e| (count(event, e), e.ticks))))
                 .collect(),
-            ended: (0..ends)
+            ended: (0..ends).map(|line| ended(line).count() as u64).collect(),
+            paid: (0..ends)
                 .map(|line| {
-                    let hit = |e: &&Episode| e.end == End::On(line);
-                    episodes.iter().filter(hit).count() as u64
+                    let paid: Vec<f64> = ended(line).map(|e| e.last).collect();
+                    Mean::of(&paid).mean
                 })
                 .collect(),
             cut: episodes.iter().filter(|e| e.end == End::Cut).count() as u64,

@@ -1,10 +1,11 @@
 //! The figures of episodes.
 
+use super::ends::Ended;
 use super::json::{self, Named};
 use super::words::end_names;
 use crate::ir::Program;
 use crate::ir::task::Task;
-use crate::learn::binomial::upper95;
+use crate::learn::rate;
 use crate::learn::statistics::{Mean, Summary};
 use serde::{Serialize, Serializer};
 
@@ -25,7 +26,7 @@ struct Document<'a> {
     ticks: u64,
     r#return: &'a Mean,
     events: Named<Rate>,
-    ended: Named<Ended>,
+    ended: Named<End>,
 }
 
 #[derive(Serialize)]
@@ -35,11 +36,12 @@ struct Rate {
     ci95: [f64; 2],
 }
 
+/// A line of `end on`, or the limit.
 #[derive(Serialize)]
-struct Ended {
-    count: u64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    upper95: Option<f64>,
+#[serde(untagged)]
+enum End {
+    On(Ended),
+    Limit { count: u64 },
 }
 
 impl Episodes {
@@ -53,28 +55,24 @@ impl Episodes {
         }
     }
 
+    /// The figures of what ended episodes.
+    pub fn ended(&self) -> Vec<Ended> {
+        Ended::all(&self.ends, &self.summary)
+    }
+
     fn document(&self) -> Document<'_> {
         let summary = &self.summary;
-        let rate = |(name, (count, rate)): (&String, &(u64, Mean))| {
+        let rate = |(name, rate): (&String, &rate::Rate)| {
             let rate = Rate {
-                count: *count,
-                per_1000_ticks: rate.mean,
+                count: rate.count,
+                per_1000_ticks: rate.per_1000,
                 ci95: rate.ci95,
             };
             (name.clone(), rate)
         };
-        let ended = |(name, count): (&String, &u64)| {
-            let ended = Ended {
-                count: *count,
-                upper95: Some(upper95(*count, summary.episodes)),
-            };
-            (name.clone(), ended)
-        };
-        let limit = Ended {
-            count: summary.cut,
-            upper95: None,
-        };
-        let ends = self.ends.iter().zip(&summary.ended).map(ended);
+        let limit = End::Limit { count: summary.cut };
+        let ends = self.ended().into_iter();
+        let ends = ends.map(|ended| (ended.name.clone(), End::On(ended)));
         Document {
             episodes: summary.episodes,
             ticks: summary.ticks,
@@ -97,19 +95,21 @@ impl Episodes {
             "{} episodes, {} ticks\n\n  {:<16} {:>9.3}   95 % [{:.3}, {:.3}]\n",
             summary.episodes, summary.ticks, "return", summary.total.mean, low, high
         );
-        for (name, (count, rate)) in self.events.iter().zip(&summary.events) {
+        for (name, rate) in self.events.iter().zip(&summary.events) {
             let [low, high] = rate.ci95;
             text.push_str(&format!(
-                "  {name:<16} {:>9.3}   95 % [{low:.3}, {high:.3}] in 1000 ticks, {count} in all\n",
-                rate.mean
+                "  {name:<16} {:>9.3}   95 % [{low:.3}, {high:.3}] in 1000 ticks, {} in all\n",
+                rate.per_1000, rate.count
             ));
         }
         text.push('\n');
-        for (name, count) in self.ends.iter().zip(&summary.ended) {
-            let upper = 100.0 * upper95(*count, summary.episodes);
+        for ended in self.ended() {
             text.push_str(&format!(
-                "  {name:<16} {count:>9}   of {} episodes, at most {upper:.2} % (95 %)\n",
-                summary.episodes
+                "  {:<16} {:>9}   of {} episodes, {}\n",
+                ended.name,
+                ended.count,
+                ended.episodes,
+                ended.bound()
             ));
         }
         text.push_str(&format!("  {:<16} {:>9}\n", "limit", summary.cut));

@@ -1,5 +1,6 @@
 //! The report of `btc learn`.
 
+use super::ends::Ended;
 use super::results::Results;
 use super::words::{self, end_names};
 use crate::learn::binomial::upper95;
@@ -208,20 +209,22 @@ impl Report<'_> {
         );
         self.line("return", text);
         let program = self.results.experiment.program;
-        for (event, (_, rate)) in program.events.values().zip(&summary.events) {
+        for (event, rate) in program.events.values().zip(&summary.events) {
             let [low, high] = rate.ci95;
             let text = format!(
                 "{:.3}, 95 % [{low:.3}, {high:.3}], in 1000 ticks",
-                rate.mean
+                rate.per_1000
             );
             self.line(&event.name.to_string(), text);
         }
-        let ends = end_names(program, self.results.experiment.task);
-        for (end, count) in ends.iter().zip(&summary.ended) {
-            let upper = 100.0 * upper95(*count, summary.episodes);
+        let names = end_names(program, self.results.experiment.task);
+        for end in Ended::all(&names, summary) {
             let text = format!(
-                "{count} of {} by {end}, at most {upper:.2} % (95 %)",
-                summary.episodes
+                "{} of {} by {}, {}",
+                end.count,
+                end.episodes,
+                end.name,
+                end.bound()
             );
             self.line("ended", text);
         }

@@ -2,6 +2,7 @@
 
 pub mod curve;
 pub mod decanonicalised;
+pub mod ends;
 pub mod episodes;
 mod json;
 pub mod learned;

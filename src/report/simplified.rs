@@ -1,10 +1,10 @@
 //! A simplified tree in words and figures.
 
+use super::ends::Ended;
 use super::episodes::Episodes;
 use super::words::{end_names, line};
 use crate::ir::Program;
 use crate::ir::task::Task;
-use crate::learn::binomial::upper95;
 use crate::learn::statistics::Mean;
 use crate::simplify::{Figures, Simplified};
 use crate::tree::Size;
@@ -22,7 +22,8 @@ pub fn doc(simplified: &Simplified, program: &Program, task: &Task) -> String {
         );
     }
     let ended: Vec<String> = ended(program, task, after)
-        .map(|(name, count, upper)| format!("{count} ended by {name} (below {upper:.2} %)"))
+        .iter()
+        .map(|end| format!("{} ended by {}, {}", end.count, end.name, end.bound()))
         .collect();
     let ended = match ended.is_empty() {
         true => String::new(),
@@ -104,15 +105,19 @@ pub fn lines(simplified: &Simplified, program: &Program, task: &Task) -> Vec<Str
         ),
     ];
     let rates = before.summary.events.iter().zip(&after.summary.events);
-    for (event, ((_, was), (_, is))) in program.events.values().zip(rates) {
-        let text = format!("{:.3} to {:.3} in 1000 ticks", was.mean, is.mean);
+    for (event, (was, is)) in program.events.values().zip(rates) {
+        let text = format!("{:.3} to {:.3} in 1000 ticks", was.per_1000, is.per_1000);
         lines.push(line(&event.name.to_string(), &text));
     }
     let (was, is) = (ended(program, task, before), ended(program, task, after));
-    for ((name, was, _), (_, is, upper)) in was.zip(is) {
+    for (was, is) in was.iter().zip(is) {
         let text = format!(
-            "{was} to {is} of {} by {name}, at most {upper:.2} % (95 %)",
-            after.summary.episodes
+            "{} to {} of {} by {}, {}",
+            was.count,
+            is.count,
+            is.episodes,
+            is.name,
+            is.bound()
         );
         lines.push(line("ended", &text));
     }
@@ -168,18 +173,9 @@ impl<'a> Document<'a> {
     }
 }
 
-/// For each line of `end on`, its name, how many episodes it ended, and the upper bound in percent.
-fn ended<'a>(
-    program: &Program,
-    task: &Task,
-    figures: &'a Figures,
-) -> impl Iterator<Item = (String, u64, f64)> + use<'a> {
-    let names = end_names(program, task);
-    let summary = &figures.summary;
-    names
-        .into_iter()
-        .zip(&summary.ended)
-        .map(|(name, &count)| (name, count, 100.0 * upper95(count, summary.episodes)))
+/// The episodes that each line of `end on` ended.
+fn ended(program: &Program, task: &Task, figures: &Figures) -> Vec<Ended> {
+    Ended::all(&end_names(program, task), &figures.summary)
 }
 
 fn percent(part: f64) -> String {

@@ -7,6 +7,30 @@ use crate::ir::{Id, Name, Program};
 use crate::tree::equivalence::{Environment, Trace, Verdict};
 use std::fmt::Display;
 
+/// What a proof or a test says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Answer {
+    /// It holds, on evidence.
+    Holds,
+    /// It does not.
+    Fails,
+    /// There is too much to explore, or too little that was recorded.
+    Undecided,
+}
+
+/// The verdict on two trees as an answer. Where greedy transitions were recorded but the trees take none of them, that
+/// they agree at the start of episodes says nothing of how they go on.
+pub fn answer(environment: &Environment, verdict: &Verdict) -> Answer {
+    match verdict {
+        Verdict::Equal(explored) => match environment {
+            Environment::Greedy(_) if explored.transitions == 0 => Answer::Undecided,
+            _ => Answer::Holds,
+        },
+        Verdict::Differ(_) => Answer::Fails,
+        Verdict::Undecided(_) => Answer::Undecided,
+    }
+}
+
 /// The verdict on two trees in an environment, with the shortest trace on which they part.
 pub fn text(
     program: &Program,
@@ -21,6 +45,12 @@ pub fn text(
     };
     let window = window(program, history);
     match (verdict, greedy) {
+        (Verdict::Equal(explored), Some(policy)) if explored.transitions == 0 => format!(
+            "undecided: `{left}` and `{right}` take none of {} greedy transitions; they select the same behaviour on \
+             the {} where episodes start, and the table does not say what follows",
+            policy.transitions.len(),
+            words::counted(explored.minterms, "minterm")
+        ),
         (Verdict::Equal(explored), Some(policy)) => {
             let open = match explored.open {
                 0 => "closed under them".to_owned(),

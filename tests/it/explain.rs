@@ -165,7 +165,7 @@ fn a_table_of_another_task() {
     let found = verify::trees(&loaded, "a", "b").unwrap_err();
     assert_eq!(codes(&found.diagnostics), [code]);
     let proved = verify::trees(&right(code), "a", "b").unwrap();
-    assert!(!proved.holds);
+    assert!(!proved.holds());
 }
 
 /// E0821, E0822: a `parallel` that neither library has, and a time that one of them cannot keep.

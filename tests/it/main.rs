@@ -28,4 +28,5 @@ mod svg;
 mod syntax;
 mod tables;
 mod tree;
+mod verdicts;
 mod world;

@@ -7,6 +7,7 @@ use crate::driver::{Refused, target, world};
 use crate::ir::task::{Claim, ClaimKind, Occurrence, Task, TreeRef};
 use crate::ir::tree::Node;
 use crate::ir::{Id, Name, Program};
+use crate::report::verdict::Answer;
 use crate::tree::equivalence::Environment;
 use crate::trial::claim::Tests;
 
@@ -35,7 +36,7 @@ pub fn claims(loaded: &Loaded) -> Result<Vec<Proved>, Refused> {
     }
     if results.is_empty() {
         results.push(Proved {
-            holds: true,
+            answer: Answer::Holds,
             text: "the program claims nothing".to_owned(),
         });
     }
@@ -44,7 +45,7 @@ pub fn claims(loaded: &Loaded) -> Result<Vec<Proved>, Refused> {
 
 fn not_learned(claim: &str) -> Proved {
     Proved {
-        holds: true,
+        answer: Answer::Holds,
         text: format!("{claim}: not learned yet"),
     }
 }
@@ -95,12 +96,12 @@ fn tested<'a>(
     let tested = tests
         .event(subject, occurrence, reaches)
         .map_err(|why| world::unplayable(loaded, why))?;
-    let (verdict, side) = match tested.refuted {
-        true => ("refuted", "above"),
-        false => ("not refuted", "below"),
+    let (answer, verdict, side) = match tested.refuted {
+        true => (Answer::Fails, "refuted", "above"),
+        false => (Answer::Holds, "not refuted", "below"),
     };
     Ok(Proved {
-        holds: !tested.refuted,
+        answer,
         text: format!(
             "{}: {verdict} in {} episodes; it fails in {} of them, a rate {side} {:.2} % at 95 %",
             claim.text,

@@ -8,7 +8,7 @@ use crate::driver::{Refused, Text, table, target};
 use crate::ir::Program;
 use crate::policy::table::Table;
 use crate::policy::{Minterm, Policy, decisions};
-use crate::report::verdict::difference;
+use crate::report::verdict::{Answer, difference};
 use crate::report::words::{self, counted, rows};
 use crate::source::Span;
 use crate::tree::disagreement::{Compared, compare};
@@ -67,12 +67,23 @@ impl Sides<'_> {
         let rows = rows(&self.policy);
         let found = match compare(self.root, &self.policy, LISTED) {
             Ok(Compared::Equal(proof)) => {
+                let recorded = self.policy.transitions.len();
+                if proof.transitions == 0 && recorded > 0 {
+                    return Ok(Proved {
+                        answer: Answer::Undecided,
+                        text: format!(
+                            "undecided: `{tree}` takes the decisions of {table} in {rows}, but none of the {} \
+                             that were recorded",
+                            counted(recorded, "transition")
+                        ),
+                    });
+                }
                 let taken = match proof.transitions {
                     0 => String::new(),
                     n => format!(" and {}", counted(n, "transition")),
                 };
                 return Ok(Proved {
-                    holds: true,
+                    answer: Answer::Holds,
                     text: format!(
                         "equal: `{tree}` takes the decisions of {table} in {rows}{taken}"
                     ),
@@ -100,7 +111,7 @@ impl Sides<'_> {
             )
         }));
         Ok(Proved {
-            holds: false,
+            answer: Answer::Fails,
             text: lines.join("\n"),
         })
     }
@@ -108,6 +119,10 @@ impl Sides<'_> {
     /// The tree and the table part along a path, or cannot be compared.
     fn parted(&self, refuted: Refuted) -> Result<Proved, Refused> {
         let (tree, table) = (self.tree, self.text.name);
+        let answer = match refuted {
+            Refuted::Undecided => Answer::Undecided,
+            _ => Answer::Fails,
+        };
         let text = match refuted {
             Refuted::Parts(found) => {
                 let along = match self.policy.transitions.is_empty() {
@@ -136,7 +151,7 @@ impl Sides<'_> {
             }
             Refuted::Decides { .. } | Refuted::Empty => String::new(),
         };
-        Ok(Proved { holds: false, text })
+        Ok(Proved { answer, text })
     }
 
     fn refused(&self, code: Code, message: String, label: &str) -> Refused {

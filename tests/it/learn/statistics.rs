@@ -3,10 +3,15 @@
 use btc::learn::binomial::{lower95, upper95};
 use btc::learn::bootstrap::{interquartile_mean, interval95, quantile};
 use btc::learn::curve::Point;
-use btc::learn::statistics::Mean;
+use btc::learn::episode::Episode;
+use btc::learn::poisson;
+use btc::learn::rate::Rate;
+use btc::learn::statistics::{Mean, Summary};
 use btc::random::Random;
 use btc::report::curve;
-use statrs::distribution::{Beta, ContinuousCDF};
+use btc::report::ends::Ended;
+use btc::world::End;
+use statrs::distribution::{Beta, ContinuousCDF, Gamma};
 
 #[test]
 fn the_interquartile_mean_cuts_a_quarter_at_either_end() {
@@ -62,6 +67,97 @@ fn bounds_on_a_rate_are_those_of_the_beta_distribution() {
     assert_eq!(upper95(5, 5), 1.0);
     assert_eq!(lower95(0, 5), 0.0);
     assert!((lower95(5, 5) - 0.05_f64.powf(0.2)).abs() < 1e-9);
+}
+
+#[test]
+fn the_interval_of_a_count_is_that_of_the_gamma_distribution() {
+    for count in [0, 1, 2, 7, 19, 300] {
+        let quantile =
+            |shape: u64, share| Gamma::new(shape as f64, 1.0).unwrap().inverse_cdf(share);
+        let [low, high] = poisson::interval95(count);
+        let expected = match count {
+            0 => 0.0,
+            _ => quantile(count, 0.025),
+        };
+        assert!((low - expected).abs() < 1e-6, "{count}: {low}, {expected}");
+        let expected = quantile(count + 1, 0.975);
+        assert!(
+            (high - expected).abs() < 1e-6,
+            "{count}: {high}, {expected}"
+        );
+    }
+}
+
+#[test]
+fn rates_are_pooled_over_ticks() {
+    // An episode of two ticks that an event ended does not weigh as much as one of 10 000 ticks.
+    let rate = Rate::of([(1, 2), (8, 10_000)].into_iter());
+    assert_eq!(rate.count, 9);
+    assert!((rate.per_1000 - 9000.0 / 10_002.0).abs() < 1e-12);
+    let [low, high] = rate.ci95;
+    assert!(
+        0.0 < low && low < 0.9 && 0.9 < high && high < 3.0,
+        "{rate:?}"
+    );
+    // Nothing that was seen: below 3.69 in all ticks.
+    let none = Rate::of([(0, 1000); 5].into_iter());
+    assert_eq!((none.per_1000, none.ci95[0]), (0.0, 0.0));
+    assert!((none.ci95[1] - 3.688_879 / 5.0).abs() < 1e-5, "{none:?}");
+    // Equal episodes have equal ratios, however many.
+    let equal = Rate::of([(30, 1000); 8].into_iter());
+    assert_eq!(equal.ci95, [30.0, 30.0]);
+    assert_eq!(Rate::of(std::iter::empty()).per_1000, 0.0);
+}
+
+#[test]
+fn the_interval_of_a_rate_holds_the_true_rate_in_95_of_100_samples() {
+    // Episodes of two kinds: long ones with two events in 1000 ticks, short ones with twenty.
+    let mut random = Random::new(3, 0, 0);
+    let mut held = 0;
+    for _ in 0..400 {
+        let episodes: Vec<(u64, u64)> = (0..60)
+            .map(|_| {
+                let (ticks, chance) = match random.chance(0.5) {
+                    true => (1000, 0.002),
+                    false => (100, 0.02),
+                };
+                let count = (0..ticks).filter(|_| random.chance(chance)).count();
+                (count as u64, ticks)
+            })
+            .collect();
+        let [low, high] = Rate::of(episodes.into_iter()).ci95;
+        // (0.5 · 2 + 0.5 · 2) / (0.5 · 1000 + 0.5 · 100) events a tick.
+        let truth = 1000.0 * 2.0 / 550.0;
+        held += u32::from(low < truth && truth < high);
+    }
+    assert!((368..=392).contains(&held), "{held} of 400");
+}
+
+#[test]
+fn an_end_that_is_rewarded_is_a_goal_and_is_bounded_below() {
+    let episode = |line, last| Episode {
+        ticks: 10,
+        total: last,
+        last,
+        events: Vec::new(),
+        end: End::On(line),
+        outside: 0,
+    };
+    let episodes = [episode(0, -5.0), episode(1, 3.0), episode(1, -1.0)];
+    let summary = Summary::of(&episodes, 3);
+    assert_eq!(summary.ended, [1, 2, 0]);
+    assert_eq!(summary.paid, [-5.0, 1.0, 0.0]);
+    let names = ["dead", "home", "lost"].map(str::to_owned);
+    let bounds = Ended::all(&names, &summary);
+    let bounds: Vec<String> = bounds.iter().map(Ended::bound).collect();
+    assert_eq!(
+        bounds,
+        [
+            "at most 86.46 % (95 %)",
+            "at least 13.54 % (95 %)",
+            "at most 63.16 % (95 %)"
+        ]
+    );
 }
 
 #[test]

@@ -69,14 +69,14 @@ fn tables_of_trees_read_back() {
         let (table, _) = canonicalize(&program, name, Form::Csv).unwrap();
         let table = text("t.csv", table.as_bytes());
         let proved = verify::table(&program, name, table, None).unwrap();
-        assert!(proved.holds, "{name}: {}", proved.text);
+        assert!(proved.holds(), "{name}: {}", proved.text);
         let made = made(table, None, &USUAL).unwrap_or_else(|r| panic!("{}", shown(&r)));
         let (again, _) = canonicalize(&loaded(&made), "learned", Form::Csv).unwrap();
         let proved = verify::table(&loaded(&made), "learned", table, None).unwrap();
-        assert!(proved.holds, "{name}: {}", proved.text);
+        assert!(proved.holds(), "{name}: {}", proved.text);
         if name != "partial" {
             let proved = verify::table(&program, name, text("a.csv", again.as_bytes()), None);
-            assert!(proved.unwrap().holds, "{name}");
+            assert!(proved.unwrap().holds(), "{name}");
         }
     }
 }
@@ -121,7 +121,7 @@ fn canonical_trees_are_equal_beside_their_source() {
     let both = load("both.bt", both.into(), &mut NoFiles);
     assert_eq!(program::shown(&both), "");
     let proved = verify::trees(&both, "again", "again_canonical").unwrap();
-    assert!(proved.holds, "{}", proved.text);
+    assert!(proved.holds(), "{}", proved.text);
 }
 
 #[test]

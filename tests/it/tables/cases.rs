@@ -56,7 +56,7 @@ fn good_tables_become_trees_that_are_equal_to_them() {
         let table = text(name, bytes);
         let made = made(table, None, &USUAL).unwrap_or_else(|r| panic!("{}", shown(&r)));
         let proved = compared(&made, table);
-        assert!(proved.holds, "{}", proved.text);
+        assert!(proved.holds(), "{}", proved.text);
         // The program is laid out as the formatter does it.
         let formatted = btc::driver::format::format(text(name, made.text.as_bytes()));
         assert_eq!(formatted.unwrap(), made.text);
@@ -122,7 +122,7 @@ fn transitions_allow_memory() {
     let program = loaded(&tree);
     let proved = verify::table(&program, "learned", table, Some(whole)).unwrap();
     snapshot::check("table_recorded_verified", &proved.text);
-    assert!(proved.holds);
+    assert!(proved.holds());
 }
 
 #[test]
@@ -136,7 +136,7 @@ fn a_tree_that_decides_otherwise_is_told_the_lines() {
     assert_eq!(program::shown(&loaded), "");
     let table = text("t.csv", table.as_bytes());
     let proved = verify::table(&loaded, "other", table, None).unwrap();
-    assert!(!proved.holds);
+    assert!(!proved.holds());
     snapshot::check("table_verify_rows", &proved.text);
     let code = |tree| {
         let refused = verify::table(&loaded, tree, table, None).unwrap_err();
@@ -159,9 +159,9 @@ fn trees_without_a_task_are_compared() {
     let loaded = load("bare.bt", program.into(), &mut NoFiles);
     assert_eq!(program::shown(&loaded), "");
     let compared = |a, b| verify::trees(&loaded, a, b).unwrap();
-    assert!(compared("one", "two").holds);
+    assert!(compared("one", "two").holds());
     let parted = compared("one", "held");
-    assert!(!parted.holds);
+    assert!(!parted.holds());
     let proved = compared("held", "asked");
     snapshot::check(
         "table_verify_trees",

@@ -83,7 +83,7 @@ proptest! {
         let table = text("t.csv", source.as_bytes());
         let tree = made(table, None, &options).unwrap_or_else(|r| panic!("{source}{}", shown(&r)));
         let proved = compared(&tree, table);
-        prop_assert!(proved.holds, "{}", proved.text);
+        prop_assert!(proved.holds(), "{}", proved.text);
         let lines = made(text("t.jsonl", lines.as_bytes()), None, &options).unwrap();
         prop_assert_eq!(tree.text.replace("t.csv", "t.jsonl"), lines.text);
         // A row that is exchanged is found, and named.
@@ -91,7 +91,7 @@ proptest! {
         other[0].1 = (other[0].1 + 1) % BEHAVIORS.len();
         let other = csv(&other);
         let refuted = compared(&tree, text("other.csv", other.as_bytes()));
-        prop_assert!(!refuted.holds);
+        prop_assert!(!refuted.holds());
         prop_assert!(refuted.text.contains("other.csv:2: "), "{}", refuted.text);
     }
 
@@ -140,7 +140,7 @@ fn total(bytes: &[u8]) {
     }
     let table = text("mutant", bytes);
     match made(table, None, &USUAL) {
-        Ok(made) => assert!(compared(&made, table).holds),
+        Ok(made) => assert!(compared(&made, table).holds()),
         Err(refused) => {
             assert!(!refused.diagnostics.is_empty());
             shown(&refused);
