@@ -30,3 +30,4 @@ mod tables;
 mod tree;
 mod verdicts;
 mod world;
+mod worlds;
