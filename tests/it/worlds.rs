@@ -2,7 +2,7 @@
 
 use btc::driver::Text;
 use btc::driver::format::format;
-use btc::Program;
+use btc::{LearnOptions, Program};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -35,5 +35,17 @@ fn hand_trees_earn_something() {
     for path in files("tests/worlds") {
         let episodes = program(&path).run("hand", 10, 1).unwrap();
         assert!(episodes.summary.total.mean > 0.0, "{path:?}");
+    }
+}
+
+#[test]
+fn traps_can_be_learned_from() {
+    for path in files("tests/worlds/traps") {
+        let options = LearnOptions {
+            episodes: Some(40),
+            roll_outs: 10,
+            ..LearnOptions::default()
+        };
+        program(&path).learn(&options).unwrap();
     }
 }
