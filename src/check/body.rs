@@ -127,9 +127,11 @@ impl<'a> Checker<'a> {
     ) -> (T, Vec<Diagnostic>) {
         let library = context.library;
         let outer = std::mem::replace(&mut self.context, context);
+        let given = self.given.take();
         self.bodies.open.push(Open { at, name, library });
         let result = self.captured(pass);
         self.bodies.open.pop();
+        self.given = given;
         self.context = outer;
         result
     }

@@ -59,6 +59,7 @@ named! {
         Normal "normal",
         Chance "chance",
         OneOf "one_of",
+        Tune "tune",
         Any "any",
         All "all",
         Count "count",

@@ -7,6 +7,7 @@ use super::decl::event::EventId;
 use super::decl::predicate::PredicateId;
 use super::decl::state::StateSlot;
 use super::names::Names;
+use super::tune::Tunes;
 use super::{Checked, Input};
 use crate::diagnostic::{self, Diagnostic};
 use crate::ir::task::History;
@@ -33,6 +34,10 @@ pub struct Checker<'a> {
     pub kept: Option<History>,
     /// Where the tree at hand asks the history window.
     pub asked: Vec<(Span, Outcome)>,
+    /// The parameter that the expression at hand is given to, with what it is a parameter of.
+    pub given: Option<(&'a str, &'a str)>,
+    /// The numbers that may be tuned.
+    pub tunes: Tunes,
     /// The names that bodies of the user bind, by where they are bound.
     pub bound: BTreeMap<Span, Bound<'a>>,
     /// The predicates, by name with arguments; `None` for one with a mistake.
@@ -62,6 +67,8 @@ impl<'a> Checker<'a> {
             depth: 0,
             kept: None,
             asked: Vec::new(),
+            given: None,
+            tunes: Tunes::default(),
             bound: BTreeMap::new(),
             predicates: BTreeMap::new(),
             behaviors: BTreeMap::new(),
@@ -126,6 +133,7 @@ impl<'a> Checker<'a> {
                 self.claim(claim);
             }
         }
+        self.tunables(items());
         self.unread_names();
     }
 
@@ -134,6 +142,7 @@ impl<'a> Checker<'a> {
         diagnostic::sort(&mut self.diagnostics);
         Checked {
             program: self.program,
+            tunes: self.tunes.sites(),
             diagnostics: self.diagnostics,
         }
     }

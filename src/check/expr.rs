@@ -11,6 +11,7 @@ mod operator;
 mod quantifier;
 mod reading;
 mod reference;
+mod tune;
 
 use super::Checker;
 use super::types::{Type, Typed, Value};

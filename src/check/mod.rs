@@ -16,6 +16,7 @@ mod report;
 mod signature;
 mod task;
 mod tree;
+mod tune;
 mod types;
 mod world;
 
@@ -23,8 +24,10 @@ pub use builtin::names as built_in_names;
 
 use crate::diagnostic::Diagnostic;
 use crate::ir::Program;
+use crate::source::Span;
 use crate::syntax::ast;
 use checker::Checker;
+use std::collections::BTreeMap;
 
 /// A parsed file.
 #[derive(Clone, Copy, Debug)]
@@ -40,13 +43,21 @@ pub struct Input<'a> {
 pub struct Checked {
     /// The program; of use only where no diagnostic is an error.
     pub program: Program,
+    /// Where the values of the program's tunables stand; several places where they are arguments that are spelled alike.
+    pub tunes: Vec<Vec<Span>>,
     /// Every mistake and warning.
     pub diagnostics: Vec<Diagnostic>,
 }
 
 /// Checks the files of a program, those that are used before those that use them.
 pub fn check(files: &[Input]) -> Checked {
+    check_with(files, BTreeMap::new())
+}
+
+/// Checks a program with other values for some of its tunables, in their units, by the places where these stand.
+pub fn check_with(files: &[Input], tuned: BTreeMap<Span, f64>) -> Checked {
     let mut checker = Checker::new(files);
+    checker.tunes.set(tuned);
     checker.program(files);
     checker.checked()
 }

@@ -60,15 +60,15 @@ impl<'a> Matched<'a> {
 fn name(arg: &Arg) -> Option<&Ident> {
     match &arg.kind {
         ArgKind::Named(name, _) => Some(name),
-        ArgKind::Positional(_) | ArgKind::Binder { .. } => None,
+        ArgKind::Positional(_) | ArgKind::Range(..) | ArgKind::Binder { .. } => None,
     }
 }
 
-/// The value that an argument gives; a binder gives none.
+/// The value that an argument gives; a range and a binder give none.
 fn value(arg: &Arg) -> Option<&Expr> {
     match &arg.kind {
         ArgKind::Positional(value) | ArgKind::Named(_, value) => Some(value),
-        ArgKind::Binder { .. } => None,
+        ArgKind::Range(..) | ArgKind::Binder { .. } => None,
     }
 }
 
@@ -117,7 +117,10 @@ impl<'a> Checker<'a> {
     ) -> Option<usize> {
         let owner = signature.owner;
         match (&arg.kind, &signature.takes) {
-            (ArgKind::Positional(_) | ArgKind::Binder { .. }, Takes::Settings { names }) => {
+            (
+                ArgKind::Positional(_) | ArgKind::Range(..) | ArgKind::Binder { .. },
+                Takes::Settings { names },
+            ) => {
                 if first_mistake {
                     let message = format!("{owner} takes its settings by name");
                     self.error(Code::E0305, arg.span, message)
@@ -129,6 +132,10 @@ impl<'a> Checker<'a> {
             (ArgKind::Binder { .. }, _) => self
                 .error(Code::E0305, arg.span, format!("{owner} takes no `in`"))
                 .label("only any, all, count and nearest range over a kind")
+                .none(),
+            (ArgKind::Range(..), _) => self
+                .error(Code::E0305, arg.span, format!("{owner} takes no range"))
+                .label("only `tune` takes one")
                 .none(),
             (ArgKind::Positional(_), _) => {
                 *position += 1;

@@ -3,7 +3,7 @@
 use super::text::{Text, decode};
 use crate::check::{self, Input};
 use crate::diagnostic::{self, Code, Diagnostic};
-use crate::ir::Program;
+use crate::ir::{Name, Program};
 use crate::source::{FileId, Sources, Span};
 use crate::syntax;
 use crate::syntax::ast::{self, ItemKind, UseWhat};
@@ -38,14 +38,34 @@ pub struct Loaded {
     pub files: Vec<FileId>,
     /// The tables that the main file names as the environment of its proofs, with the place of the `use`.
     pub tables: Vec<(FileId, Span)>,
+    /// Where the values of the program's tunables stand, a list for each.
+    pub tunes: Vec<Vec<Span>>,
     /// Every mistake and warning, sorted.
     pub diagnostics: Vec<Diagnostic>,
+    /// The files that the main file uses, used files first.
+    used: Vec<Parsed>,
 }
 
 impl Loaded {
     /// Whether there is any error.
     pub fn has_errors(&self) -> bool {
         self.diagnostics.iter().any(Diagnostic::is_error)
+    }
+
+    /// The program with other values for its tunables, in their units. Behaviours, predicates and trees keep their ids.
+    /// `None` if it has mistakes under these values.
+    pub fn revalued(&self, values: &[f64]) -> Option<Program> {
+        let main = Input {
+            ast: &self.ast,
+            library: false,
+        };
+        let inputs: Vec<Input> = self.used.iter().map(Parsed::input).chain([main]).collect();
+        let tuned = self.tunes.iter().zip(values);
+        let tuned = tuned.flat_map(|(sites, value)| sites.iter().map(|site| (*site, *value)));
+        let checked = check::check_with(&inputs, tuned.collect());
+        let program = checked.program;
+        let wrong = checked.diagnostics.iter().any(Diagnostic::is_error);
+        (!wrong && same_names(&self.program, &program)).then_some(program)
     }
 }
 
@@ -65,10 +85,7 @@ pub fn load(name: &str, text: Vec<u8>, reader: &mut dyn Reader) -> Loaded {
     let inputs: Vec<Input> = loader
         .parsed
         .iter()
-        .map(|parsed| Input {
-            ast: &parsed.ast,
-            library: parsed.library,
-        })
+        .map(Parsed::input)
         .collect();
     let checked = check::check(&inputs);
     let mut diagnostics = loader.diagnostics;
@@ -89,12 +106,9 @@ pub fn load(name: &str, text: Vec<u8>, reader: &mut dyn Reader) -> Loaded {
     diagnostic::sort(&mut diagnostics);
     let user = loader.parsed.iter().filter(|parsed| !parsed.library);
     let files = user.map(|parsed| parsed.file).collect();
-    let ast = loader
-        .parsed
-        .into_iter()
-        .find(|parsed| parsed.file == main)
-        .map(|parsed| parsed.ast)
-        .unwrap_or_default();
+    // The main file is read to its end after all that it uses.
+    let ast = loader.parsed.pop().map(|parsed| parsed.ast);
+    let ast = ast.unwrap_or_default();
     Loaded {
         sources: loader.sources,
         main,
@@ -102,14 +116,40 @@ pub fn load(name: &str, text: Vec<u8>, reader: &mut dyn Reader) -> Loaded {
         program: checked.program,
         files,
         tables: loader.tables,
+        tunes: checked.tunes,
         diagnostics,
+        used: loader.parsed,
     }
 }
 
+/// Whether what trees are made of has the same ids in both programs.
+fn same_names(one: &Program, other: &Program) -> bool {
+    let predicates = |program: &Program| -> Vec<Name> {
+        let predicates = program.predicates.values();
+        predicates.map(|predicate| predicate.name.clone()).collect()
+    };
+    let behaviors = |program: &Program| -> Vec<Name> {
+        let behaviors = program.behaviors.values();
+        behaviors.map(|behavior| behavior.name.clone()).collect()
+    };
+    predicates(one) == predicates(other) && behaviors(one) == behaviors(other)
+}
+
+/// A file that was read.
+#[derive(Debug)]
 struct Parsed {
     file: FileId,
     ast: ast::File,
     library: bool,
+}
+
+impl Parsed {
+    fn input(&self) -> Input<'_> {
+        Input {
+            ast: &self.ast,
+            library: self.library,
+        }
+    }
 }
 
 struct Loader<'r> {

@@ -19,6 +19,7 @@ pub fn program(program: &Program) -> String {
     out.behaviors();
     out.tasks();
     out.trees();
+    out.tunables();
     out.text
 }
 
@@ -69,6 +70,17 @@ impl Out<'_> {
                     "sensor {id:?} {} {:?} noise {}",
                     sensor.name, sensor.kind, sensor.noise
                 ),
+            );
+        }
+    }
+
+    fn tunables(&mut self) {
+        for (id, tunable) in self.program.tunables.iter() {
+            let [value, low, high] =
+                [tunable.value, tunable.low, tunable.high].map(|number| tunable.written(number));
+            self.line(
+                0,
+                format!("tune {id:?} {} = {value} in {low} .. {high}", tunable.name),
             );
         }
     }

@@ -12,6 +12,7 @@ pub mod program;
 pub mod table;
 pub mod task;
 pub mod tree;
+pub mod tunable;
 pub mod world;
 
 pub use expr::{Expr, ExprId, Pool};

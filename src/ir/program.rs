@@ -6,6 +6,7 @@ use super::name::Name;
 use super::table::{Id, Table};
 use super::task::{Claim, Learner, Task};
 use super::tree::{Atom, Status, Tree};
+use super::tunable::Tunable;
 use super::world::World;
 
 /// A checked program.
@@ -37,6 +38,8 @@ pub struct Program {
     pub trees: Table<Tree>,
     /// The claims.
     pub claims: Vec<Claim>,
+    /// The numbers that may be tuned. Each is a constant of the expressions that it stands in.
+    pub tunables: Table<Tunable>,
 }
 
 /// A state variable; a point is two of them.

@@ -118,6 +118,7 @@ fn name(rule: Rule) -> Option<(Rank, &'static str)> {
         Rule::is | Rule::named_is | Rule::assign => (Mark, "`=`"),
         Rule::guards => (Mark, "`=>`"),
         Rule::at_least => (Mark, "`>=`"),
+        Rule::range_to => (More, "`..`"),
         Rule::link => (More, "`of`, `per` or `->`"),
         Rule::string => (Part, "a path in quotes"),
         Rule::name | Rule::learner_name | Rule::family => (Part, "a name"),

@@ -69,7 +69,7 @@ impl Checker<'_> {
         }
     }
 
-    fn mentions_parameter(&self, given: &ast::Expr) -> bool {
+    pub fn mentions_parameter(&self, given: &ast::Expr) -> bool {
         match &given.kind {
             ExprKind::Ref(reference) => self.context.lookup(&reference.name.name).is_some(),
             ExprKind::Paren(inner) => self.mentions_parameter(inner),

@@ -2,6 +2,7 @@
 
 use crate::check::Checker;
 use crate::check::context::{Binding, Context, Region};
+use crate::check::names::Decl;
 use crate::check::signature::{Signature, Takes};
 use crate::check::types::Type;
 use crate::diagnostic::Code;
@@ -59,13 +60,21 @@ impl<'a> Checker<'a> {
         };
         let args = reference.args.as_deref().unwrap_or_default();
         let matched = self.matched(&signature, args);
+        let called = self.names.value(name, self.context.library);
+        let makes_instance = !matches!(called, Some((Decl::Let(_), _)));
         let mut fine = matched.fine;
         let mut bindings: Vec<Binding<'a>> = Vec::new();
         for (param, given) in params.iter().zip(matched.values()) {
             let role = format!("`{}` of `{name}`", param.name.name);
             let ty = self.in_library(library, |checker| checker.type_expr(&param.ty));
             let value = match (given, &param.default) {
-                (Some(value), _) => self.expect(value, &ty, &role),
+                (Some(value), _) => {
+                    let to = makes_instance.then_some((name.as_str(), param.name.name.as_str()));
+                    let outer = std::mem::replace(&mut self.given, to);
+                    let value = self.expect(value, &ty, &role);
+                    self.given = outer;
+                    value
+                }
                 (None, Some(default)) => {
                     let context = Context {
                         region: Region::Let,

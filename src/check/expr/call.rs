@@ -80,6 +80,7 @@ impl<'a> Checker<'a> {
             F::Success | F::Failure | F::Done | F::Failed => self.ended(function, reference),
             F::Uniform | F::Normal | F::Chance | F::OneOf => self.random(function, reference),
             F::Clamp => self.clamp(reference),
+            F::Tune => self.tune(reference),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Dimensions and units.
 
+use crate::ir::tunable::Unit;
 use crate::syntax::ast;
 use std::f64::consts::PI;
 use std::fmt;
@@ -124,10 +125,26 @@ pub struct Scale {
 }
 
 impl Scale {
-    const ONE: Scale = Scale {
+    /// Of SI base units.
+    pub const ONE: Scale = Scale {
         times: 1.0,
         over: 1.0,
     };
+
+    /// Of `%`.
+    pub const PERCENT: Scale = Scale {
+        times: 1.0,
+        over: 100.0,
+    };
+
+    /// The scale of a unit as the IR keeps it.
+    pub fn of_unit(self, text: &str) -> Unit {
+        Unit {
+            text: text.to_owned(),
+            times: self.times,
+            over: self.over,
+        }
+    }
 
     /// The number in SI base units.
     pub fn apply(self, number: f64) -> f64 {

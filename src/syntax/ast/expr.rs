@@ -105,6 +105,8 @@ pub enum ArgKind {
     Positional(Expr),
     /// `name = expr`
     Named(Ident, Expr),
+    /// `low .. high`
+    Range(Expr, Expr),
     /// `b in bush: expr`
     Binder {
         /// What binds.

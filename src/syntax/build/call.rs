@@ -111,7 +111,12 @@ impl<'i> Builder<'i> {
         } else if let Some(node) = parts.maybe(Rule::named) {
             self.named(node)
         } else {
-            ArgKind::Positional(self.take_expr(&mut parts))
+            let value = self.take_expr(&mut parts);
+            if parts.has(Rule::range_to) {
+                ArgKind::Range(value, self.take_expr(&mut parts))
+            } else {
+                ArgKind::Positional(value)
+            }
         };
         Arg { kind, span }
     }

@@ -45,6 +45,7 @@ impl Printer<'_> {
         match &arg.kind {
             ArgKind::Positional(value) => self.expr(value),
             ArgKind::Named(name, value) => row![ident(name), " = ", self.expr(value)],
+            ArgKind::Range(low, high) => row![self.expr(low), " .. ", self.expr(high)],
             ArgKind::Binder { name, domain, body } => {
                 let head = row![ident(name), " in ", ident(domain)];
                 match body {
