@@ -154,6 +154,8 @@ pub mod trial;
 
 pub mod simplify;
 
+pub mod tune;
+
 pub mod emit;
 
 pub mod report;

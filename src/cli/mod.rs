@@ -17,6 +17,7 @@ mod progress;
 mod report;
 mod run;
 mod size;
+mod tune;
 mod verify;
 
 use clap::{Parser, Subcommand};
@@ -53,6 +54,8 @@ enum Command {
     Canonicalize(canonicalize::Arguments),
     /// Run a tree or a policy in its world.
     Run(run::Arguments),
+    /// Search for better values of the numbers that may be tuned.
+    Tune(tune::Arguments),
     /// Prove two trees, or a tree and a policy table, equal, or show where they part.
     Verify(verify::Arguments),
     /// Say how large trees are.
@@ -103,6 +106,7 @@ pub fn main() -> ExitCode {
         Command::Decanonicalize(arguments) => decanonicalize::run(&arguments, &say),
         Command::Canonicalize(arguments) => canonicalize::run(&arguments, &say),
         Command::Run(arguments) => run::run(&arguments, &say),
+        Command::Tune(arguments) => tune::run(&arguments, &say),
         Command::Verify(arguments) => verify::run(&arguments, &say),
         Command::Size(arguments) => size::run(&arguments, &say),
         Command::Minimize(arguments) => minimize::run(&arguments, &say),

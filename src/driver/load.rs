@@ -24,7 +24,7 @@ pub trait Reader {
 }
 
 /// A loaded and checked program.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Loaded {
     /// Every file.
     pub sources: Sources,
@@ -43,7 +43,7 @@ pub struct Loaded {
     /// Every mistake and warning, sorted.
     pub diagnostics: Vec<Diagnostic>,
     /// The files that the main file uses, used files first.
-    used: Vec<Parsed>,
+    pub(super) used: Vec<Parsed>,
 }
 
 impl Loaded {
@@ -82,11 +82,7 @@ pub fn load(name: &str, text: Vec<u8>, reader: &mut dyn Reader) -> Loaded {
         incomplete: false,
     };
     let main = loader.file(name, &text, false);
-    let inputs: Vec<Input> = loader
-        .parsed
-        .iter()
-        .map(Parsed::input)
-        .collect();
+    let inputs: Vec<Input> = loader.parsed.iter().map(Parsed::input).collect();
     let checked = check::check(&inputs);
     let mut diagnostics = loader.diagnostics;
     // A missing file may declare what seems undeclared.
@@ -136,8 +132,8 @@ fn same_names(one: &Program, other: &Program) -> bool {
 }
 
 /// A file that was read.
-#[derive(Debug)]
-struct Parsed {
+#[derive(Clone, Debug)]
+pub struct Parsed {
     file: FileId,
     ast: ast::File,
     library: bool,

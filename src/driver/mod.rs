@@ -19,6 +19,7 @@ pub mod size;
 pub mod table;
 pub mod target;
 mod text;
+pub mod tune;
 pub mod verify;
 mod world;
 

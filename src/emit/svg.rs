@@ -9,6 +9,7 @@ mod legend;
 mod page;
 mod paint;
 mod scale;
+pub mod sweep;
 pub mod track;
 pub mod tree;
 mod view;

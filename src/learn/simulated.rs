@@ -31,6 +31,10 @@ pub enum Purpose {
     Confirm = 17,
     /// The figures of a simplified tree.
     Measure = 18,
+    /// The search for better values of what may be tuned.
+    Tune = 19,
+    /// The second opinion on the values that were found.
+    TuneConfirm = 20,
 }
 
 impl Purpose {

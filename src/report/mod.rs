@@ -10,5 +10,6 @@ pub mod metrics;
 pub mod program;
 pub mod results;
 pub mod simplified;
+pub mod tuned;
 pub mod verdict;
 pub mod words;

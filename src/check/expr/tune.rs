@@ -116,7 +116,9 @@ impl<'a> Checker<'a> {
                 format!("nothing is tuned in {}", region.name()),
             )
             .label("this belongs to what the robot has to solve")
-            .help("tune predicates, behaviours and trees, and the shared expressions that they use");
+            .help(
+                "tune predicates, behaviours and trees, and the shared expressions that they use",
+            );
             return false;
         }
         true
