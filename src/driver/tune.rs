@@ -120,8 +120,10 @@ fn learned(
     progress: &(dyn Fn(Stage) + Sync),
 ) -> Result<Learned, Refused> {
     let name = loaded.program.learners[id].name.to_string();
+    let source = loaded.sources.get(loaded.main);
     let options = learn::Options {
         learner: Some(&name),
+        source: source.map_or("program.bt", |source| &source.name),
         ..learn::Options::default()
     };
     learn::learn(loaded, &options, &|stage| progress(Stage::Learning(stage)))

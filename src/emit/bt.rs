@@ -173,7 +173,7 @@ fn reference(name: &Name) -> Expr {
     let args = name.given().map(|(parameter, value)| {
         let value = match value {
             Given::Name(name) => reference(name),
-            Given::Text(text) => literal(text, None),
+            Given::Text(text) | Given::Tuned { written: text, .. } => literal(text, None),
         };
         arg(match parameter {
             Some(parameter) => ArgKind::Named(ident(parameter), value),

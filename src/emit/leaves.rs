@@ -185,6 +185,7 @@ fn value(name: &Name, at: usize) -> Option<&Given> {
 fn argument(value: &Given) -> String {
     let word = match value {
         Given::Name(name) => name.as_word(),
+        Given::Tuned { value, .. } => return value.clone(),
         Given::Text(_) => None,
     };
     match word.filter(|word| !word.contains(['(', '{'])) {

@@ -33,6 +33,13 @@ pub enum Given {
     Name(Name),
     /// Any other expression, as the language writes it.
     Text(String),
+    /// A number that may be tuned.
+    Tuned {
+        /// With the range, as the language writes it.
+        written: String,
+        /// The value in use.
+        value: String,
+    },
 }
 
 /// A coordinate of a point.
@@ -150,6 +157,7 @@ impl fmt::Display for Given {
         match self {
             Given::Name(name) => name.fmt(f),
             Given::Text(text) => f.pad(text),
+            Given::Tuned { written, .. } => f.pad(written),
         }
     }
 }

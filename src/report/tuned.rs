@@ -137,9 +137,9 @@ impl Report<'_> {
             ),
         );
         let rates = duel.before.events.iter().zip(&duel.after.events);
-        for (event, ((_, was), (_, is))) in self.program.events.values().zip(rates) {
-            if was.mean != is.mean {
-                let rates = format!("{:.3} to {:.3} in 1000 ticks", was.mean, is.mean);
+        for (event, (was, is)) in self.program.events.values().zip(rates) {
+            if was.count != is.count {
+                let rates = format!("{:.3} to {:.3} in 1000 ticks", was.per_1000, is.per_1000);
                 say(&event.name.to_string(), &rates);
             }
         }
@@ -290,7 +290,7 @@ fn drawn(tunable: &Tunable, curve: &Curve) -> String {
         if at == curve.used {
             remarks.push("in use");
         }
-        if at == curve.best {
+        if at == curve.best && !dot.out {
             remarks.push("best");
         }
         if dot.out {

@@ -19,7 +19,8 @@ pub struct Curve {
     pub dots: Vec<Dot>,
     /// Which of them is in use.
     pub used: usize,
-    /// Which of them is the best by the worst of itself and its neighbours; that in use if none gains anything.
+    /// Which of them is the best by the worst of itself and its neighbours; that in use if none gains
+    /// anything with 95 % confidence.
     pub best: usize,
     /// The points of the best values, the best first.
     ranked: Vec<Point>,
@@ -64,7 +65,8 @@ impl Curve {
         let mut ranked: Vec<Point> = self.ranked.clone();
         field.rank(&mut ranked);
         field.round(&mut ranked);
-        let best = ranked.first().filter(|best| field.robust(best) > 0.0);
+        let gains = |best: &&Point| field.robust(best) > 0.0 && field.gain(best).ci95[0] > 0.0;
+        let best = ranked.first().filter(gains);
         let best = best.cloned().unwrap_or_else(|| field.used());
         self.best = best.get(axis).copied().unwrap_or(own.used);
         let dots = all.iter().zip(&own.values).map(|(point, &value)| Dot {

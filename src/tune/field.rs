@@ -269,26 +269,30 @@ impl<'a> Field<'a> {
         });
     }
 
-    /// Puts the roundest first among those that are about as robust as the best.
+    /// Puts those that change fewest values first, and then the roundest, among those that are about as robust as the best.
     pub fn round(&self, points: &mut [Point]) {
-        let Some(best) = points.first().map(|point| self.robust(point)) else {
+        let Some(best) = points.first() else {
             return;
         };
-        let enough = best - 0.002 * self.scale();
+        let gain = self.gain(best);
+        let doubt = (gain.ci95[1] - gain.mean).max(0.002 * self.scale());
+        let enough = self.robust(best) - doubt;
         points.sort_by_cached_key(|point| {
             let robust = self.robust(point);
             match robust >= enough {
                 true => (0, self.digits(point), std::cmp::Reverse(Ordered(robust))),
-                false => (1, 0, std::cmp::Reverse(Ordered(robust))),
+                false => (1, (0, 0), std::cmp::Reverse(Ordered(robust))),
             }
         });
     }
 
-    /// How round the values of a point are that are not in use.
-    fn digits(&self, point: &[usize]) -> usize {
+    /// How many values of a point are not in use, and how round these are.
+    fn digits(&self, point: &[usize]) -> (usize, usize) {
         let own = point.iter().zip(self.axes);
         let changed = own.filter(|(at, axis)| **at != axis.used);
-        changed.map(|(at, axis)| axis.digits(*at)).sum()
+        changed.fold((0, 0), |(number, digits), (at, axis)| {
+            (number + 1, digits + axis.digits(*at))
+        })
     }
 
     /// What gains are compared with: the return under the values in use, or its standard deviation if that is more.

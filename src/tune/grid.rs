@@ -2,6 +2,10 @@
 
 use crate::ir::tunable::Tunable;
 
+/// The least distance of two values, as a part of the value in use: a value that is as good as nearer ones is not
+/// robust for that.
+const FINEST: f64 = 0.02;
+
 /// The values of a number that are tried.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
@@ -23,10 +27,11 @@ pub fn most(numbers: usize) -> usize {
 
 impl Axis {
     /// The multiples of 1, 2 or 5 times a power of ten in the range of a number, the finest of which there are at most
-    /// `most`; the ends of the range; and the value in use.
+    /// `most` and that are 2 % of the value in use apart or more; the ends of the range; and the value in use.
     pub fn new(tunable: &Tunable, most: usize) -> Self {
         let (low, high) = (tunable.low, tunable.high);
-        let step = step((high - low) / most.max(2) as f64);
+        let least = (FINEST * tunable.value.abs()).min((high - low) / 2.0);
+        let step = step(least.max((high - low) / most.max(2) as f64));
         let mut values = vec![low, high, tunable.value];
         let mut multiple = (low / step.size()).ceil();
         while step.times(multiple) <= high {

@@ -28,6 +28,7 @@ mod svg;
 mod syntax;
 mod tables;
 mod tree;
+mod tune;
 mod verdicts;
 mod world;
 mod worlds;

@@ -1,6 +1,7 @@
 //! The names of instances: a family with the arguments that a reference gives it.
 
 use crate::check::Checker;
+use crate::check::builtin::Function;
 use crate::check::context::Binding;
 use crate::check::types::Value;
 use crate::ir::name::{Argument, Given, Name};
@@ -65,7 +66,13 @@ impl Checker<'_> {
                     name, args: None, ..
                 }),
             ) => Given::Name(Name::word(&name.name)),
-            _ => Given::Text(print::expr(given)),
+            _ => match tuned(given) {
+                Some(value) => Given::Tuned {
+                    written: print::expr(given),
+                    value: print::expr(value),
+                },
+                None => Given::Text(print::expr(given)),
+            },
         }
     }
 
@@ -79,5 +86,17 @@ impl Checker<'_> {
             }
             _ => false,
         }
+    }
+}
+
+/// The value in use of a `tune`.
+fn tuned(given: &ast::Expr) -> Option<&ast::Expr> {
+    let ExprKind::Ref(reference) = &given.kind else {
+        return None;
+    };
+    let first = reference.args.as_ref()?.first()?;
+    match &first.kind {
+        ArgKind::Positional(value) if reference.name.name == Function::Tune.name() => Some(value),
+        _ => None,
     }
 }
