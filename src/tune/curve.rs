@@ -51,7 +51,7 @@ impl Curve {
     pub fn flat(&self) -> Option<(f64, f64)> {
         let mut flat = self.dots.iter().filter(|dot| dot.flat);
         let first = flat.next()?;
-        Some((first.value, flat.last().unwrap_or(first).value))
+        Some((first.value, flat.next_back().unwrap_or(first).value))
     }
 
     /// Takes the figures over from the field when all has been played.
