@@ -7,6 +7,8 @@
 
 use btc::driver::load::{Loaded, Reader, load};
 use btc::ir::Id;
+use btc::ir::task::Objective;
+use btc::learn::average;
 use btc::learn::discount::Discounting;
 use btc::learn::method::{self, Settings};
 use btc::learn::schedule::Schedule;
@@ -37,6 +39,7 @@ fn learn(loaded: &Loaded, simulator: &Simulator, episodes: u64) -> Counts {
     };
     let mut process = simulator.simulation();
     let settings = Settings {
+        average: false,
         choices: task.choose.len(),
         initial: learner.initial,
         rate: Schedule::new(&program.pool, learner.rate),
@@ -50,13 +53,16 @@ fn learn(loaded: &Loaded, simulator: &Simulator, episodes: u64) -> Counts {
         episodes,
         explore: Schedule::new(&program.pool, learner.explore),
         discounting: Discounting {
-            discount: learner.discount,
+            discount: match learner.objective {
+                Objective::Discounted(discount) => discount,
+                Objective::Average(_) => average::discount(0.1),
+            },
             tick: program.world.as_ref().unwrap().tick,
         },
         dwell: learner.dwell,
         seed: 1,
     };
-    train(&mut process, method.as_mut(), &course, |_, _| {}, || {})
+    train(&mut process, method.as_mut(), &course, |_, _| {}, || {}).0
 }
 
 fn examples(criterion: &mut Criterion) {

@@ -19,7 +19,7 @@ trap 'rm -rf "$runs"' EXIT
 learn() {
     local name=$1 status=0
     shift
-    "$BTC" learn "$@" -o "$runs/$name" > "$runs/$name.bt" 2> "$runs/$name.txt" || status=$?
+    "$BTC" learn --report "$@" -o "$runs/$name" > "$runs/$name.bt" 2> "$runs/$name.txt" || status=$?
     if [ "$status" -gt 1 ] || [ ! -e "$runs/$name/policy.csv" ]; then
         echo "btc learn $* did not end:" >&2
         echo "$(< "$runs/$name.txt")" >&2

@@ -47,6 +47,9 @@ pub(super) struct Arguments {
     /// The number of episodes that test the tree: 1000 with several seeds, else none.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(0..=PLAYED))]
     tests: Option<u64>,
+    /// Write the whole report, and not only its five lines on the tree.
+    #[arg(long)]
+    report: bool,
 }
 
 /// A part of a return: `1%` or `0.01`.
@@ -108,9 +111,14 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     for (name, text) in &learned.files {
         files::write(&folder.join(name), text)?;
     }
-    for line in &learned.report {
+    let lines = match arguments.report {
+        true => &learned.report,
+        false => &learned.headline,
+    };
+    for line in lines {
         tell(line);
     }
+    say.all(&loaded.sources, &learned.warnings);
     let claims =
         verify::claims_of_learned(&loaded, &learned).map_err(|refused| say.refused(&refused))?;
     for claim in &claims {

@@ -146,6 +146,13 @@ codes! {
     W0301 "a plain number for a ratio",
 
     W0501 "a setting without effect",
+    W0502 "a behaviour that never succeeded",
+    W0503 "an event that never happened",
+    W0504 "a reward that the tree gives up",
+    W0505 "nothing is rewarded",
+    W0506 "an end that training hardly met",
+    W0507 "learned from too little",
+    W0508 "a failure that is repeated",
 }
 
 impl Code {

@@ -1,6 +1,8 @@
 //! `btc learn`: from a checked program to a learned, proved, printed tree.
 
 mod files;
+mod places;
+mod warnings;
 
 use super::load::Loaded;
 use super::refused::Refused;
@@ -90,7 +92,11 @@ pub struct Learned {
     pub text: String,
     /// The files to write, by name.
     pub files: Vec<(&'static str, String)>,
-    /// The report, in lines.
+    /// The report on the tree that is printed, in five lines.
+    pub headline: Vec<String>,
+    /// What to know of the result before it is trusted, at its places in the program.
+    pub warnings: Vec<Diagnostic>,
+    /// The whole report, in lines.
     pub report: Vec<String>,
     /// The tree, with its documentation.
     pub tree: Tree,

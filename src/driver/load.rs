@@ -52,6 +52,12 @@ impl Loaded {
         self.diagnostics.iter().any(Diagnostic::is_error)
     }
 
+    /// The syntax trees of all files of the program, the main one first.
+    pub(super) fn asts(&self) -> impl Iterator<Item = &ast::File> {
+        let used = self.used.iter().map(|parsed| &parsed.ast);
+        std::iter::once(&self.ast).chain(used)
+    }
+
     /// The program with other values for its tunables, in their units. Behaviours, predicates and trees keep their ids.
     /// `None` if it has mistakes under these values.
     pub fn revalued(&self, values: &[f64]) -> Option<Program> {

@@ -4,7 +4,7 @@ use crate::ir::expr::{Draw, Expr, ExprId};
 use crate::ir::law::{Block, Law, Stmt};
 use crate::ir::name;
 use crate::ir::program::{Program, ValueKind};
-use crate::ir::task::{Discount, StartLine, TreeRef};
+use crate::ir::task::{Discount, Objective, StartLine, TreeRef};
 use crate::ir::tree::Tree;
 use std::fmt::Write;
 
@@ -222,14 +222,19 @@ impl Out<'_> {
                 ),
             );
             let (rate, explore) = (self.expr(learner.rate), self.expr(learner.explore));
-            let discount = match learner.discount {
-                Discount::PerDecision(factor) => format!("{factor} per decision"),
-                Discount::PerTime(factor, span) => format!("{factor} per {span} s"),
+            let objective = match learner.objective {
+                Objective::Discounted(Discount::PerDecision(factor)) => {
+                    format!("discount {factor} per decision")
+                }
+                Objective::Discounted(Discount::PerTime(factor, span)) => {
+                    format!("discount {factor} per {span} s")
+                }
+                Objective::Average(span) => format!("average per {span} s"),
             };
             self.line(
                 1,
                 format!(
-                    "{:?} episodes {} of {} ticks, rate {rate}, explore {explore}, discount {discount}, initial {}, \
+                    "{:?} episodes {} of {} ticks, rate {rate}, explore {explore}, {objective}, initial {}, \
                      dwell {}, seed {}",
                     learner.method,
                     learner.episodes,

@@ -117,8 +117,8 @@ pub struct Learner {
     pub rate: ExprId,
     /// The probability of a random choice, a function of `visits` and `progress`.
     pub explore: ExprId,
-    /// How future reward counts.
-    pub discount: Discount,
+    /// What is to be great.
+    pub objective: Objective,
     /// The value of a pair that was never tried; of a minterm that was never acted in, to [`Method::Model`].
     pub initial: f64,
     /// What the policy does in a minterm that it has not learned; the first choice if not said.
@@ -141,6 +141,15 @@ pub enum Method {
     DoubleQ,
     /// Counts of the seen transitions, solved exactly.
     Model,
+}
+
+/// What a policy is to make great.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Objective {
+    /// The discounted sum of rewards.
+    Discounted(Discount),
+    /// The average reward a tick in the long run, told per this many seconds.
+    Average(f64),
 }
 
 /// How future reward counts.

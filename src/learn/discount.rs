@@ -12,6 +12,14 @@ pub struct Discounting {
 }
 
 impl Discounting {
+    /// The factor on what a decision is still to bring after `ticks` ticks, while it is not complete.
+    pub fn within(&self, ticks: u64) -> f64 {
+        match self.discount {
+            Discount::PerDecision(_) => 1.0,
+            Discount::PerTime(..) => self.factor(ticks),
+        }
+    }
+
     /// The factor on all that follows a decision that took `ticks` ticks: γ, or γ^(t/T) in a semi-Markov process whose
     /// time counts (Sutton, Precup and Singh 1999).
     pub fn factor(&self, ticks: u64) -> f64 {

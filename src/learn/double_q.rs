@@ -3,7 +3,7 @@
 
 use super::method::{Decision, Method, Settings};
 use super::process::Key;
-use super::q_table::QTable;
+use super::q_table::{Admission, QTable};
 use super::schedule::Schedule;
 use crate::random::Random;
 
@@ -48,6 +48,14 @@ impl Method for DoubleQ<'_> {
     fn learn(&mut self, decision: &Decision) {
         let Decision { row, choice, .. } = *decision;
         let [a, b] = &mut self.tables;
+        match self.mean.admits(row, choice, decision.is_cut()) {
+            Admission::Refused => return,
+            Admission::Granted => {}
+            Admission::Anew => {
+                a.forget(row, choice);
+                b.forget(row, choice);
+            }
+        }
         let (learns, judges) = if self.coin.chance(0.5) {
             (a, b)
         } else {

@@ -1,5 +1,6 @@
 //! A learner with the world that it learns in: what trains policies and measures them.
 
+use super::average;
 use super::curve::{self, Point};
 use super::discount::Discounting;
 use super::extract::{self, Decided, Decisions};
@@ -7,13 +8,14 @@ use super::greedy;
 use super::method::{self, Settings};
 use super::process::World;
 use super::q_table::QTable;
+use super::record::Record;
 use super::rollout::{Frozen, RollOut, roll_out};
 use super::schedule::Schedule;
 use super::simulated::Purpose;
 use super::statistics::{Mean, Summary};
 use super::train::{Counts, Course, train};
 use crate::ir::program::Event;
-use crate::ir::task::{ClaimKind, Learner, Task, TreeRef};
+use crate::ir::task::{ClaimKind, Learner, Objective, Task, TreeRef};
 use crate::ir::{Id, Program};
 use crate::world::{BuildError, End, Simulator, Start};
 use rayon::prelude::*;
@@ -30,6 +32,8 @@ pub struct Run {
     pub decisions: Decisions,
     /// How much was simulated.
     pub counts: Counts,
+    /// What was met in training.
+    pub record: Record,
     /// The learning curve.
     pub points: Vec<Point>,
 }
@@ -100,10 +104,19 @@ impl<'a> Experiment<'a> {
         }
     }
 
+    /// The length of a tick in seconds.
+    pub fn tick(&self) -> f64 {
+        self.program.world.as_ref().map_or(0.1, |world| world.tick)
+    }
+
     fn discounting(&self) -> Discounting {
+        let tick = self.tick();
         Discounting {
-            discount: self.learner.discount,
-            tick: self.program.world.as_ref().map_or(0.1, |world| world.tick),
+            discount: match self.learner.objective {
+                Objective::Discounted(discount) => discount,
+                Objective::Average(_) => average::discount(tick),
+            },
+            tick,
         }
     }
 
@@ -142,6 +155,7 @@ impl<'a> Experiment<'a> {
                 choices,
                 initial: learner.initial,
                 rate: Schedule::new(pool, learner.rate),
+                average: matches!(learner.objective, Objective::Average(_)),
                 seed,
             },
         );
@@ -162,7 +176,7 @@ impl<'a> Experiment<'a> {
         let proposes = method.proposes();
         // Rounds are measured on other threads while learning goes on.
         let measured: Mutex<Vec<(Point, Option<QTable>)>> = Mutex::default();
-        let counts = rayon::in_place_scope(|scope| {
+        let (counts, record) = rayon::in_place_scope(|scope| {
             let measured = &measured;
             let round = |table: &QTable, counts: &Counts| {
                 let (table, counts) = (table.clone(), *counts);
@@ -193,6 +207,7 @@ impl<'a> Experiment<'a> {
             decisions,
             table,
             counts,
+            record,
             points,
         }
     }

@@ -22,6 +22,9 @@ pub trait Method {
         self.table().greedy(row)
     }
 
+    /// An episode starts in a row.
+    fn begin(&mut self, _row: usize) {}
+
     /// Learns from one decision.
     fn learn(&mut self, decision: &Decision);
 
@@ -53,12 +56,17 @@ pub struct Decision {
 }
 
 impl Decision {
+    /// Whether the tick limit cut it before it was complete.
+    pub fn is_cut(&self) -> bool {
+        self.step.end == End::Cut
+    }
+
     /// The factor on what follows a step: a cut episode would have gone on (truncation), one that an event ended
     /// would not (termination).
     pub fn factor(step: &Step, discounting: &super::discount::Discounting) -> f64 {
         match step.end {
             End::Terminal(_) => 0.0,
-            End::Not | End::Cut => discounting.factor(step.ticks),
+            End::Not | End::Limit | End::Cut => discounting.factor(step.ticks),
         }
     }
 }
@@ -72,6 +80,9 @@ pub struct Settings<'a> {
     pub initial: f64,
     /// The step size; `model` has none.
     pub rate: super::schedule::Schedule<'a>,
+    /// Whether the average reward a tick is to be great, and not the discounted sum: [`task::Method::Model`] alone can do
+    /// that.
+    pub average: bool,
     /// The seed of a method's own random numbers.
     pub seed: u64,
 }

@@ -4,6 +4,7 @@
 //! simulator. [`train`] goes through the episodes, a [`method::Method`] learns from them.
 
 pub mod agreement;
+pub mod average;
 pub mod binomial;
 pub mod bootstrap;
 pub mod curve;
@@ -16,11 +17,13 @@ pub mod extract;
 pub mod greedy;
 pub mod method;
 pub mod model;
+pub mod on_policy;
 pub mod poisson;
 pub mod process;
 pub mod q_learning;
 pub mod q_table;
 pub mod rate;
+pub mod record;
 pub mod rollout;
 pub mod schedule;
 pub mod simulated;

@@ -5,19 +5,25 @@
 //! collected under the policy of the round before, with exploration, and older ones fade: the model describes the process
 //! as the policy meets it.
 
+use super::average;
 use super::method::{Decision, Method, Settings};
 use super::process::Key;
-use super::q_table::QTable;
+use super::q_table::{Admission, QTable};
 use super::solve::{Outlook, Problem};
 
 /// The transitions seen of one choice in one minterm; the counts are real because they fade.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Seen {
     count: f64,
-    /// The sum of the rewards.
-    reward: f64,
-    /// The sum of the factors on what follows, by the row that was found.
-    next: Vec<(usize, f64)>,
+    /// The sums of rewards, of ticks, and of the factors on what follows, by the row that was found.
+    sums: Outlook,
+}
+
+impl Seen {
+    fn fade(&mut self) {
+        self.count *= FADE;
+        self.sums = self.sums.over(1.0 / FADE);
+    }
 }
 
 /// A model with its solution.
@@ -30,6 +36,10 @@ pub struct Model {
     seen: Vec<Seen>,
     /// The decision of the last solution in each row.
     policy: Vec<Option<usize>>,
+    /// Whether the average reward is to be great, and not the discounted sum.
+    average: bool,
+    /// The rows in which episodes started, with their counts.
+    starts: Vec<(usize, f64)>,
 }
 
 /// What remains of a count from one round to the next. Large delivery, explored by 100 % -> 20 %: with 1, policies
@@ -45,24 +55,18 @@ impl Model {
             initial: settings.initial,
             seen: Vec::new(),
             policy: Vec::new(),
+            average: settings.average,
+            starts: Vec::new(),
         }
     }
 
     /// The problem of the frequencies that were seen.
     fn problem(&self) -> Problem {
-        let outlook = |seen: &Seen| Outlook {
-            reward: seen.reward / seen.count,
-            next: seen
-                .next
-                .iter()
-                .map(|&(row, factors)| (row, factors / seen.count))
-                .collect(),
-        };
         let known = |row: &[Seen]| {
             let choices = row.iter().enumerate();
             choices
                 .filter(|(_, seen)| seen.count > 0.0)
-                .map(|(choice, seen)| (choice, outlook(seen)))
+                .map(|(choice, seen)| (choice, seen.sums.over(seen.count)))
                 .collect()
         };
         Problem {
@@ -89,28 +93,53 @@ impl Method for Model {
         self.policy.get(row).copied().flatten()
     }
 
+    fn begin(&mut self, row: usize) {
+        match self.starts.iter_mut().find(|(known, _)| *known == row) {
+            Some((_, count)) => *count += 1.0,
+            None => self.starts.push((row, 1.0)),
+        }
+    }
+
     fn learn(&mut self, decision: &Decision) {
         let Decision {
             row, choice, step, ..
         } = *decision;
-        let target = step.reward + decision.factor * self.table.best_value(decision.next);
+        let admission = self.table.admits(row, choice, decision.is_cut());
+        if admission == Admission::Refused {
+            return;
+        }
+        let cost = self.table.gain * step.ticks as f64;
+        let follows = decision.factor * self.table.best_value(decision.next);
+        let target = step.reward - cost + follows;
         if let Some(cell) = self.table.cell_mut(row, choice) {
             cell.visits += 1;
             cell.squares += target * target;
         }
         if let Some(seen) = self.seen.get_mut(row * self.choices + choice) {
+            if admission == Admission::Anew {
+                *seen = Seen::default();
+            }
             seen.count += 1.0;
-            seen.reward += step.reward;
-            match seen.next.iter_mut().find(|(to, _)| *to == decision.next) {
+            seen.sums.reward += step.reward;
+            seen.sums.ticks += step.ticks as f64;
+            let next = &mut seen.sums.next;
+            match next.iter_mut().find(|(to, _)| *to == decision.next) {
                 Some((_, factors)) => *factors += decision.factor,
-                None => seen.next.push((decision.next, decision.factor)),
+                None => next.push((decision.next, decision.factor)),
             }
         }
     }
 
     fn refit(&mut self) {
-        let problem = self.problem();
-        let solution = problem.solve();
+        let mut problem = self.problem();
+        let solution = if self.average {
+            let (gain, solution) = average::solve(&problem, &self.starts);
+            self.table.gain = gain;
+            problem = problem.at_cost(gain);
+            solution
+        } else {
+            problem.solve()
+        };
         for (row, choices) in problem.states.iter().enumerate() {
             for (choice, outlook) in choices {
                 if let Some(cell) = self.table.cell_mut(row, *choice) {
@@ -120,12 +149,9 @@ impl Method for Model {
         }
         let rows = 0..problem.states.len();
         self.policy = rows.map(|row| self.table.greedy(row)).collect();
-        for seen in &mut self.seen {
-            seen.count *= FADE;
-            seen.reward *= FADE;
-            for (_, factors) in &mut seen.next {
-                *factors *= FADE;
-            }
+        self.seen.iter_mut().for_each(Seen::fade);
+        for (_, count) in &mut self.starts {
+            *count *= FADE;
         }
     }
 

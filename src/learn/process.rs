@@ -51,12 +51,11 @@ pub trait Process {
             let status = self.act(behavior);
             let tick = self.end_tick();
             ticks += 1;
-            if tick.terminated
+            let due = tick.terminated
                 || tick.closed
-                || tick.end.is_some()
                 || ticks >= patience
-                || (ticks >= dwell && self.key() != from)
-            {
+                || (ticks >= dwell && self.key() != from);
+            if due || tick.end.is_some() {
                 return Step {
                     to: self.key(),
                     status,
@@ -66,6 +65,7 @@ pub trait Process {
                     end: match tick.end {
                         None => End::Not,
                         Some(world::End::On(line)) => End::Terminal(line),
+                        Some(world::End::Cut) if due => End::Limit,
                         Some(world::End::Cut) => End::Cut,
                     },
                 };
@@ -112,6 +112,8 @@ pub enum End {
     Not,
     /// This line of the task's `end on`, counted from zero, ended it: nothing follows.
     Terminal(usize),
-    /// The tick limit cut it: the value of what would follow still counts.
+    /// The tick limit cut it as a decision was due: the value of what would follow still counts.
+    Limit,
+    /// The tick limit cut it, and the decision with it: how that would have ended is unknown.
     Cut,
 }

@@ -2,7 +2,7 @@
 
 use super::method::{Decision, Method, Settings};
 use super::process::Key;
-use super::q_table::QTable;
+use super::q_table::{Admission, QTable};
 use super::schedule::Schedule;
 
 /// Q(s, a) ← Q(s, a) + α [r + γ max Q(s′, ·) − Q(s, a)]
@@ -32,8 +32,12 @@ impl Method for QLearning<'_> {
     }
 
     fn learn(&mut self, decision: &Decision) {
+        let Decision { row, choice, .. } = *decision;
+        if self.table.admits(row, choice, decision.is_cut()) == Admission::Refused {
+            return;
+        }
         let target = decision.step.reward + decision.factor * self.table.best_value(decision.next);
-        if let Some(cell) = self.table.cell_mut(decision.row, decision.choice) {
+        if let Some(cell) = self.table.cell_mut(row, choice) {
             cell.visits += 1;
             let rate = self.rate.at(cell.visits as f64, decision.progress);
             cell.q += rate * (target - cell.q);

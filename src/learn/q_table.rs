@@ -6,17 +6,32 @@ use rustc_hash::FxHashMap;
 /// The evidence for one behaviour in one minterm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cell {
-    /// Decisions completed.
+    /// The decisions that its value rests on, see [`QTable::admits`].
     pub visits: u64,
     /// The action value.
     pub q: f64,
     /// The sum of the squares of the targets.
     pub squares: f64,
+    /// Whether the tick limit cut every one of these decisions.
+    pub cut: bool,
+}
+
+/// Whether a decision is to be learned from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Admission {
+    /// It is not.
+    Refused,
+    /// It is.
+    Granted,
+    /// It is, and all that was learned of this choice in this minterm before is to be forgotten.
+    Anew,
 }
 
 /// Q(minterm, choice).
 #[derive(Clone, Debug)]
 pub struct QTable {
+    /// The average reward a tick that the values are relative to; 0 for discounted ones.
+    pub gain: f64,
     choices: usize,
     initial: f64,
     rows: FxHashMap<Key, usize>,
@@ -28,6 +43,7 @@ impl QTable {
     /// An empty table over `choices` choices, whose cells start at `initial`.
     pub fn new(choices: usize, initial: f64) -> Self {
         Self {
+            gain: 0.0,
             choices,
             initial,
             rows: FxHashMap::default(),
@@ -42,14 +58,8 @@ impl QTable {
         let row = *self.rows.entry(key).or_insert(next);
         if row == next {
             self.keys.push(key);
-            self.cells.extend(std::iter::repeat_n(
-                Cell {
-                    visits: 0,
-                    q: self.initial,
-                    squares: 0.0,
-                },
-                self.choices,
-            ));
+            self.cells
+                .extend(std::iter::repeat_n(fresh(self.initial), self.choices));
         }
         row
     }
@@ -71,6 +81,38 @@ impl QTable {
             self.cells.get_mut(row * self.choices + choice)
         } else {
             None
+        }
+    }
+
+    /// Whether a decision that is complete, or that the tick limit cut, is to be learned from.
+    ///
+    /// A decision that was cut shows nothing of what it would have led to. To learn it as a whole one would add a
+    /// transition to the same minterm that never happens, with its reward and its discount, so it is dropped. Where
+    /// every decision of a choice in a minterm was cut there is nothing else to go by: these are learned as if a decision
+    /// had been due at the limit, which says that for so long nothing happened and nothing was gained. The first
+    /// decision that is completed there takes their place.
+    pub fn admits(&mut self, row: usize, choice: usize, cut: bool) -> Admission {
+        let Some(cell) = self.cell_mut(row, choice) else {
+            return Admission::Refused;
+        };
+        match (cut, cell.cut) {
+            (true, false) if cell.visits > 0 => Admission::Refused,
+            (false, true) => {
+                self.forget(row, choice);
+                Admission::Anew
+            }
+            _ => {
+                cell.cut = cut;
+                Admission::Granted
+            }
+        }
+    }
+
+    /// Forgets what is known of a choice.
+    pub fn forget(&mut self, row: usize, choice: usize) {
+        let initial = self.initial;
+        if let Some(cell) = self.cell_mut(row, choice) {
+            *cell = fresh(initial);
         }
     }
 
@@ -97,7 +139,7 @@ impl QTable {
         cells.fold(first, better).0
     }
 
-    /// The number of decisions completed in a row.
+    /// The number of decisions that the values of a row rest on.
     pub fn visits(&self, row: usize) -> u64 {
         self.cells(row).iter().map(|cell| cell.visits).sum()
     }
@@ -123,5 +165,15 @@ impl QTable {
             .collect();
         rows.sort_unstable();
         rows
+    }
+}
+
+/// A cell of which nothing is known.
+fn fresh(initial: f64) -> Cell {
+    Cell {
+        visits: 0,
+        q: initial,
+        squares: 0.0,
+        cut: false,
     }
 }

@@ -32,11 +32,36 @@ pub type Taken = (Key, usize, Status, Option<Key>);
 /// The value of an episode at its start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Worth {
-    /// The value that the policy predicts there.
+    /// The minterm there.
+    pub start: Key,
+    /// The value that the learner predicts for it.
     pub predicted: f64,
-    /// The discounted sum of its rewards. Where the tick limit cut the episode, the prediction stands for what
-    /// would follow.
+    /// The discounted sum of its rewards, as far as it went.
     pub simulated: f64,
+    /// Where the tick limit cut the episode: the minterm that held, and the discount of what would follow.
+    pub rest: Option<(Key, f64)>,
+}
+
+/// What decisions in one minterm led to that found the same minterm after them, or ended their episodes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Outcome {
+    /// How many there were.
+    pub count: u64,
+    /// The sum of their rewards.
+    pub reward: f64,
+    /// The sum of the discounts of what followed.
+    pub factor: f64,
+    /// The sum of their ticks.
+    pub ticks: u64,
+}
+
+impl Outcome {
+    fn add(&mut self, other: &Self) {
+        self.count += other.count;
+        self.reward += other.reward;
+        self.factor += other.factor;
+        self.ticks += other.ticks;
+    }
 }
 
 /// What a policy met, with counts.
@@ -46,6 +71,8 @@ pub struct RollOut {
     pub starts: BTreeMap<Key, u64>,
     /// The decisions. Those that the tick limit cut are left out: their outcome is unknown.
     pub taken: BTreeMap<Taken, u64>,
+    /// What the complete decisions of each minterm led to, by the minterm found after them if the episode went on.
+    pub outcomes: BTreeMap<(Key, Option<Key>), Outcome>,
     /// The figures of the episodes, in their order.
     pub episodes: Vec<Episode>,
     /// Their values, in the same order.
@@ -59,6 +86,9 @@ impl RollOut {
         }
         for (taken, count) in other.taken {
             *self.taken.entry(taken).or_default() += count;
+        }
+        for (way, outcome) in other.outcomes {
+            self.outcomes.entry(way).or_default().add(&outcome);
         }
         self.episodes.extend(other.episodes);
         self.worth.extend(other.worth);
@@ -107,6 +137,7 @@ fn play(process: &mut impl Process, policy: &Frozen, met: &mut RollOut) {
         None => (policy.unseen, false),
     };
     let mut key = process.key();
+    let start = key;
     *met.starts.entry(key).or_default() += 1;
     let predicted = look(&key).0.value;
     let (mut ticks, mut total, mut outside) = (0, 0.0, 0);
@@ -120,30 +151,44 @@ fn play(process: &mut impl Process, policy: &Frozen, met: &mut RollOut) {
         let step = process.decide(*behavior, policy.patience, 0);
         ticks += step.ticks;
         total += step.reward;
-        simulated += weight * step.reward;
-        weight *= policy.discounting.factor(step.ticks);
+        let factor = policy.discounting.factor(step.ticks);
+        let whole = step.end != End::Cut;
+        if whole {
+            simulated += weight * step.reward;
+            weight *= factor;
+        } else {
+            weight *= policy.discounting.within(step.ticks);
+        }
         if !seen {
             outside += step.ticks;
         }
         let (to, end) = match step.end {
             End::Not => (Some(step.to), None),
             End::Terminal(line) => (None, Some(world::End::On(line))),
+            End::Limit => (Some(step.to), Some(world::End::Cut)),
             End::Cut => (None, Some(world::End::Cut)),
         };
-        if step.end != End::Cut {
+        if end != Some(world::End::Cut) {
             *met.taken.entry((key, choice, step.status, to)).or_default() += 1;
+        }
+        if whole {
+            met.outcomes.entry((key, to)).or_default().add(&Outcome {
+                count: 1,
+                reward: step.reward,
+                factor,
+                ticks: step.ticks,
+            });
         }
         key = step.to;
         if let Some(end) = end {
             break (end, step.reward);
         }
     };
-    if end == world::End::Cut {
-        simulated += weight * look(&key).0.value;
-    }
     met.worth.push(Worth {
+        start,
         predicted,
         simulated,
+        rest: (end == world::End::Cut).then_some((key, weight)),
     });
     met.episodes.push(Episode {
         ticks,

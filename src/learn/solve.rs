@@ -7,9 +7,23 @@ use nalgebra::{DMatrix, DVector};
 pub struct Outlook {
     /// The expected reward.
     pub reward: f64,
+    /// The expected ticks.
+    pub ticks: f64,
     /// The states that may follow, each with its probability times the expected discount on the way to it. A part that
     /// is missing from the sum of a probability distribution is the end, or discounted away.
     pub next: Vec<(usize, f64)>,
+}
+
+impl Outlook {
+    /// The means of these sums over `count` decisions.
+    pub fn over(&self, count: f64) -> Self {
+        let next = self.next.iter();
+        Self {
+            reward: self.reward / count,
+            ticks: self.ticks / count,
+            next: next.map(|&(to, factors)| (to, factors / count)).collect(),
+        }
+    }
 }
 
 /// A problem: for each state, the choices that are known there, by their numbers.
@@ -51,13 +65,36 @@ impl Problem {
         outlook.reward + next.map(|&(to, weight)| weight * value(to)).sum::<f64>()
     }
 
+    /// The policy that takes the first choice of every state.
+    pub fn first(&self) -> Vec<Option<usize>> {
+        let choices = self.states.iter();
+        choices
+            .map(|choices| (!choices.is_empty()).then_some(0))
+            .collect()
+    }
+
+    /// The same problem where each tick costs so much.
+    pub fn at_cost(&self, cost: f64) -> Self {
+        self.with(self.unknown, |o| o.reward - cost * o.ticks)
+    }
+
+    /// The same problem with ticks for its rewards, and no ticks in states without choices.
+    pub fn of_ticks(&self) -> Self {
+        self.with(0.0, |o| o.ticks)
+    }
+
+    fn with(&self, unknown: f64, reward: impl Fn(&Outlook) -> f64) -> Self {
+        let mut problem = self.clone();
+        problem.unknown = unknown;
+        for (_, outlook) in problem.states.iter_mut().flatten() {
+            outlook.reward = reward(outlook);
+        }
+        problem
+    }
+
     /// Policy iteration: evaluates exactly, takes what is better, until nothing is.
     pub fn solve(&self) -> Solution {
-        let mut policy: Vec<Option<usize>> = self
-            .states
-            .iter()
-            .map(|choices| (!choices.is_empty()).then_some(0))
-            .collect();
+        let mut policy = self.first();
         let mut values = self.evaluate(&policy);
         for _ in 0..IMPROVEMENTS {
             if !self.improve(&mut policy, &values) {

@@ -5,6 +5,7 @@ use super::discount::Discounting;
 use super::method::{Decision, Method};
 use super::process::{End, Process};
 use super::q_table::QTable;
+use super::record::Record;
 use super::schedule::Schedule;
 use crate::ir::Id;
 use crate::ir::law::Behavior;
@@ -40,6 +41,8 @@ pub struct Counts {
     pub episodes: u64,
     /// Decisions completed.
     pub decisions: u64,
+    /// Decisions that the limit of an episode cut.
+    pub cut: u64,
     /// Ticks simulated.
     pub ticks: u64,
 }
@@ -55,8 +58,9 @@ pub fn train(
     course: &Course,
     mut round: impl FnMut(&QTable, &Counts),
     mut progress: impl FnMut(),
-) -> Counts {
+) -> (Counts, Record) {
     let mut counts = Counts::default();
+    let mut record = Record::default();
     let mut random = Random::new(course.seed, EXPLORATION, 0);
     for episode in 0..course.episodes {
         let share = episode as f64 / course.episodes as f64;
@@ -65,14 +69,16 @@ pub fn train(
             ..course.start
         });
         counts.episodes += 1;
-        play(process, method, course, share, &mut random, &mut counts);
+        let met = (&mut counts, &mut record);
+        play(process, method, course, share, &mut random, met);
+        record.episode(process.events());
         if curve::due(episode, course.episodes) {
             method.refit();
             round(method.table(), &counts);
         }
         progress();
     }
-    counts
+    (counts, record)
 }
 
 /// Plays the episode that has started.
@@ -82,9 +88,10 @@ fn play(
     course: &Course,
     progress: f64,
     random: &mut Random,
-    counts: &mut Counts,
+    (counts, record): (&mut Counts, &mut Record),
 ) {
     let mut row = method.row(process.key());
+    method.begin(row);
     loop {
         let visits = method.table().visits(row);
         let epsilon = course.explore.at(visits as f64, progress);
@@ -97,8 +104,12 @@ fn play(
             return;
         };
         let step = process.decide(*behavior, course.patience, course.dwell);
-        counts.decisions += 1;
+        match step.end {
+            End::Cut => counts.cut += 1,
+            _ => counts.decisions += 1,
+        }
         counts.ticks += step.ticks;
+        record.decision(choice, &step);
         let next = method.row(step.to);
         method.learn(&Decision {
             row,

@@ -2,6 +2,7 @@
 
 use super::ends::Ended;
 use super::results::Results;
+use super::value::Value;
 use super::words::{self, end_names};
 use crate::learn::binomial::upper95;
 use crate::learn::bootstrap::quantile;
@@ -190,15 +191,13 @@ impl Report<'_> {
         self.line("proved", format!("on {}", self.results.proved()));
     }
 
-    /// The predicted value of the episodes and the simulated one.
+    /// What the policy is worth, predicted and simulated.
     fn worth(&mut self) {
-        let [predicted, simulated] = self.results.worth();
-        let [low, high] = simulated.ci95;
-        let text = format!(
-            "{:.3} predicted, {:.3} simulated, 95 % [{low:.3}, {high:.3}], discounted from the start",
-            predicted.mean, simulated.mean
-        );
-        self.line("value", text);
+        let value = Value::of(self.results);
+        self.line("value", value.text());
+        for why in value.why {
+            self.line("", why);
+        }
     }
 
     fn figures(&mut self, summary: &Summary, what: &str) {

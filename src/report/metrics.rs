@@ -3,11 +3,12 @@
 use super::episodes::Episodes;
 use super::json::{self, Named};
 use super::results::Results;
+use super::value::Value;
 use super::{simplified, words};
 use crate::ir::{Name, task};
 use crate::learn::agreement::Disputed;
 use crate::learn::binomial::upper95;
-use crate::learn::statistics::{Mean, Summary};
+use crate::learn::statistics::Summary;
 use crate::learn::train::Counts;
 use crate::policy::Minterm;
 use crate::tree::Size;
@@ -21,6 +22,8 @@ pub struct Request<'a> {
     pub source: &'a str,
     /// The SHA-256 of every file of the program in hexadecimal digits, by its name without folders.
     pub sha256: &'a [(String, String)],
+    /// The warnings on the result, each with its code.
+    pub warnings: &'a [(String, String)],
     /// The number of greedy episodes that show the transitions of the policy.
     pub roll_outs: u64,
     /// How the tree is found.
@@ -49,6 +52,7 @@ struct Metrics<'a> {
     tree: Size,
     paper_tree: Option<Size>,
     proof: Proof,
+    warnings: Vec<Warning<'a>>,
     care_sets: CareSets,
     simplified: Option<simplified::Document<'a>>,
     greedy: Episodes,
@@ -62,6 +66,13 @@ struct Metrics<'a> {
     seeds: Option<Vec<Seed>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     agreement: Option<Agreement>,
+}
+
+/// A warning on the result.
+#[derive(Serialize)]
+struct Warning<'a> {
+    code: &'a str,
+    message: &'a str,
 }
 
 #[derive(Serialize)]
@@ -82,12 +93,6 @@ struct CareSet {
     minterms: usize,
     tree: Size,
     paper_tree: Option<Size>,
-}
-
-#[derive(Serialize)]
-struct Value {
-    predicted: Mean,
-    simulated: Mean,
 }
 
 /// Ticks in minterms that were never learned, or outside of the care set.
@@ -175,7 +180,6 @@ impl<'a> Writer<'a> {
         let experiment = results.experiment;
         let found = results.trees.chosen();
         let run = results.run();
-        let [predicted, simulated] = results.worth();
         let hashes = request.sha256.iter();
         let simplified = results.simplified.as_ref();
         Metrics {
@@ -202,6 +206,11 @@ impl<'a> Writer<'a> {
                 transitions: found.proof.transitions,
                 closed: found.proof.closed,
             },
+            warnings: request
+                .warnings
+                .iter()
+                .map(|(code, message)| Warning { code, message })
+                .collect(),
             care_sets: CareSets {
                 seen: care_set(&results.trees.seen),
                 reachable: care_set(&results.trees.reachable),
@@ -210,10 +219,7 @@ impl<'a> Writer<'a> {
                 simplified::Document::new(simplified, experiment.program, experiment.task)
             }),
             greedy: self.episodes(&results.summary),
-            value: Value {
-                predicted,
-                simulated,
-            },
+            value: Value::of(results),
             outside: outside(&results.summary),
             evidence: self.evidence(),
             failing: self.failing(),

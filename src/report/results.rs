@@ -3,10 +3,11 @@
 use crate::learn::agreement::Agreement;
 use crate::learn::curve::Point;
 use crate::learn::experiment::{Experiment, Run};
-use crate::learn::rollout::{RollOut, Worth};
-use crate::learn::statistics::{Mean, Summary};
+use crate::learn::rollout::RollOut;
+use crate::learn::statistics::Summary;
 use crate::policy::{Minterm, Policy};
 use crate::simplify::Simplified;
+use crate::tree::Size;
 use crate::tree::decanonicalise::{Care, Decanonicalised};
 
 /// Everything that learning found.
@@ -57,17 +58,38 @@ impl Trees {
     }
 }
 
+/// The tree that is printed, with what is known of it.
+#[derive(Clone, Debug)]
+pub struct Printed<'r> {
+    /// The figures of its episodes.
+    pub summary: &'r Summary,
+    /// Its size.
+    pub size: Size,
+    /// What was proved of it, or that it was tested.
+    pub evidence: String,
+}
+
 impl Results<'_> {
+    /// The tree that is printed. The exact tree takes the decisions of the policy, so the episodes of the policy are its
+    /// own, unless it was tested in others.
+    pub fn printed(&self) -> Printed<'_> {
+        match &self.simplified {
+            Some(simplified) => Printed {
+                summary: &simplified.after.summary,
+                size: simplified.after.size,
+                evidence: "tested, not proved".to_owned(),
+            },
+            None => Printed {
+                summary: self.tested.as_ref().unwrap_or(&self.summary),
+                size: self.trees.chosen().size,
+                evidence: format!("proved on {}", self.proved()),
+            },
+        }
+    }
+
     /// The run that was taken.
     pub fn run(&self) -> Option<&Run> {
         self.runs.get(self.best)
-    }
-
-    /// Predicted and simulated value of the greedy episodes.
-    pub fn worth(&self) -> [Mean; 2] {
-        let worth = &self.met.worth;
-        let of = |value: fn(&Worth) -> f64| Mean::of(&worth.iter().map(value).collect::<Vec<_>>());
-        [of(|w| w.predicted), of(|w| w.simulated)]
     }
 
     /// The learning curve of each run, by its seed.

@@ -48,13 +48,18 @@ pub fn failing(program: &Program, policy: &Policy, failing: &Failing) -> String 
         Some(id) => program.behaviors[*id].name.to_string(),
         None => "nothing".to_owned(),
     });
+    let then: Vec<String> = then.collect();
+    // No path of the tree may come here with this failure.
+    let then = match then.is_empty() {
+        true => String::new(),
+        false => format!("; the tree goes on to {}", then.join(" or ")),
+    };
     format!(
-        "{} failed outright {} times ({} with no change) in {}; the tree goes on to {}",
+        "{} failed outright {} times ({} with no change) in {}{then}",
         program.behaviors[failing.behavior].name,
         failing.count,
         failing.repeated,
         minterm(program, &policy.atoms, &failing.minterm),
-        then.collect::<Vec<_>>().join(" or "),
     )
 }
 

@@ -38,7 +38,7 @@ fn codes(diagnostics: &[Diagnostic]) -> Vec<Code> {
 }
 
 /// The codes that loading a program does not meet; each has a test below.
-const LATER: [Code; 17] = [
+const LATER: [Code; 24] = [
     Code::E0130,
     Code::E0409,
     Code::E0504,
@@ -56,6 +56,13 @@ const LATER: [Code; 17] = [
     Code::E0819,
     Code::E0821,
     Code::E0822,
+    Code::W0502, // this and those below: what learning finds
+    Code::W0503,
+    Code::W0504,
+    Code::W0505,
+    Code::W0506,
+    Code::W0507,
+    Code::W0508,
 ];
 
 #[test]
@@ -147,6 +154,21 @@ fn nothing_is_learned() {
     let found = learned(&loaded, Some(0)).unwrap_err();
     assert_eq!(codes(&found.diagnostics), [code]);
     assert!(learned(&right(code), None).is_ok());
+}
+
+/// W0502–W0508: what is told of a result.
+#[test]
+fn what_learning_finds() {
+    let of = |loaded: &Loaded| codes(&learned(loaded, None).unwrap().warnings);
+    let code = |code: &&Code| (Code::W0502..=Code::W0508).contains(code);
+    for code in Code::ALL.iter().filter(code) {
+        let loaded = wrong(*code);
+        assert_eq!(program::shown(&loaded), "", "{code}");
+        let found = of(&loaded);
+        assert!(found.contains(code), "{code}: {found:?}");
+        let found = of(&right(*code));
+        assert!(!found.contains(code), "{code}: {found:?}");
+    }
 }
 
 /// E0610: a table that was recorded for another task.

@@ -7,3 +7,4 @@ mod runs;
 mod solving;
 mod statistics;
 mod toys;
+mod traps;

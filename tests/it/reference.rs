@@ -122,7 +122,7 @@ fn the_examples_are_laid_out() {
 /// Every built-in name and every setting that the checker offers is on the page.
 #[test]
 fn the_page_names_everything() {
-    let settings = "method episodes rate initial discount explore unseen dwell seed";
+    let settings = "method episodes rate initial objective discount explore unseen dwell seed";
     let words = "selector sequence parallel invert succeed fail retry repeat timeout memory";
     for word in settings.split(' ').chain(words.split(' ')) {
         assert!(PAGE.contains(&format!("`{word}")), "{word}");

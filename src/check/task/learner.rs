@@ -7,15 +7,24 @@ use crate::check::types::Type;
 use crate::diagnostic::Code;
 use crate::ir::expr::{Binary, Expr, ExprId};
 use crate::ir::law::Behavior;
-use crate::ir::task::{Discount, Learner, Method};
+use crate::ir::task::{Discount, Learner, Method, Objective};
 use crate::ir::{Id, Name};
 use crate::source::Span;
 use crate::syntax::ast::{self, ExprKind, LearnEntry, Link, Ref, Setting};
 use std::collections::BTreeMap;
 
 /// The settings of a learner.
-const SETTINGS: [&str; 9] = [
-    "method", "episodes", "rate", "initial", "discount", "explore", "unseen", "dwell", "seed",
+const SETTINGS: [&str; 10] = [
+    "method",
+    "episodes",
+    "rate",
+    "initial",
+    "objective",
+    "discount",
+    "explore",
+    "unseen",
+    "dwell",
+    "seed",
 ];
 
 /// The methods, by name.
@@ -45,7 +54,7 @@ impl<'a> Checker<'a> {
             episode_ticks: task.map_or(0, |task| self.program.tasks[task].end_after),
             rate,
             explore,
-            discount: Discount::PerDecision(0.95),
+            objective: Objective::Discounted(Discount::PerDecision(0.95)),
             initial: 0.0,
             unseen: None,
             seed: 1,
@@ -81,6 +90,21 @@ impl<'a> Checker<'a> {
             self.warning(Code::W0501, *rate, "the method `model` takes no steps")
                 .label("this has no effect here");
         }
+        if let (Objective::Average(_), Some(at)) = (built.objective, seen.get("objective")) {
+            if built.method != Method::Model {
+                let help = "say `method = model`, or give a `discount`";
+                self.error(
+                    Code::E0501,
+                    *at,
+                    "only the method `model` learns an average",
+                )
+                .label("an average of the reward is to be great")
+                .help(help);
+            } else if let Some(discount) = seen.get("discount") {
+                self.warning(Code::W0501, *discount, "an average has no discount")
+                    .label("this has no effect here");
+            }
+        }
         if !seen.contains_key("episodes") {
             let example = "episodes = 4_000";
             self.missing(
@@ -100,7 +124,7 @@ impl<'a> Checker<'a> {
         let name = setting.name.name.as_str();
         let allowed: &[Link] = match name {
             "episodes" => &[Link::Of],
-            "discount" => &[Link::Per],
+            "discount" | "objective" => &[Link::Per],
             "rate" | "explore" => &[Link::Arrow],
             _ => &[],
         };
@@ -144,8 +168,14 @@ impl<'a> Checker<'a> {
                 learner.initial = initial.unwrap_or(learner.initial);
             }
             "discount" => {
-                let discount = self.discount(value, tail);
-                learner.discount = discount.unwrap_or(learner.discount);
+                let average = matches!(learner.objective, Objective::Average(_));
+                if let (Some(discount), false) = (self.discount(value, tail), average) {
+                    learner.objective = Objective::Discounted(discount);
+                }
+            }
+            "objective" => {
+                let objective = self.objective(value, tail);
+                learner.objective = objective.unwrap_or(learner.objective);
             }
             "unseen" => learner.unseen = self.unseen(value),
             "dwell" => learner.dwell = self.ticks(value, "`dwell`").unwrap_or(learner.dwell),
@@ -260,6 +290,43 @@ impl<'a> Checker<'a> {
         let rise = pool.binary(Binary::Sub, to, from);
         let risen = pool.binary(Binary::Mul, rise, progress);
         pool.binary(Binary::Add, from, risen)
+    }
+
+    /// `average per 1 s`
+    fn objective(
+        &mut self,
+        value: &'a ast::Expr,
+        tail: Option<&'a ast::Expr>,
+    ) -> Option<Objective> {
+        match (&value.kind, tail) {
+            (
+                ExprKind::Ref(Ref {
+                    name, args: None, ..
+                }),
+                Some(tail),
+            ) if name.name == "average" => {
+                let seconds = self.constant(tail, &Type::TIME, "the time of an average")?;
+                if seconds > 0.0 {
+                    return Some(Objective::Average(seconds));
+                }
+                self.out_of_range(
+                    tail.span,
+                    "the time of an average is above zero",
+                    "no time passes in this",
+                )
+                .none()
+            }
+            (ExprKind::Error, _) => None,
+            _ => self
+                .error(
+                    Code::E0501,
+                    value.span,
+                    "an objective is `average per` a time",
+                )
+                .label("this is something else")
+                .help("say `objective = average per 1 s`, or a `discount` for a discounted sum")
+                .none(),
+        }
     }
 
     /// `d per decision`, `d per 1 s`

@@ -1,6 +1,6 @@
 //! The files that `btc learn` writes.
 
-use super::{Learned, Options};
+use super::{Learned, Options, warnings};
 use crate::driver::Refused;
 use crate::driver::export;
 use crate::driver::load::Loaded;
@@ -55,15 +55,21 @@ pub(super) fn written(
     let item = bt::tree(program, &learned);
     text.push_str(&item);
     let curves = results.curves();
+    let warnings = warnings::warnings(loaded, &results);
     let policy = &results.policy;
     let written = |form| {
         let place = |_: &[usize]| target::end_of_file(loaded);
         export::tree(program, &learned, form, place)
             .map_err(|mistake| Refused::program(loaded, [mistake]))
     };
+    let told: Vec<(String, String)> = warnings
+        .iter()
+        .map(|warning| (warning.code.name().to_owned(), warning.message.clone()))
+        .collect();
     let request = metrics::Request {
         source: options.source,
         sha256: &hashes(loaded),
+        warnings: &told,
         roll_outs: options.roll_outs,
         method: options.method,
         care: options.care,
@@ -87,7 +93,9 @@ pub(super) fn written(
     Ok(Learned {
         text: item,
         files,
+        headline: report::headline::lines(&results),
         report: report::learned::lines(&results),
+        warnings,
         tree: learned,
         learner: id,
         curves,

@@ -8,7 +8,7 @@ use btc::ir::{Expr, Id, Pool};
 use btc::learn::discount::Discounting;
 use btc::learn::method::{self, Settings};
 use btc::learn::process::{End, Key, Process};
-use btc::learn::q_table::QTable;
+use btc::learn::q_table::{Admission, QTable};
 use btc::learn::schedule::Schedule;
 use btc::learn::train::{Course, train};
 use btc::world::Start;
@@ -36,6 +36,7 @@ fn learned(
             choices,
             initial: 0.0,
             rate: Schedule::new(&pool, rate),
+            average: false,
             seed: 3,
         },
     );
@@ -94,11 +95,11 @@ fn an_arm_is_worth_its_mean() {
 }
 
 #[test]
-fn a_cut_episode_would_have_gone_on_and_an_ended_one_not() {
+fn an_episode_at_its_limit_would_have_gone_on_and_an_ended_one_not() {
     for kind in ALL {
         let of = |end| learned(kind, &mut toys::single(end), 1, PER_DECISION, (4000, 0.5));
         close(q(&of(End::Terminal(0)), 0, 0), 1.0, 1e-9, kind);
-        close(q(&of(End::Cut), 0, 0), 10.0, 0.01, kind);
+        close(q(&of(End::Limit), 0, 0), 10.0, 0.01, kind);
     }
 }
 
@@ -106,7 +107,7 @@ fn a_cut_episode_would_have_gone_on_and_an_ended_one_not() {
 fn time_discounts_by_how_long_a_decision_took() {
     // 20 ticks of 0.1 s at 0.9 a second: 0.81 a decision.
     for kind in ALL {
-        let mut process = toys::single(End::Cut);
+        let mut process = toys::single(End::Limit);
         let table = learned(
             kind,
             &mut process,
@@ -116,6 +117,41 @@ fn time_discounts_by_how_long_a_decision_took() {
         );
         close(q(&table, 0, 0), 1.0 / (1.0 - 0.81), 0.01, kind);
     }
+}
+
+#[test]
+fn a_decision_that_was_cut_is_not_learned_as_a_whole_one() {
+    for kind in ALL {
+        let table = learned(kind, &mut toys::often_cut(), 2, PER_DECISION, (4000, 0.5));
+        // Half of the decisions of choice 0 are cut. Those that are not bring 4 and end the episode.
+        close(q(&table, 0, 0), 4.0, 1e-9, kind);
+        // All of choice 1 are cut: as long as nothing else is known, it brings −0.1 and the same minterm again.
+        close(q(&table, 0, 1), -0.1 + 0.9 * 4.0, 0.1, kind);
+        let cells = table.cells(table.find(0).unwrap());
+        assert_eq!([cells[0].cut, cells[1].cut], [false, true], "{kind:?}");
+        assert_eq!(table.greedy(table.find(0).unwrap()), Some(0));
+    }
+}
+
+#[test]
+fn the_first_whole_decision_takes_the_place_of_cut_ones() {
+    let mut table = QTable::new(1, 0.5);
+    let row = table.row(0);
+    let mut meet = |cut| {
+        let admission = table.admits(row, 0, cut);
+        if admission != Admission::Refused {
+            let cell = table.cell_mut(row, 0).unwrap();
+            cell.visits += 1;
+            cell.q = if cut { -1.0 } else { 2.0 };
+        }
+        let cell = table.cells(row)[0];
+        (admission, cell.visits, cell.q)
+    };
+    assert_eq!(meet(true), (Admission::Granted, 1, -1.0));
+    assert_eq!(meet(true), (Admission::Granted, 2, -1.0));
+    assert_eq!(meet(false), (Admission::Anew, 1, 2.0));
+    assert_eq!(meet(true), (Admission::Refused, 1, 2.0));
+    assert_eq!(meet(false), (Admission::Granted, 2, 2.0));
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Exact solutions against naive ones.
 
+use btc::learn::average;
 use btc::learn::solve::{Outlook, Problem};
 use btc::random::Random;
 
@@ -16,6 +17,7 @@ fn random_problem(random: &mut Random, states: usize, discount: f64) -> Problem 
         }
         Outlook {
             reward: random.gaussian(),
+            ticks: (1 + random.below(40)) as f64,
             next,
         }
     };
@@ -95,7 +97,12 @@ fn more_states_than_are_eliminated_are_swept() {
                 } else {
                     vec![]
                 };
-                vec![(0, Outlook { reward: 1.0, next })]
+                let outlook = Outlook {
+                    reward: 1.0,
+                    ticks: 1.0,
+                    next,
+                };
+                vec![(0, outlook)]
             })
             .collect(),
         unknown: 0.0,
@@ -111,6 +118,7 @@ fn more_states_than_are_eliminated_are_swept() {
 fn without_discount_and_end_there_is_an_answer_still() {
     let forever = Outlook {
         reward: -1.0,
+        ticks: 1.0,
         next: vec![(0, 1.0)],
     };
     let problem = Problem {
@@ -120,4 +128,63 @@ fn without_discount_and_end_there_is_an_answer_still() {
     let solution = problem.solve();
     assert_eq!(solution.policy, [Some(0)]);
     assert!(solution.values[0] < -1000.0 && solution.values[0].is_finite());
+}
+
+#[test]
+fn the_average_is_the_greatest_of_all_policies() {
+    let mut random = Random::new(3, 0, 0);
+    for _ in 0..60 {
+        let problem = random_problem(&mut random, 5, 1.0);
+        let starts = [(0, 3.0), (2, 1.0)];
+        let (average, solution) = average::solve(&problem, &starts);
+        let of = |policy: &[Option<usize>]| average::gain(&problem, policy, &starts);
+        assert!((of(&solution.policy) - average).abs() < 1e-9);
+        let all = policies(&problem);
+        let best = all
+            .iter()
+            .map(|policy| of(policy))
+            .fold(f64::NEG_INFINITY, f64::max);
+        assert!((average - best).abs() < 1e-9, "{average} is not {best}");
+    }
+}
+
+/// Every policy of a problem.
+fn policies(problem: &Problem) -> Vec<Vec<Option<usize>>> {
+    let mut policies = vec![Vec::new()];
+    for choices in &problem.states {
+        let n = choices.len();
+        let taken: Vec<Option<usize>> = match n {
+            0 => vec![None],
+            _ => (0..n).map(Some).collect(),
+        };
+        let with = |policy: &Vec<Option<usize>>| -> Vec<Vec<Option<usize>>> {
+            let longer = taken
+                .iter()
+                .map(|&choice| [policy.as_slice(), &[choice]].concat());
+            longer.collect()
+        };
+        policies = policies.iter().flat_map(with).collect();
+    }
+    policies
+}
+
+/// One way brings 1 in 2 ticks, the other 3 in 10: the sum of a discounted decision is for the second, the average of
+/// a tick for the first.
+#[test]
+fn an_average_counts_the_time() {
+    let again = |reward, ticks| Outlook {
+        reward,
+        ticks,
+        next: vec![(0, 0.9)],
+    };
+    let problem = Problem {
+        states: vec![vec![(0, again(3.0, 10.0)), (1, again(1.0, 2.0))]],
+        unknown: 0.0,
+    };
+    assert_eq!(problem.solve().policy, [Some(0)]);
+    let (average, solution) = average::solve(&problem, &[(0, 1.0)]);
+    assert_eq!(solution.policy, [Some(1)]);
+    assert!((average - 0.5).abs() < 1e-12);
+    // A start is worth nothing over the average.
+    assert!(solution.values[0].abs() < 1e-9);
 }

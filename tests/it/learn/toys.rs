@@ -103,6 +103,19 @@ pub(crate) fn single(end: End) -> Toy<impl FnMut(Key, usize, &mut Random) -> Sai
     Toy::new(0, move |_, _, _| (0, 1.0, 20, end))
 }
 
+/// A single state. Choice 0 brings 4 and ends the episode, but the limit cuts every second decision before it has; choice 1
+/// is always cut.
+pub(crate) fn often_cut() -> Toy<impl FnMut(Key, usize, &mut Random) -> Said> {
+    let mut even = false;
+    Toy::new(0, move |_, choice, _| {
+        even = choice == 0 && !even;
+        match even {
+            true => (0, 4.0, 5, End::Terminal(0)),
+            false => (0, -0.1, 20, End::Cut),
+        }
+    })
+}
+
 /// Maximisation bias (Sutton and Barto 2018, example 6.7): from state 0, choice 0 ends with 0 and choice 1 leads to
 /// state 1, from where each of ten choices ends with noise of mean −0.1.
 pub(crate) fn biased() -> Toy<impl FnMut(Key, usize, &mut Random) -> Said> {

@@ -1,0 +1,289 @@
+//! What a person should know of a result before they trust it.
+
+use super::places::Places;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::driver::load::Loaded;
+use crate::ir::program::Event;
+use crate::ir::task::{RewardLine, Task};
+use crate::ir::{Expr, ExprId, Id, Program};
+use crate::learn::curve::Point;
+use crate::learn::poisson::interval95;
+use crate::learn::statistics::Mean;
+use crate::report::ends::Ended;
+use crate::report::results::Results;
+use crate::report::words::{self, end_names};
+
+/// Decisions for a behaviour that are enough to see whether it ever succeeds.
+const TRIED: u64 = 20;
+
+/// How much more frequent an end has to be than in training.
+const MORE: f64 = 3.0;
+
+/// The part of ticks or decisions without evidence that is too much.
+const UNKNOWN: f64 = 0.01;
+
+/// The part of the last return that the last quarter of a curve may gain.
+const RISE: f64 = 0.02;
+
+/// The warnings on what was learned, each at its place in the program.
+pub(super) fn warnings(loaded: &Loaded, results: &Results) -> Vec<Diagnostic> {
+    let experiment = results.experiment;
+    let warner = Warner {
+        program: experiment.program,
+        task: experiment.task,
+        places: Places::of(loaded, experiment.learner, experiment.task),
+        results,
+    };
+    let Some(run) = results.run() else {
+        return Vec::new();
+    };
+    if !run.record.rewarded {
+        return vec![warner.worthless()];
+    }
+    let mut found = warner.never_succeeded();
+    found.extend(warner.never_happened());
+    found.extend(warner.given_up());
+    found.extend(warner.more_ends());
+    found.extend(warner.little_evidence());
+    found.extend(warner.rising(&run.points));
+    found.extend(warner.repeated());
+    found
+}
+
+struct Warner<'a> {
+    program: &'a Program,
+    task: &'a Task,
+    places: Places<'a>,
+    results: &'a Results<'a>,
+}
+
+impl Warner<'_> {
+    fn worthless(&self) -> Diagnostic {
+        let message = "no transition had a reward other than 0, so any tree is as good as this one";
+        Diagnostic::new(Code::W0505, self.places.rewards(), message)
+            .label("nothing here was ever paid")
+    }
+
+    /// Behaviours that could succeed and never did.
+    fn never_succeeded(&self) -> Vec<Diagnostic> {
+        let record = self.results.run().map(|run| &run.record);
+        let tried = record.map_or(&[][..], |record| &record.tried);
+        let behaviors = self.task.choose.iter().zip(tried).enumerate();
+        let never = behaviors.filter(|(_, (id, tried))| {
+            let law = self.program.behaviors[**id].law.as_ref();
+            let succeeds = law.is_some_and(|law| !self.is_false(law.succeed));
+            succeeds && tried.count >= TRIED && tried.succeeded == 0
+        });
+        let warning = |(at, (id, tried)): (usize, (&Id<_>, &crate::learn::record::Tried))| {
+            let name = &self.program.behaviors[*id].name;
+            let message = format!(
+                "`{name}` was tried {} times in training and never succeeded",
+                tried.count
+            );
+            let others = tried.count - tried.failed;
+            Diagnostic::new(Code::W0502, self.places.choice(at), message)
+                .label("the robot may be unable to do this")
+                .note(format!(
+                    "it failed {} times; {others} times another decision was due before it had ended",
+                    tried.failed
+                ))
+        };
+        never.map(warning).collect()
+    }
+
+    fn is_false(&self, id: ExprId) -> bool {
+        matches!(self.program.pool.get(id), Expr::Bool(false))
+    }
+
+    /// The lines that pay for an event, with the event.
+    fn paying(&self) -> impl Iterator<Item = (usize, &RewardLine, Id<Event>)> {
+        let lines = self.task.reward.iter().enumerate();
+        lines.filter_map(|(at, line)| {
+            let pays = match self.program.pool.get(line.value) {
+                Expr::Num(value) => value > 0.0,
+                _ => false,
+            };
+            match self.program.pool.get(line.event) {
+                Expr::Event(event) if pays => Some((at, line, event)),
+                _ => None,
+            }
+        })
+    }
+
+    /// How often an event happened in training, and under the tree.
+    fn happened(&self, event: Id<Event>) -> [u64; 2] {
+        let run = self.results.run();
+        let trained = run.and_then(|run| run.record.events.get(event.index()));
+        let under = self.results.printed().summary.events.get(event.index());
+        [
+            trained.copied().unwrap_or(0),
+            under.map_or(0, |rate| rate.count),
+        ]
+    }
+
+    /// Events that would be rewarded and never happened at all.
+    fn never_happened(&self) -> Vec<Diagnostic> {
+        let never = self
+            .paying()
+            .filter(|(_, _, event)| self.happened(*event) == [0, 0]);
+        let warning = |(at, _, event): (usize, &RewardLine, Id<Event>)| {
+            let name = &self.program.events[event].name;
+            let ends = self.task.end_on.iter();
+            let mut ends = ends.map(|id| self.program.pool.get(*id) == Expr::Event(event));
+            let code = Code::W0503;
+            match ends.position(|is| is) {
+                Some(line) => {
+                    let message = format!(
+                        "no episode reached `{name}`, neither in training nor under the tree"
+                    );
+                    Diagnostic::new(code, self.places.end(line), message)
+                        .label("no start that was met leads to this goal")
+                }
+                None => {
+                    let message =
+                        format!("`{name}` never happened, neither in training nor under the tree");
+                    Diagnostic::new(code, self.places.reward(at), message)
+                        .label("this reward was never paid")
+                }
+            }
+        };
+        never.map(warning).collect()
+    }
+
+    /// Events that would be rewarded, happened in training, and do not happen under the tree.
+    fn given_up(&self) -> Vec<Diagnostic> {
+        let given_up = self.paying().filter_map(|(at, _, event)| {
+            let [trained, under] = self.happened(event);
+            (trained > 0 && under == 0).then_some((at, event, trained))
+        });
+        let episodes = self.results.printed().summary.episodes;
+        let warning = |(at, event, trained): (usize, Id<Event>, u64)| {
+            let name = &self.program.events[event].name;
+            let message = format!(
+                "`{name}` happened {trained} times in training and never in {episodes} episodes of the tree"
+            );
+            Diagnostic::new(Code::W0504, self.places.reward(at), message)
+                .label("the tree gives this reward up")
+        };
+        given_up.map(warning).collect()
+    }
+
+    /// Ends that are far more frequent than they were in training.
+    fn more_ends(&self) -> Vec<Diagnostic> {
+        let summary = self.results.printed().summary;
+        let Some(run) = self.results.run() else {
+            return Vec::new();
+        };
+        let record = &run.record;
+        let names = end_names(self.program, self.task);
+        let ends = Ended::all(&names, summary);
+        let ends = ends.iter().enumerate().filter(|(_, end)| !end.is_goal());
+        let warning = |(at, end): (usize, &Ended)| {
+            let trained = record.ended.get(at).copied().unwrap_or(0);
+            let least = interval95(end.count)[0] / summary.ticks.max(1) as f64;
+            let most = interval95(trained)[1] / record.ticks.max(1) as f64;
+            (least > MORE * most).then(|| {
+                let message = format!(
+                    "`{}` ended {} of {} episodes under the tree, and {trained} in training",
+                    end.name, end.count, end.episodes,
+                );
+                Diagnostic::new(Code::W0506, self.places.end(at), message)
+                    .label("training hardly met this")
+                    .note(format!(
+                        "{} and {} ticks were simulated for these figures",
+                        summary.ticks, record.ticks
+                    ))
+                    .help("let episodes of training be longer, or start nearer to this end")
+            })
+        };
+        ends.filter_map(warning).collect()
+    }
+
+    /// Ticks and decisions in minterms of which too little is known.
+    fn little_evidence(&self) -> Vec<Diagnostic> {
+        let results = self.results;
+        let mut found = Vec::new();
+        let mut warn = |message: String, label: &str| {
+            let warning = Diagnostic::new(Code::W0507, self.places.learner, message);
+            found.push(warning.label(label));
+        };
+        let summary = &results.summary;
+        let outside = summary.outside as f64 / summary.ticks.max(1) as f64;
+        if outside > UNKNOWN {
+            let message = format!(
+                "the policy spends {:.1} % of its ticks in minterms that were not learned",
+                100.0 * outside
+            );
+            warn(message, "there it does what `unseen` says");
+        }
+        let met = results.met.decisions();
+        let all: u64 = met.values().sum();
+        let least = results.experiment.evidence;
+        let thin: u64 = results
+            .policy
+            .rows
+            .iter()
+            .filter(|row| {
+                let behaviors = &results.policy.behaviors;
+                let choice = behaviors.iter().position(|id| *id == row.behavior);
+                let value = choice.and_then(|at| row.values.get(at)?.as_ref());
+                value.is_some_and(|value| value.visits < least)
+            })
+            .filter_map(|row| met.get(&row.minterm.key()))
+            .sum();
+        let part = thin as f64 / all.max(1) as f64;
+        if part > UNKNOWN {
+            let message = format!(
+                "{:.1} % of the policy's decisions rest on fewer than {least} of training each",
+                100.0 * part
+            );
+            warn(message, "more episodes, or more exploration, would tell");
+        }
+        found
+    }
+
+    /// A curve that still rises as learning ends.
+    fn rising(&self, points: &[Point]) -> Option<Diagnostic> {
+        let quarter = points.len() / 4;
+        let quarter = (quarter >= 2).then_some(quarter)?;
+        let last = points.get(points.len() - quarter..)?;
+        let before = points.get(points.len() - 2 * quarter..points.len() - quarter)?;
+        let mean =
+            |points: &[Point]| Mean::of(&points.iter().map(|p| p.total.mean).collect::<Vec<_>>());
+        let (before, last) = (mean(before), mean(last));
+        let rise = last.mean - before.mean;
+        let sure = last.ci95[0] > before.ci95[1];
+        (sure && rise > RISE * last.mean.abs()).then(|| {
+            let message = format!(
+                "the curve still rises: {:.3} in the last quarter of the episodes, {:.3} in the one before",
+                last.mean, before.mean
+            );
+            Diagnostic::new(Code::W0507, self.places.learner, message)
+                .label("more episodes may learn more")
+        })
+    }
+
+    /// Behaviours that fail again and again while nothing changes that the policy could see.
+    fn repeated(&self) -> Vec<Diagnostic> {
+        if self.task.history.failure {
+            return Vec::new();
+        }
+        let failing = self.results.trees.chosen().failing.iter();
+        let often = self.results.summary.episodes.max(TRIED);
+        let repeated = failing.filter(|failing| failing.repeated >= often);
+        let warning = |failing: &crate::tree::decanonicalise::Failing| {
+            let name = &self.program.behaviors[failing.behavior].name;
+            let message = format!(
+                "`{name}` failed {} times in {} with nothing changed that the policy sees",
+                failing.repeated,
+                words::minterm(self.program, &self.results.policy.atoms, &failing.minterm),
+            );
+            let choices = self.task.choose.iter();
+            let at = choices.clone().position(|id| *id == failing.behavior);
+            Diagnostic::new(Code::W0508, self.places.choice(at.unwrap_or(0)), message)
+                .label("the policy tries this again at once")
+                .help("with `history last 1 success, failure` it can see that this has failed")
+        };
+        repeated.map(warning).collect()
+    }
+}

@@ -1,0 +1,64 @@
+//! The report of `btc learn` in five lines, all of them on the tree that is printed.
+
+use super::ends::Ended;
+use super::results::Results;
+use super::value::Value;
+use super::words::{end_names, line};
+
+/// The share of episodes that one end may take before the first line says so.
+const OFTEN: f64 = 0.01;
+
+/// Return, events, ends, size with what was proved or tested, and values.
+pub fn lines(results: &Results) -> Vec<String> {
+    let printed = results.printed();
+    let summary = printed.summary;
+    let experiment = results.experiment;
+    let program = experiment.program;
+    let mut ends = Ended::all(&end_names(program, experiment.task), summary);
+    // What is not wanted stands first.
+    ends.sort_by_key(Ended::is_goal);
+    let [low, high] = summary.total.ci95;
+    let mut first = format!(
+        "{:.3}, 95 % [{low:.3}, {high:.3}], in {} episodes",
+        summary.total.mean, summary.episodes
+    );
+    for end in &ends {
+        let share = end.count as f64 / end.episodes.max(1) as f64;
+        if !end.is_goal() && share > OFTEN {
+            first.push_str(&format!(
+                "; {:.1} % of them ended by {}",
+                100.0 * share,
+                end.name
+            ));
+        }
+    }
+    let events = program.events.values().zip(&summary.events);
+    let events: Vec<String> = events
+        .map(|(event, rate)| {
+            let [low, high] = rate.ci95;
+            format!("{} {:.3} [{low:.3}, {high:.3}]", event.name, rate.per_1000)
+        })
+        .collect();
+    let events = match events.is_empty() {
+        true => "none are declared".to_owned(),
+        false => format!("{} in 1000 ticks", events.join(", ")),
+    };
+    let ends = ends.iter().map(|end| {
+        let (count, episodes) = (end.count, end.episodes);
+        format!("{count} of {episodes} by {}, {}", end.name, end.bound())
+    });
+    let limit = format!("{} at the limit", summary.cut);
+    let ends: Vec<String> = ends.chain([limit]).collect();
+    let size = printed.size;
+    let tree = format!(
+        "{} nodes, {} literals; {}",
+        size.nodes, size.literals, printed.evidence
+    );
+    vec![
+        line("return", &first),
+        line("events", &events),
+        line("ends", &ends.join("; ")),
+        line("tree", &tree),
+        line("value", &Value::of(results).text()),
+    ]
+}
