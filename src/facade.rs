@@ -18,9 +18,10 @@ pub use ticker::{Robot, Ticker};
 pub use tree::Tree;
 
 pub use crate::driver::decanonicalize::Options as DecanonicaliseOptions;
-pub use crate::driver::learn::Options as LearnOptions;
+pub use crate::driver::learn::{Options as LearnOptions, Shape};
 pub use crate::driver::verify::Proved;
 pub use crate::emit::form::TreeForm;
+pub use crate::grow::Choice;
 pub use crate::ir::tree::Status;
 pub use crate::report::episodes::Episodes;
 pub use crate::report::verdict::Answer;

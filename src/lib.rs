@@ -13,6 +13,7 @@
 //! let options = LearnOptions {
 //!     episodes: Some(400),
 //!     roll_outs: 100,
+//!     effort: 1_000_000,
 //!     ..LearnOptions::default()
 //! };
 //! let learned = program.learn(&options)?;
@@ -152,7 +153,7 @@ pub mod tree;
 
 pub mod trial;
 
-pub mod simplify;
+pub mod grow;
 
 pub mod tune;
 

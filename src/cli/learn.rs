@@ -4,8 +4,9 @@ use super::files::{self, STDIN};
 use super::progress::Progress;
 use super::report::{Reporter, tell};
 use super::{Failure, PLAYED};
-use crate::driver::learn::{self, Options};
+use crate::driver::learn::{self, Options, Shape};
 use crate::driver::{target, verify};
+use crate::grow::Choice;
 use crate::tree::decanonicalise::{Care, Method};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -35,9 +36,21 @@ pub(super) struct Arguments {
     /// In which minterms the tree takes the policy's decisions.
     #[arg(long, value_name = "SET", default_value = "reachable")]
     care: Care,
-    /// Print a smaller tree that costs less than this part of the return, such as `1%`; tested in simulation, not proved.
+    /// The tree that is wanted.
+    #[arg(long, value_name = "SHAPE", default_value = "grown")]
+    shape: Shape,
+    /// List the grown trees that none beats in both nodes and return; `front.svg` shows them.
+    #[arg(long)]
+    front: bool,
+    /// Take the best of the grown trees with at most this many nodes.
+    #[arg(long, value_name = "N", conflicts_with = "loss")]
+    nodes: Option<usize>,
+    /// Take the smallest of the grown trees that costs at most this part of the best one's return, such as `1%`.
     #[arg(long, value_name = "LOSS", value_parser = loss)]
-    simplify: Option<f64>,
+    loss: Option<f64>,
+    /// About how many ticks the search for a tree may simulate, such as `60M`.
+    #[arg(long, value_name = "TICKS", default_value = "60M", value_parser = effort)]
+    effort: u64,
     /// The fewest decisions by which a minterm counts as learned; below, it is a don't-care.
     #[arg(long, value_name = "N", default_value_t = 10)]
     evidence: u64,
@@ -62,6 +75,20 @@ fn loss(text: &str) -> Result<f64, String> {
         Ok(part) if (0.0..1.0).contains(&part) => Ok(part),
         _ => Err("a loss is a part of the return, such as `1%`".to_owned()),
     }
+}
+
+/// A number of ticks: `60M`, `500k` or `20_000_000`.
+fn effort(text: &str) -> Result<u64, String> {
+    let (digits, scale) = match text.strip_suffix(['M', 'm']) {
+        Some(digits) => (digits, 1_000_000),
+        None => match text.strip_suffix(['k', 'K']) {
+            Some(digits) => (digits, 1000),
+            None => (text, 1),
+        },
+    };
+    let number = digits.replace('_', "").parse::<u64>().ok();
+    let ticks = number.and_then(|number| number.checked_mul(scale));
+    ticks.ok_or_else(|| "an effort is a number of ticks, such as `60M`".to_owned())
 }
 
 pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {
@@ -96,7 +123,14 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
         evidence: arguments.evidence,
         method: arguments.method,
         care: arguments.care,
-        simplify: arguments.simplify,
+        shape: arguments.shape,
+        choice: match (arguments.nodes, arguments.loss) {
+            (Some(nodes), _) => Choice::Nodes(nodes),
+            (None, Some(loss)) => Choice::Loss(loss),
+            (None, None) => Choice::Knee,
+        },
+        front: arguments.front,
+        effort: arguments.effort,
         roll_outs: arguments.roll_outs,
         tests: arguments
             .tests

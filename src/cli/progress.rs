@@ -64,7 +64,8 @@ impl Progress {
             Stage::Validating => self.stage("validating"),
             Stage::RollingOut => self.stage("rolling out"),
             Stage::Proving => self.stage("proving"),
-            Stage::Simplifying => self.stage("simplifying"),
+            Stage::Improving => self.stage("improving"),
+            Stage::Growing(..) => self.stage("growing"),
             Stage::Testing => self.stage("testing"),
         }
     }

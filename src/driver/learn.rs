@@ -8,20 +8,34 @@ use super::load::Loaded;
 use super::refused::Refused;
 use super::{target, world};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::grow::{self, Choice, Grown, Starts, grow};
 use crate::ir::Id;
 use crate::ir::task::Learner;
-use crate::ir::tree::Tree;
+use crate::ir::tree::{Node, Tree};
 use crate::learn::curve::Point;
 use crate::learn::experiment::{Experiment, Run};
 use crate::learn::extract;
+use crate::learn::improve::Improved;
 use crate::learn::simulated::Purpose;
 use crate::policy::Policy;
 use crate::report::results::{Results, Trees};
-use crate::simplify::{Simplified, simplify};
 use crate::tree::decanonicalise::{self, Care, Method};
 use crate::tree::prove::Refuted;
 use crate::trial::{Unplayable, learned};
 use std::sync::atomic::{AtomicU64, Ordering};
+
+/// The ticks of a search for a tree, if nothing else is said.
+pub const EFFORT: u64 = 60_000_000;
+
+/// The tree that is wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+pub enum Shape {
+    /// The tree that decides exactly as the policy, proved
+    Exact,
+    /// A small tree that returns as much or more, tested
+    Grown,
+}
 
 /// What a user may set.
 #[derive(Clone, Copy, Debug)]
@@ -40,8 +54,14 @@ pub struct Options<'o> {
     pub method: Method,
     /// In which minterms the tree takes the policy's decisions.
     pub care: Care,
-    /// The part of the exact tree's return that a smaller tree may cost; `None` for the exact tree.
-    pub simplify: Option<f64>,
+    /// The tree that is wanted.
+    pub shape: Shape,
+    /// Which of the grown trees is wanted.
+    pub choice: Choice,
+    /// Whether the report lists the front of trees.
+    pub front: bool,
+    /// About how many ticks the search for a tree may simulate.
+    pub effort: u64,
     /// The number of greedy episodes that show the transitions of the policy.
     pub roll_outs: u64,
     /// The number of episodes that test the tree.
@@ -60,7 +80,10 @@ impl Default for Options<'_> {
             evidence: 10,
             method: Method::Search,
             care: Care::Reachable,
-            simplify: None,
+            shape: Shape::Grown,
+            choice: Choice::Knee,
+            front: false,
+            effort: EFFORT,
             roll_outs: 2000,
             tests: 0,
             source: "program.bt",
@@ -75,12 +98,14 @@ pub enum Stage {
     Learning(u64, u64),
     /// Finding the best of several runs.
     Validating,
+    /// Improving the policy.
+    Improving,
     /// Rolling the greedy policy out.
     RollingOut,
     /// Turning the policy into a tree, and proving it.
     Proving,
-    /// Simplifying the tree.
-    Simplifying,
+    /// Growing a tree: the ticks that are done, and all of them.
+    Growing(u64, u64),
     /// Testing the tree.
     Testing,
 }
@@ -122,9 +147,16 @@ pub fn learn(
     let experiment = Experiment::new(program, id, options.episodes, options.evidence)
         .map_err(|error| world::unplayable(loaded, error))?;
     let seed = options.seed.unwrap_or(experiment.learner.seed);
-    let runs = learn_all(&experiment, seed, options.seeds, progress);
+    let mut runs = learn_all(&experiment, seed, options.seeds, progress);
     progress(Stage::Validating);
     let (best, validated) = experiment.elect(&runs, seed);
+    let mut improved = Improved::default();
+    if options.shape == Shape::Grown
+        && let Some(run) = runs.get_mut(best)
+    {
+        progress(Stage::Improving);
+        improved = grow::improve(&experiment, run, options.effort);
+    }
     let Some(run) = runs.get(best) else {
         return Err(nothing(loaded, options.evidence));
     };
@@ -145,12 +177,10 @@ pub fn learn(
     let trees = trees(&policy, options).map_err(|why| refuted(loaded, &why, options.evidence))?;
     let exact = &trees.chosen().root;
     let unplayable = |why: Unplayable| world::unplayable(loaded, why);
-    let simplified: Option<Simplified> = match options.simplify {
-        None => None,
-        Some(loss) => {
-            let heard = |_| progress(Stage::Simplifying);
-            let task = experiment.learner.task;
-            Some(simplify(program, task, exact, loss, seed, &heard).map_err(unplayable)?)
+    let grown = match options.shape {
+        Shape::Exact => None,
+        Shape::Grown => {
+            Some(grown(&experiment, exact, (options, seed), progress).map_err(unplayable)?)
         }
     };
     let tested = if options.tests > 0 {
@@ -166,12 +196,13 @@ pub fn learn(
         runs,
         validated,
         best,
+        improved,
         thin,
         met,
         summary,
         policy,
         trees,
-        simplified,
+        grown,
         tested,
     };
     files::written(loaded, options, id, results)
@@ -190,6 +221,41 @@ fn learn_all(
         let done = done.fetch_add(1, Ordering::Relaxed) + 1;
         progress(Stage::Learning(done, all));
     })
+}
+
+/// The tree that grows from the exact one and those of the program.
+fn grown(
+    experiment: &Experiment,
+    exact: &Node,
+    (options, seed): (&Options, u64),
+    progress: &(dyn Fn(Stage) + Sync),
+) -> Result<Grown, Unplayable> {
+    let Experiment {
+        program,
+        task,
+        learner,
+        ..
+    } = *experiment;
+    let ground = grow::ground(experiment, seed);
+    let played = |tree: &&Tree| tree.task.is_none_or(|task| task == learner.task);
+    let others = program
+        .trees
+        .values()
+        .filter(played)
+        .map(|tree| tree.root.clone());
+    let starts = Starts {
+        exact: exact.clone(),
+        others: others.collect(),
+    };
+    let requirements = grow::requirements(program, task);
+    let settings = grow::Settings {
+        effort: options.effort,
+        requirements: &requirements,
+        choice: options.choice,
+        front: options.front || options.choice != Choice::Knee,
+    };
+    let heard = |heard: grow::Progress| progress(Stage::Growing(heard.ticks, heard.of));
+    grow(&ground, &starts, &settings, &heard).map_err(Unplayable::Unknown)
 }
 
 /// The policy as a tree, on both care sets.

@@ -4,6 +4,7 @@
 //! who cannot see it, and follows the light or dark scheme of the page around it. The same input gives the same bytes.
 
 pub mod curve;
+pub mod front;
 pub mod layout;
 mod legend;
 mod page;

@@ -31,6 +31,8 @@ pub struct Episode {
     pub events: Vec<u64>,
     /// Why it ended.
     pub end: End,
+    /// Whether a line of `end on` ended it at a negative reward for an event.
+    pub lost: bool,
     /// Ticks in minterms that the controller was not made for.
     pub outside: u64,
 }
@@ -63,6 +65,7 @@ pub fn play(
                 total,
                 last: outcome.reward,
                 events: process.events().to_vec(),
+                lost: end != End::Cut && outcome.closed && outcome.reward < 0.0,
                 end,
                 outside: controller.outside(),
             };

@@ -109,7 +109,8 @@ impl<'a> Experiment<'a> {
         self.program.world.as_ref().map_or(0.1, |world| world.tick)
     }
 
-    fn discounting(&self) -> Discounting {
+    /// How future reward counts.
+    pub fn discounting(&self) -> Discounting {
         let tick = self.tick();
         Discounting {
             discount: match self.learner.objective {
@@ -133,6 +134,20 @@ impl<'a> Experiment<'a> {
             choices: &self.task.choose,
             patience: self.task.patience,
         }
+    }
+
+    /// The starts of exploring episodes: those of the learner.
+    pub fn exploring(&self) -> Start {
+        Start {
+            lines: EXPLORING,
+            limit: self.learner.episode_ticks,
+            ..Start::default()
+        }
+    }
+
+    /// The events that the program claims never to happen under the learned tree.
+    pub fn never(&self) -> &[Id<Event>] {
+        &self.never
     }
 
     /// Learns with `count` seeds from `seed` on, on all threads. `episode` is called after each episode of any run.

@@ -22,9 +22,14 @@ impl Greedy {
     pub fn new(policy: &Policy, program: &Program, task: Id<Task>) -> Self {
         let rows = policy.rows.iter();
         let choices = rows.map(|row| (row.minterm.key(), row.behavior));
+        Self::of(choices.collect(), unseen(program, task))
+    }
+
+    /// These decisions, and one for all other minterms.
+    pub fn of(choices: FxHashMap<Key, Id<Behavior>>, unseen: Id<Behavior>) -> Self {
         Self {
-            choices: Arc::new(choices.collect()),
-            unseen: unseen(program, task),
+            choices: Arc::new(choices),
+            unseen,
             last: None,
         }
     }

@@ -15,6 +15,7 @@ pub mod episode;
 pub mod experiment;
 pub mod extract;
 pub mod greedy;
+pub mod improve;
 pub mod method;
 pub mod model;
 pub mod on_policy;

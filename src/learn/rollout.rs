@@ -142,11 +142,11 @@ fn play(process: &mut impl Process, policy: &Frozen, met: &mut RollOut) {
     let predicted = look(&key).0.value;
     let (mut ticks, mut total, mut outside) = (0, 0.0, 0);
     let (mut simulated, mut weight) = (0.0, 1.0);
-    let (end, last) = loop {
+    let (end, last, lost) = loop {
         let (Decided { choice, .. }, seen) = look(&key);
         let Some(behavior) = policy.choices.get(choice) else {
             // The checker lets no task through that has nothing to choose from.
-            break (world::End::Cut, 0.0);
+            break (world::End::Cut, 0.0, false);
         };
         let step = process.decide(*behavior, policy.patience, 0);
         ticks += step.ticks;
@@ -181,7 +181,8 @@ fn play(process: &mut impl Process, policy: &Frozen, met: &mut RollOut) {
         }
         key = step.to;
         if let Some(end) = end {
-            break (end, step.reward);
+            let lost = end != world::End::Cut && step.closed && step.reward < 0.0;
+            break (end, step.reward, lost);
         }
     };
     met.worth.push(Worth {
@@ -196,6 +197,7 @@ fn play(process: &mut impl Process, policy: &Frozen, met: &mut RollOut) {
         last,
         events: process.events().to_vec(),
         end,
+        lost,
         outside,
     });
 }

@@ -25,16 +25,20 @@ pub enum Purpose {
     Test = 6,
     /// Finding the best of a run's proposals.
     Propose = 7,
-    /// The search for a smaller tree.
-    Simplify = 16,
-    /// The second opinion on what that search found.
+    /// Races between trees that grow.
+    Grow = 16,
+    /// Choosing among the trees that have grown.
     Confirm = 17,
-    /// The figures of a simplified tree.
+    /// The figures of the tree that was chosen.
     Measure = 18,
     /// The search for better values of what may be tuned.
     Tune = 19,
     /// The second opinion on the values that were found.
     TuneConfirm = 20,
+    /// The counts that trees grow by.
+    Count = 21,
+    /// Improving a policy.
+    Improve = 22,
 }
 
 impl Purpose {

@@ -28,9 +28,9 @@ pub fn lines(results: &Results) -> Vec<String> {
     report.worth();
     report.figures(&results.summary, "greedy episodes");
     report.outside(&results.summary, "in minterms never learned");
-    if let Some(simplified) = &results.simplified {
+    if let Some(grown) = &results.grown {
         let experiment = results.experiment;
-        let lines = super::simplified::lines(simplified, experiment.program, experiment.task);
+        let lines = super::grown::lines(grown, experiment.program, experiment.task);
         report.lines.extend(lines);
     }
     if let Some(tested) = &results.tested {
@@ -131,6 +131,14 @@ impl Report<'_> {
             run.counts.episodes
         );
         self.line("learned", text);
+        let improved = self.results.improved;
+        if improved.changed > 0 {
+            let text = format!(
+                "{} decisions changed by simulation, {} ticks",
+                improved.changed, improved.ticks
+            );
+            self.line("improved", text);
+        }
     }
 
     /// The evidence for the policy.

@@ -4,7 +4,7 @@ use super::episodes::Episodes;
 use super::json::{self, Named};
 use super::results::Results;
 use super::value::Value;
-use super::{simplified, words};
+use super::{grown, words};
 use crate::ir::{Name, task};
 use crate::learn::agreement::Disputed;
 use crate::learn::binomial::upper95;
@@ -54,7 +54,7 @@ struct Metrics<'a> {
     proof: Proof,
     warnings: Vec<Warning<'a>>,
     care_sets: CareSets,
-    simplified: Option<simplified::Document<'a>>,
+    grown: Option<grown::Document<'a>>,
     greedy: Episodes,
     value: Value,
     outside: Outside,
@@ -181,7 +181,7 @@ impl<'a> Writer<'a> {
         let found = results.trees.chosen();
         let run = results.run();
         let hashes = request.sha256.iter();
-        let simplified = results.simplified.as_ref();
+        let grown = results.grown.as_ref();
         Metrics {
             btc: env!("CARGO_PKG_VERSION"),
             source: request.source,
@@ -215,9 +215,8 @@ impl<'a> Writer<'a> {
                 seen: care_set(&results.trees.seen),
                 reachable: care_set(&results.trees.reachable),
             },
-            simplified: simplified.map(|simplified| {
-                simplified::Document::new(simplified, experiment.program, experiment.task)
-            }),
+            grown: grown
+                .map(|grown| grown::Document::new(grown, experiment.program, experiment.task)),
             greedy: self.episodes(&results.summary),
             value: Value::of(results),
             outside: outside(&results.summary),

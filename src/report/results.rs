@@ -1,12 +1,13 @@
 //! Everything that learning found.
 
+use crate::grow::Grown;
 use crate::learn::agreement::Agreement;
 use crate::learn::curve::Point;
 use crate::learn::experiment::{Experiment, Run};
+use crate::learn::improve::Improved;
 use crate::learn::rollout::RollOut;
 use crate::learn::statistics::Summary;
 use crate::policy::{Minterm, Policy};
-use crate::simplify::Simplified;
 use crate::tree::Size;
 use crate::tree::decanonicalise::{Care, Decanonicalised};
 
@@ -21,6 +22,8 @@ pub struct Results<'a> {
     pub validated: Vec<Summary>,
     /// The place of the run that was taken.
     pub best: usize,
+    /// What was changed in its policy since, by simulation.
+    pub improved: Improved,
     /// The minterms with too little evidence, with their decisions.
     pub thin: Vec<(Minterm, u64)>,
     /// What the greedy policy met.
@@ -31,8 +34,8 @@ pub struct Results<'a> {
     pub policy: Policy,
     /// The tree on either care set; that of the chosen one is what was learned.
     pub trees: Trees,
-    /// The smaller tree that is printed instead of the exact one, if one was asked for.
-    pub simplified: Option<Simplified>,
+    /// The tree that was grown and is printed instead of the exact one, if one was asked for.
+    pub grown: Option<Grown>,
     /// The figures of the exact tree on test episodes, if there were any.
     pub tested: Option<Summary>,
 }
@@ -73,11 +76,17 @@ impl Results<'_> {
     /// The tree that is printed. The exact tree takes the decisions of the policy, so the episodes of the policy are its
     /// own, unless it was tested in others.
     pub fn printed(&self) -> Printed<'_> {
-        match &self.simplified {
-            Some(simplified) => Printed {
-                summary: &simplified.after.summary,
-                size: simplified.after.size,
-                evidence: "tested, not proved".to_owned(),
+        match &self.grown {
+            Some(grown) => Printed {
+                summary: &grown.after.summary,
+                size: grown.after.size,
+                evidence: match grown.kept {
+                    true => format!("proved on {}", self.proved()),
+                    false => format!(
+                        "tested, not proved; the exact tree, proved, has {} nodes",
+                        grown.before.size.nodes
+                    ),
+                },
             },
             None => Printed {
                 summary: self.tested.as_ref().unwrap_or(&self.summary),

@@ -3,7 +3,6 @@
 //! Nothing here knows what a tree is worth. Each move rewrites one place of the tree and tidies the result. A candidate is
 //! well formed, ticks some behaviour, and costs strictly less to read.
 
-mod flat;
 mod guards;
 mod memory;
 mod plain;
@@ -17,7 +16,6 @@ use crate::ir::tree::{Atom, Node};
 use std::collections::BTreeSet;
 use std::fmt;
 
-pub use flat::{Decided, flat};
 pub use plain::{Cost, negated_literals, plainer};
 pub use tidy::tidy;
 
@@ -69,8 +67,6 @@ pub enum Change {
     Turned,
     /// What the guards of neighbouring units share was put before a selector of them.
     Factored,
-    /// The tree became a list of one unit a behaviour, guarded by what was seen to hold where the tree chose it.
-    Flattened,
 }
 
 impl fmt::Display for Change {
@@ -85,7 +81,6 @@ impl fmt::Display for Change {
             Change::Reordered => "reordered",
             Change::Turned => "turned",
             Change::Factored => "factored",
-            Change::Flattened => "flattened",
         })
     }
 }

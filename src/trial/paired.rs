@@ -1,25 +1,19 @@
 //! Trees compared on the same seeds.
 
-use super::play;
 use super::trace::{Paths, Recorded, Trace};
-use crate::ir::law::Behavior;
-use crate::ir::task::Task;
 use crate::ir::tree::{Atom, Node};
-use crate::ir::{Id, Program};
 use crate::learn::episode::{Episode, play as play_episode};
-use crate::learn::simulated::Purpose;
+use crate::learn::process::World;
 use crate::learn::statistics::Mean;
 use crate::tree::Runner;
-use crate::tree::prune::Decided;
-use crate::world::{BuildError, End, Simulator, Start};
+use crate::world::Start;
 use rayon::prelude::*;
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// The world and the seeds on which trees are compared.
-#[derive(Clone, Debug)]
-pub struct Trials {
-    simulator: Simulator,
+#[derive(Debug)]
+pub struct Trials<'w, W> {
+    world: &'w W,
     patience: Option<u64>,
     start: Start,
 }
@@ -49,22 +43,22 @@ impl Contender {
         Paths::of(self.played.iter().map(|played| &played.trace))
     }
 
-    /// The behaviours that drove the robot, each with a valuation and the ticks that it drove there.
-    pub fn decided(&self) -> Vec<Decided> {
-        let mut ticks: BTreeMap<(Id<Behavior>, u128), u64> = BTreeMap::new();
-        for (behavior, values, times) in self.played.iter().flat_map(|p| p.trace.decided()) {
-            *ticks.entry((behavior, values)).or_default() += times;
-        }
-        let decided = ticks.into_iter();
-        decided
-            .map(|((behavior, values), times)| (behavior, values, times))
-            .collect()
-    }
-
     /// The figures of the episodes.
     pub fn results(&self) -> Vec<Episode> {
         let episodes = self.played.iter().map(|played| &played.episode);
         episodes.cloned().collect()
+    }
+
+    /// A figure of each episode.
+    pub fn each<T>(&self, figure: impl Fn(&Episode) -> T) -> Vec<T> {
+        let episodes = self.played.iter().map(|played| &played.episode);
+        episodes.map(figure).collect()
+    }
+
+    /// The mean length of an episode in ticks; 0 if none was played.
+    pub fn length(&self) -> u64 {
+        let ticks: u64 = self.each(|episode| episode.ticks).into_iter().sum();
+        ticks.checked_div(self.episodes() as u64).unwrap_or(0)
     }
 
     /// The mean return.
@@ -83,14 +77,6 @@ impl Contender {
         paths.replay(&mut self.runner)
     }
 
-    /// The tree with the episodes of another that plays alike.
-    pub fn standing_for(self, other: &Self) -> Self {
-        Self {
-            played: other.played.clone(),
-            ..self
-        }
-    }
-
     /// What it loses against another tree, episode by episode, over those that both have played.
     pub fn loss(&self, against: &Self) -> Mean {
         let pairs = self.played.iter().zip(&against.played);
@@ -99,18 +85,6 @@ impl Contender {
             .collect();
         Mean::of(&lost)
     }
-
-    /// Episodes that a line of `end on` ended to this tree's loss and the other's did not, less those the other way
-    /// round.
-    pub fn ended_more(&self, against: &Self) -> i64 {
-        let pairs = self.played.iter().zip(&against.played);
-        pairs
-            .map(|(own, other)| {
-                let (own, other) = (&own.episode, &other.episode);
-                i64::from(ended_worse(own, other)) - i64::from(ended_worse(other, own))
-            })
-            .sum()
-    }
 }
 
 /// The standard error of a mean.
@@ -118,44 +92,19 @@ pub fn error(mean: &Mean) -> f64 {
     (mean.ci95[1] - mean.mean) / 1.96
 }
 
-/// Whether a tree loses at most `limit` with 95 % confidence, and `end on` ends no more of its episodes to its loss.
-pub fn within(tree: &Contender, other: &Contender, limit: f64) -> bool {
-    tree.loss(other).ci95[1] <= limit && tree.ended_more(other) <= 0
-}
-
-fn ended_worse(own: &Episode, other: &Episode) -> bool {
-    matches!(own.end, End::On(_)) && own.end != other.end && own.total < other.total
-}
-
-impl Trials {
-    /// The world of a task, which knows the atoms that a tree asks.
-    ///
-    /// # Errors
-    /// The world cannot be built.
-    pub fn new(
-        program: &Program,
-        task: Id<Task>,
-        root: &Node,
-        (purpose, seed): (Purpose, u64),
-    ) -> Result<Self, BuildError> {
-        let simulator = play::world(program, task, root)?;
-        let task = &program.tasks[task];
-        Ok(Self {
-            simulator,
-            patience: task.patience,
-            start: purpose.start(seed, task.end_after),
-        })
+impl<'w, W: World> Trials<'w, W> {
+    /// Episodes in a world, from the one that starts like this.
+    pub fn new(world: &'w W, patience: Option<u64>, start: Start) -> Self {
+        Self {
+            world,
+            patience,
+            start,
+        }
     }
 
     /// The atoms of a valuation, bit by bit.
     pub fn atoms(&self) -> &[Atom] {
-        self.simulator.atoms()
-    }
-
-    /// The same world with the seeds of another purpose.
-    pub fn with(self, purpose: Purpose) -> Self {
-        let start = purpose.start(self.start.seed, self.start.limit);
-        Self { start, ..self }
+        self.world.atoms()
     }
 
     /// A tree that has not played.
@@ -164,7 +113,7 @@ impl Trials {
     /// An atom that the world does not know.
     pub fn contender(&self, root: &Node) -> Result<Contender, Atom> {
         Ok(Contender {
-            runner: Runner::new(root, self.simulator.atoms())?,
+            runner: Runner::new(root, self.world.atoms())?,
             played: Vec::new(),
         })
     }
@@ -184,10 +133,10 @@ impl Trials {
             .collect();
         let runners = contenders.iter().map(|contender| &contender.runner);
         let runners: Vec<&Runner> = runners.collect();
-        let make = || self.simulator.simulation();
+        let make = || self.world.process();
         let played: Vec<(Arc<Played>, u64)> = due
             .par_iter()
-            .map_init(make, |simulation, &(i, n)| {
+            .map_init(make, |process, &(i, n)| {
                 let mut runner = runners.get(i).map(|r| (*r).clone())?;
                 if let Some(same) = known.and_then(|known| known.played.get(n))
                     && same.trace.replays(&mut runner)
@@ -195,11 +144,11 @@ impl Trials {
                     return Some((same.clone(), 0));
                 }
                 let start = Start {
-                    episode: n as u64,
+                    episode: self.start.episode + n as u64,
                     ..self.start
                 };
                 let mut recorded = Recorded::new(runner);
-                let episode = play_episode(simulation, &mut recorded, start, self.patience);
+                let episode = play_episode(process, &mut recorded, start, self.patience);
                 let ticks = episode.ticks;
                 let trace = recorded.into_trace();
                 Some((Arc::new(Played { episode, trace }), ticks))

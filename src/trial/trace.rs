@@ -10,7 +10,6 @@ use crate::ir::tree::Status;
 use crate::learn::episode::Controller;
 use crate::learn::process::Process;
 use crate::tree::Runner;
-use crate::tree::prune::Decided;
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
 
@@ -91,14 +90,6 @@ fn agrees(runner: &mut Runner, met: &Met) -> bool {
 }
 
 impl Trace {
-    /// The behaviour that drove the robot in each tick: the one that was ticked last, as those before it have failed.
-    pub fn decided(&self) -> impl Iterator<Item = Decided> {
-        self.met.iter().filter_map(|(met, times)| {
-            let (behavior, _) = met.calls.last()?;
-            Some((*behavior, met.atoms, *times))
-        })
-    }
-
     /// Whether a tree, its memory fresh, ticks the same behaviours all along.
     pub fn replays(&self, runner: &mut Runner) -> bool {
         runner.reset();

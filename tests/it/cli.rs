@@ -129,6 +129,8 @@ fn learning_writes_whole_files_that_other_commands_take() {
             "100",
             "--roll-outs",
             "50",
+            "--effort",
+            "500k",
             "--threads",
             threads,
         ]);

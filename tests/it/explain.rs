@@ -6,6 +6,7 @@ use btc::driver::compile::Form;
 use btc::driver::load::{Loaded, Reader, load};
 use btc::driver::{Refused, Text, compile, learn, minimize, run, verify};
 use btc::emit::form::TreeForm;
+use btc::grow::Choice;
 use btc::tree::decanonicalise::{Care, Method};
 
 /// The example of an explanation that follows a heading.
@@ -244,7 +245,10 @@ fn learned(loaded: &Loaded, episodes: Option<u64>) -> Result<learn::Learned, Ref
         evidence: 1,
         method: Method::Search,
         care: Care::Seen,
-        simplify: None,
+        shape: learn::Shape::Exact,
+        choice: Choice::Knee,
+        front: false,
+        effort: learn::EFFORT,
         roll_outs: 10,
         tests: 0,
         source: "program.bt",

@@ -12,7 +12,7 @@ use crate::ir::tree::{Node, Tree};
 use crate::ir::{Id, Name};
 use crate::policy::{decisions, evidence, transitions};
 use crate::report::results::Results;
-use crate::report::{self, curve, metrics, simplified};
+use crate::report::{self, curve, grown, metrics};
 use sha2::{Digest, Sha256};
 
 /// The tree as an item, the files, and the report.
@@ -43,13 +43,13 @@ pub(super) fn written(
     );
     let mut docs = vec![results.origin(file)];
     let mut root = exact;
-    if let Some(simplified) = &results.simplified {
+    if let Some(grown) = results.grown.as_ref().filter(|grown| !grown.kept) {
         let exact_name = Name::word(format!("{}_exact", learner.name.family));
         let exact = named(&exact_name, &docs, exact);
         text.push_str(&bt::tree(program, &exact));
         text.push('\n');
-        docs.push(simplified::doc(simplified, program, task));
-        root = &simplified.root;
+        docs.push(grown::doc(grown, program, task));
+        root = &grown.root;
     }
     let learned = named(&learner.name, &docs, root);
     let item = bt::tree(program, &learned);
@@ -74,7 +74,7 @@ pub(super) fn written(
         method: options.method,
         care: options.care,
     };
-    let files = vec![
+    let mut files = vec![
         ("learned.bt", text),
         ("learned.dot", written(TreeForm::Dot)?),
         ("learned.svg", written(TreeForm::Svg)?),
@@ -90,11 +90,23 @@ pub(super) fn written(
         ),
         ("metrics.json", metrics::json(&results, &request)),
     ];
+    let mut report = report::learned::lines(&results);
+    if let Some(grown) = &results.grown {
+        let name = format!(
+            "{}, seed {}",
+            learner.name,
+            results.run().map_or(0, |run| run.seed)
+        );
+        files.push(("front.svg", grown::picture(grown, &name)));
+        if options.front {
+            report.extend(grown::front(grown));
+        }
+    }
     Ok(Learned {
         text: item,
         files,
         headline: report::headline::lines(&results),
-        report: report::learned::lines(&results),
+        report,
         warnings,
         tree: learned,
         learner: id,

@@ -1,8 +1,9 @@
 //! Whole runs, from a program to its files.
 
 use crate::program::NoFiles;
-use btc::driver::learn::{Learned, Options, learn};
+use btc::driver::learn::{EFFORT, Learned, Options, Shape, learn};
 use btc::driver::load::{Loaded, load};
+use btc::grow::Choice;
 use btc::tree::decanonicalise::{Care, Method};
 
 const SMALL: &str = include_str!("../../../examples/delivery_small.bt");
@@ -28,7 +29,10 @@ pub(super) const OPTIONS: Options = Options {
     evidence: 10,
     method: Method::Search,
     care: Care::Reachable,
-    simplify: None,
+    shape: Shape::Exact,
+    choice: Choice::Knee,
+    front: false,
+    effort: EFFORT,
     roll_outs: 100,
     tests: 0,
     source: "../delivery.bt",

@@ -139,6 +139,7 @@ fn an_end_that_is_rewarded_is_a_goal_and_is_bounded_below() {
         ticks: 10,
         total: last,
         last,
+        lost: false,
         events: Vec::new(),
         end: End::On(line),
         outside: 0,

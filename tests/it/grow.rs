@@ -1,16 +1,18 @@
-//! Smaller trees: the moves, and the search that simulation judges.
+//! Trees that grow: the moves, and the search that simulation judges.
 
 use crate::program::NoFiles;
 use btc::driver::load::{self, Loaded};
 use btc::driver::target;
 use btc::emit;
+use btc::grow::place::{Place, paths};
+use btc::grow::{self, Choice, Grown, Settings, Starts};
 use btc::ir::Id;
 use btc::ir::task::Task;
-use btc::ir::tree::{Atom, Guard, Node, Tree};
+use btc::ir::tree::{Guard, Node, Tree};
+use btc::learn::experiment::Experiment;
 use btc::report;
-use btc::simplify::{Simplified, simplify};
 use btc::tree::Size;
-use btc::tree::prune::{Change, Cost, Decided, candidates, flat, negated_literals, plainer, tidy};
+use btc::tree::prune::{Change, Cost, candidates, negated_literals, plainer, tidy};
 
 /// Small delivery in short episodes, with a tree `given`.
 fn small(tree: &str) -> (Loaded, Id<Task>, Node) {
@@ -26,10 +28,23 @@ fn small(tree: &str) -> (Loaded, Id<Task>, Node) {
     (loaded, task, root)
 }
 
-fn simplified(tree: &str, loss: f64) -> (Loaded, Id<Task>, Simplified) {
-    let (loaded, task, root) = small(tree);
-    let found = simplify(&loaded.program, task, &root, loss, 1, &|_| {}).unwrap();
-    (loaded, task, found)
+/// What grows from a tree, with little effort, in a world that has no other tree.
+fn grown(tree: &str, choice: Choice) -> (Loaded, Grown) {
+    let (loaded, _, exact) = small(tree);
+    let experiment = Experiment::new(&loaded.program, Id::new(0), None, 10).unwrap();
+    let ground = grow::ground(&experiment, 1);
+    let starts = Starts {
+        exact,
+        others: Vec::new(),
+    };
+    let settings = Settings {
+        effort: 2_000_000,
+        requirements: &[],
+        choice,
+        front: choice != Choice::Knee,
+    };
+    let found = grow::grow(&ground, &starts, &settings, &|_| {}).unwrap();
+    (loaded, found)
 }
 
 /// Figure 8 with literals that say nothing, without its memory, and with a unit that is never reached.
@@ -106,38 +121,6 @@ fn plainer_trees_are_no_larger() {
     assert_eq!(negated_literals(&wanted), 0);
 }
 
-/// What the clumsy tree was seen to do: `(behaviour, carrying, low, done(goto(C)), ticks)`.
-fn seen(loaded: &Loaded, task: Id<Task>) -> (Vec<Atom>, Vec<Decided>) {
-    let atoms = loaded.program.atoms(task);
-    let choose = &loaded.program.tasks[task].choose;
-    let at = |atom| atoms.iter().position(|a| *a == atom).unwrap();
-    let arrived = at(Atom::Done(choose[2]));
-    let drove = [
-        (0, false, false, false, 60),
-        (1, true, false, false, 60),
-        (2, true, true, false, 20),
-        (2, false, true, false, 20),
-        (3, false, true, true, 9),
-        (3, true, true, true, 9),
-    ];
-    let decided = drove.map(|(behavior, carrying, low, done, ticks)| {
-        let values = u128::from(carrying) | u128::from(low) << 1 | u128::from(done) << arrived;
-        (choose[behavior], values, ticks)
-    });
-    (atoms.clone(), decided.to_vec())
-}
-
-#[test]
-fn one_rule_a_behaviour_is_among_the_starts() {
-    let (loaded, task, root) = small(CLUMSY);
-    let (atoms, decided) = seen(&loaded, task);
-    let found = flat(&root, &atoms, &decided, &[]);
-    assert!(found.len() <= 1000 && found.iter().all(|c| c.change == Change::Flattened));
-    let (.., expert) = small(EXPERT);
-    let same = found.iter().filter(|c| c.root == expert).count();
-    assert_eq!(same, 1, "{}", printed(&loaded, &found[0].root));
-}
-
 #[test]
 fn a_unit_that_does_not_ask_for_what_it_needs_costs_a_node() {
     let (loaded, task, root) = small(EXPERT);
@@ -161,48 +144,69 @@ fn a_unit_that_does_not_ask_for_what_it_needs_costs_a_node() {
 }
 
 #[test]
-fn a_clumsy_tree_becomes_figure_8() {
-    let (loaded, task, found) = simplified(CLUMSY, 0.01);
-    // Figure 8's units; who delivers before he recharges gains a little in episodes this short.
-    let (.., wanted) = small(
-        "selector {
-            carrying_package => goto(B),
-            battery_low => memory sequence { goto(C), dock(C) },
-            goto(A),
-        }",
-    );
-    assert_eq!(found.after.size.nodes, 10);
-    assert_eq!(found.root, wanted, "{}", printed(&loaded, &found.root));
+fn a_clumsy_tree_becomes_small() {
+    let (loaded, found) = grown(CLUMSY, Choice::Knee);
+    let text = printed(&loaded, &found.root);
+    assert!(!found.kept, "{text}");
+    assert!(found.after.size.nodes <= 10, "{text}");
+    assert!(found.gain.ci95[1] >= 0.0, "{:?}", found.gain);
+    assert_eq!(found.after.harms, 0);
     assert_eq!(found.before.size, Size::of(&small(CLUMSY).2));
-    let task = &loaded.program.tasks[task];
-    let doc = report::simplified::doc(&found, &loaded.program, task);
+    let doc = report::grown::doc(&found, &loaded.program, &loaded.program.tasks[Id::new(0)]);
     assert!(doc.contains("tested, not proved"), "{doc}");
     assert!(doc.contains("ended by dead"), "{doc}");
 }
 
 #[test]
-fn a_loss_of_nothing_never_lowers_the_return() {
-    for tree in [CLUMSY, EXPERT] {
-        let (.., found) = simplified(tree, 0.0);
-        for step in &found.steps {
-            assert!(step.loss.ci95[1] <= 0.0, "{step:?}");
-        }
-        assert!(found.after.size.nodes <= found.before.size.nodes);
-    }
+fn a_good_tree_is_not_made_worse() {
+    let (_, found) = grown(EXPERT, Choice::Knee);
+    assert_eq!(found.after.harms, 0);
+    assert!(found.kept || found.gain.ci95[0] > 0.0, "{:?}", found.gain);
 }
 
 #[test]
-fn no_robot_dies_for_a_smaller_tree() {
-    let (.., found) = simplified(EXPERT, 0.6);
-    assert_eq!(found.before.summary.ended, [0]);
-    assert_eq!(found.after.summary.ended, [0]);
+fn a_number_of_nodes_is_kept_to() {
+    let (_, found) = grown(CLUMSY, Choice::Nodes(9));
+    assert!(found.after.size.nodes <= 9 || found.kept);
+    let taken: Vec<_> = found.front.iter().filter(|point| point.taken).collect();
+    assert_eq!(taken.len(), 1);
+    assert_eq!(taken[0].root, found.root);
+}
+
+#[test]
+fn the_front_rises() {
+    let (_, found) = grown(CLUMSY, Choice::Loss(0.2));
+    let best = |points: &[grow::Point]| {
+        let pairs = points.windows(2);
+        pairs.filter(|pair| !pair[1].taken).all(|pair| {
+            pair[0].size.nodes <= pair[1].size.nodes && pair[0].returns.mean < pair[1].returns.mean
+        })
+    };
+    assert!(best(&found.front), "{:?}", found.front);
 }
 
 #[test]
 fn threads_do_not_matter() {
     let on = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-        pool.build().unwrap().install(|| simplified(CLUMSY, 0.02).2)
+        let pool = pool.build().unwrap();
+        pool.install(|| grown(CLUMSY, Choice::Knee).1)
     };
     assert_eq!(on(1), on(2));
+}
+
+/// A unit that is put somewhere stands there once, and nothing else changes but the selector around it.
+#[test]
+fn a_unit_is_put_in_every_place() {
+    let (.., root) = small(EXPERT);
+    let (.., unit) = small("carrying_package => dock(C)");
+    let places = Place::all(&root);
+    // Four among the units, one before each of three behaviours or memory nodes under a guard.
+    assert_eq!(places.len(), 6);
+    for place in places {
+        let new = place.put(&root, &unit);
+        assert_eq!(paths(&new, &|node| *node == unit).len(), 1, "{place:?}");
+        let more = Size::of(&new).nodes - Size::of(&root).nodes;
+        assert_eq!(more, Size::of(&unit).nodes + place.nodes(), "{place:?}");
+    }
 }

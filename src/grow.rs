@@ -1,0 +1,517 @@
+//! Growing a small tree: a search among trees, judged by paired simulation.
+//!
+//! Minterms are an abstraction, and an exact tree repeats its noise. So trees are searched for directly. Counts of
+//! what decisions lead to say which changes of a tree look good ([`evidence`], [`field`], [`propose`]), races on fresh
+//! seeds say which are ([`race`]). A tree replaces another if it does less harm, or else if it returns more for its nodes.
+//! What it does alike with fewer nodes costs no simulation at all. Effort is counted in ticks, not in time.
+
+pub mod bodies;
+pub mod evidence;
+pub mod field;
+pub mod front;
+pub mod ground;
+pub mod guards;
+pub mod place;
+pub mod propose;
+pub mod race;
+
+use crate::ir::task::Task;
+use crate::ir::tree::{Atom, Node};
+use crate::ir::{Id, Program};
+use crate::learn::episode::Episode;
+use crate::learn::experiment::{Experiment, Run};
+use crate::learn::greedy;
+use crate::learn::improve::{Improved, Improver};
+use crate::learn::process::{Key, World};
+use crate::learn::simulated::Purpose;
+use crate::random::Random;
+use crate::tree::Size;
+use crate::tree::prune::{self, Requirement};
+use crate::trial::trace::Paths;
+use crate::world::Simulator;
+use evidence::{Evidence, Sight, Visits};
+use field::Field;
+pub use front::{Choice, Figures, Grown, Point};
+use ground::Ground;
+use propose::{Proposal, Proposer};
+use race::{Entrant, Judge};
+use rustc_hash::FxHashSet;
+
+/// What a search starts from.
+#[derive(Clone, Debug)]
+pub struct Starts {
+    /// The exact tree of the policy.
+    pub exact: Node,
+    /// Other trees, such as those that a person wrote.
+    pub others: Vec<Node>,
+}
+
+/// How a search is done.
+#[derive(Clone, Debug)]
+pub struct Settings<'a> {
+    /// About how many ticks may be simulated.
+    pub effort: u64,
+    /// The predicate that each behaviour requires, where it requires just that.
+    pub requirements: &'a [Requirement],
+    /// Which tree of the front is wanted.
+    pub choice: Choice,
+    /// Whether smaller trees that cost something are looked for, too.
+    pub front: bool,
+}
+
+/// How far the search has come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Progress {
+    /// The nodes of the current tree.
+    pub nodes: usize,
+    /// Ticks simulated so far.
+    pub ticks: u64,
+    /// The most ticks.
+    pub of: u64,
+}
+
+/// The part of what there is to gain that a node must bring.
+const PRICE: f64 = 0.003;
+/// The most nodes of a tree that others are grown from in place of a single behaviour.
+const STEM: usize = 70;
+/// The most changes of a tree that the counts alone are asked for.
+const STEPS: usize = 40;
+/// The part of the effort after which no more is grown from the start.
+const SPROUTS: f64 = 0.4;
+/// Rounds of growing from the start.
+const ROUNDS: usize = 3;
+/// The ticks of a collection, as a part of the effort, and at least how many episodes.
+const COLLECTED: f64 = 0.012;
+/// Proposals of a round: those of which the counts promise most, others at random, and nodes with memory.
+const BEST: usize = 20;
+const RANDOM: usize = 20;
+const MEMORIES: usize = 8;
+/// Races without a better tree before a stage ends.
+const FAILURES: usize = 3;
+/// The part of the effort that is kept for choosing and measuring.
+const KEPT: f64 = 0.2;
+/// Episodes that show what a tree does, for pruning without simulation.
+const SHOWN: usize = 64;
+/// The most nodes of a tree that is pruned so.
+const PRUNED: usize = 120;
+
+/// Where the trees of a learner grow.
+pub fn ground<'w>(experiment: &'w Experiment, seed: u64) -> Ground<'w, Simulator> {
+    let task = experiment.task;
+    Ground {
+        world: &experiment.simulator,
+        choices: &task.choose,
+        observed: experiment.program.atoms(experiment.learner.task).len(),
+        patience: task.patience,
+        start: experiment.measured(Purpose::Grow, seed),
+        exploring: experiment.exploring(),
+        discounting: experiment.discounting(),
+        ends: task.end_on.len(),
+        never: experiment
+            .never()
+            .iter()
+            .map(|event| event.index())
+            .collect(),
+        seed,
+    }
+}
+
+/// The part of the effort that improves the policy before a tree is made of it.
+const IMPROVING: u64 = 10;
+
+/// Improves the policy of a run by simulation.
+pub fn improve(experiment: &Experiment, run: &mut Run, effort: u64) -> Improved {
+    let ground = ground(experiment, run.seed);
+    let improver = Improver {
+        world: ground.world,
+        choices: ground.choices,
+        unseen: greedy::unseen(experiment.program, experiment.learner.task),
+        patience: ground.patience,
+        start: ground.episodes(Purpose::Improve, 0),
+        effort: effort / IMPROVING,
+        harm: |episode: &Episode| ground.harm(episode),
+    };
+    improver.improve(&mut run.decisions, &run.table)
+}
+
+/// The predicate that each behaviour of the task requires, where it requires just that.
+pub fn requirements(program: &Program, task: &Task) -> Vec<Requirement> {
+    let required = task.choose.iter().filter_map(|&behavior| {
+        let requires = program.behaviors[behavior].law.as_ref()?.requires;
+        let same = |&&id: &&Id<_>| program.predicates[id].when == Some(requires);
+        let predicate = task.observe.iter().find(same)?;
+        Some((behavior, Atom::Predicate(*predicate)))
+    });
+    required.collect()
+}
+
+/// Grows a tree.
+///
+/// # Errors
+/// The exact tree asks an atom that the world does not know.
+pub fn grow<W: World>(
+    ground: &Ground<W>,
+    starts: &Starts,
+    settings: &Settings,
+    progress: &(dyn Fn(Progress) + Sync),
+) -> Result<Grown, Atom> {
+    let mut grower = Grower {
+        judge: Judge::new(ground),
+        ground,
+        settings,
+        progress,
+        evidence: Evidence::new(ground),
+        random: Random::new(ground.seed, 1 << 41, 0),
+        collected: 0,
+        price: 0.0,
+        visited: Vec::new(),
+    };
+    let base = grower.begin(starts)?;
+    let base = grower.sprout(base, starts);
+    let base = grower.climb(base);
+    grower.refine(base);
+    let Grower {
+        judge,
+        visited,
+        price,
+        ..
+    } = grower;
+    front::choose(judge, visited, starts, settings, price)
+}
+
+/// A tree that was the best of its time.
+#[derive(Clone, Debug)]
+pub struct Visited {
+    /// The tree.
+    pub root: Node,
+    /// Its nodes.
+    pub nodes: usize,
+}
+
+struct Grower<'g, 'w, 'a, W> {
+    ground: &'g Ground<'w, W>,
+    judge: Judge<'g, 'w, W>,
+    settings: &'g Settings<'a>,
+    progress: &'g (dyn Fn(Progress) + Sync),
+    evidence: Evidence,
+    random: Random,
+    collected: u64,
+    price: f64,
+    visited: Vec<Visited>,
+}
+
+impl<W: World> Grower<'_, '_, '_, W> {
+    fn spent(&self, part: f64) -> bool {
+        self.judge.ticks as f64 >= part * self.settings.effort as f64
+    }
+
+    fn report(&self, root: &Node) {
+        (self.progress)(Progress {
+            nodes: Size::of(root).nodes,
+            ticks: self.judge.ticks,
+            of: self.settings.effort,
+        });
+    }
+
+    fn visit(&mut self, root: &Node) {
+        self.visited.push(Visited {
+            root: root.clone(),
+            nodes: Size::of(root).nodes,
+        });
+    }
+
+    /// The best of the trees to start from, and the price of a node.
+    fn begin(&mut self, starts: &Starts) -> Result<Node, Atom> {
+        let race = self.judge.fresh();
+        let trials = self.ground.trials(Purpose::Grow, race);
+        let singles = self.ground.choices.iter().map(|id| Node::Behavior(*id));
+        let mut singles: Vec<Entrant> = singles
+            .filter_map(|root| self.judge.entrant(&trials, &root))
+            .collect();
+        let mut exact = vec![Entrant {
+            root: starts.exact.clone(),
+            nodes: Size::of(&starts.exact).nodes,
+            contender: trials.contender(&starts.exact)?,
+        }];
+        self.judge.play(&trials, &mut exact, 8, None);
+        let episodes = self.judge.scaled(8);
+        self.judge
+            .play(&trials, &mut exact, self.judge.scaled(SHOWN), None);
+        self.judge.play(&trials, &mut singles, episodes, None);
+        let Some(exact) = exact.pop() else {
+            return Ok(starts.exact.clone());
+        };
+        let top = exact.contender.returns().mean;
+        let spread = exact.contender.spread();
+        let means = singles.iter().map(|single| single.contender.returns().mean);
+        let least = means.fold(f64::NEG_INFINITY, f64::max);
+        let scale = (top - least).min(top.abs().max(spread)).max(0.1 * spread);
+        self.price = PRICE * scale.max(1e-6);
+        let pruned = self.pruned(&starts.exact, &exact);
+        self.visit(&pruned);
+        let others: Vec<Node> = starts
+            .others
+            .iter()
+            .cloned()
+            .chain(singles.into_iter().map(|s| s.root))
+            .collect();
+        let (found, _) = self.judge.race(&pruned, others, self.price);
+        let base = found.map_or(pruned, |found| self.pruned(&found.root.clone(), &found));
+        self.visit(&base);
+        Ok(base)
+    }
+
+    /// Counts what decisions lead to under a tree.
+    fn collect(&mut self, root: &Node, explore: f64) -> Visits {
+        let ticks = (COLLECTED * self.settings.effort as f64) as u64;
+        self.collected += 1;
+        let at = if explore >= 0.5 {
+            self.ground.exploring
+        } else {
+            self.ground.start
+        };
+        let start = crate::world::Start {
+            seed: self.ground.seed,
+            stream: Purpose::Count as u64,
+            episode: self.collected << 20,
+            ..at
+        };
+        let (visits, used) = self
+            .evidence
+            .collect(self.ground, root, (explore, start), ticks);
+        self.judge.ticks += used;
+        visits
+    }
+
+    /// Trees grown by the counts alone, from a single behaviour and from the best tree, raced; several times.
+    fn sprout(&mut self, mut base: Node, starts: &Starts) -> Node {
+        for round in 0..ROUNDS {
+            if self.spent(SPROUTS) {
+                break;
+            }
+            self.report(&base);
+            let mut visits = self.collect(&base, 0.1);
+            let wider = self.collect(&base, 0.3);
+            self.collect(&base, 0.8);
+            if round == 0 {
+                // Where the other trees go.
+                for other in starts.others.iter().chain([&starts.exact]) {
+                    if *other != base {
+                        add(&mut visits, self.collect(other, 0.1));
+                    }
+                }
+            }
+            add(&mut visits, wider);
+            let sight = if round % 2 == 0 {
+                Sight::Far
+            } else {
+                Sight::Learner
+            };
+            let bodies = bodies::bodies(self.ground, &self.evidence);
+            let field = Field::new(self.ground, &self.evidence, sight, &visits);
+            let mut trees: Vec<Node> = Vec::new();
+            for factor in [1.0, 3.0, 1.0 / 3.0] {
+                let proposer = Proposer {
+                    field: &field,
+                    bodies: &bodies,
+                    requirements: self.settings.requirements,
+                    price: self.price * factor,
+                };
+                let mut stems: Vec<Node> = single(&field, &bodies).into_iter().collect();
+                if Size::of(&base).nodes <= STEM {
+                    stems.push(base.clone());
+                }
+                for stem in stems {
+                    for tree in sprouts(&proposer, stem) {
+                        if !trees.contains(&tree) && tree != base {
+                            trees.push(tree);
+                        }
+                    }
+                }
+            }
+            let (found, _) = self.judge.race(&base, trees, self.price);
+            if let Some(found) = found {
+                base = self.pruned(&found.root.clone(), &found);
+                self.visit(&base);
+            }
+        }
+        base
+    }
+
+    /// One change after another, proposed by the counts and by chance, kept if a race says so.
+    fn climb(&mut self, mut base: Node) -> Node {
+        for (factor, only) in [(1.0, false), (0.5, false), (1.0, true)] {
+            let mut failures = 0;
+            let mut tried: FxHashSet<String> = FxHashSet::default();
+            while failures < FAILURES && !self.spent(1.0 - KEPT) {
+                self.report(&base);
+                let price = self.price * factor;
+                let trees = self.proposals(&base, price, only, &mut tried);
+                if trees.is_empty() {
+                    break;
+                }
+                match self.judge.race(&base, trees, price).0 {
+                    Some(found) => {
+                        base = self.pruned(&found.root.clone(), &found);
+                        self.visit(&base);
+                        tried.clear();
+                        failures = 0;
+                    }
+                    None => failures += 1,
+                }
+            }
+        }
+        base
+    }
+
+    fn proposals(
+        &mut self,
+        base: &Node,
+        price: f64,
+        only: bool,
+        tried: &mut FxHashSet<String>,
+    ) -> Vec<Node> {
+        let mut visits = self.collect(base, 0.05);
+        add(&mut visits, self.collect(base, 0.3));
+        let bodies = bodies::bodies(self.ground, &self.evidence);
+        let sight = if self.random.chance(0.5) {
+            Sight::Far
+        } else {
+            Sight::Learner
+        };
+        let field = Field::new(self.ground, &self.evidence, sight, &visits);
+        let proposer = Proposer {
+            field: &field,
+            bodies: &bodies,
+            requirements: self.settings.requirements,
+            price,
+        };
+        let Some(now) = field.drives(base) else {
+            return Vec::new();
+        };
+        let mut found = proposer.prunings(base, &now);
+        let mut memories = Vec::new();
+        if !only {
+            found.extend(proposer.insertions(base, &now));
+            found.extend(proposer.changes(base, &now));
+            found.extend(proposer.moves(base, &now));
+            memories = proposer.memories(base);
+        }
+        let (best, random, memory) = if only {
+            (30, 18, 0)
+        } else {
+            (BEST, RANDOM, MEMORIES)
+        };
+        let mut trees: Vec<Node> = Vec::new();
+        let mut take = |proposal: Proposal| {
+            let fresh = proposal.root != *base && tried.insert(format!("{:?}", proposal.root));
+            if fresh {
+                trees.push(proposal.root);
+            }
+            fresh
+        };
+        found.sort_by(|a, b| b.score.total_cmp(&a.score).then(a.nodes.cmp(&b.nodes)));
+        let mut rest = Vec::new();
+        let mut left = best;
+        for proposal in found {
+            if left > 0 {
+                left -= usize::from(take(proposal));
+            } else {
+                rest.push(proposal);
+            }
+        }
+        for (mut from, count) in [(rest, random), (memories, memory)] {
+            let mut left = count;
+            while left > 0 && !from.is_empty() {
+                let at = self.random.below(from.len() as u64) as usize;
+                left -= usize::from(take(from.swap_remove(at)));
+            }
+        }
+        trees
+    }
+
+    /// Smaller trees that cost little, for the front.
+    fn refine(&mut self, mut base: Node) {
+        if self.settings.front {
+            for factor in [4.0, 16.0, 64.0] {
+                let mut tried = FxHashSet::default();
+                let trees = self.proposals(&base, self.price * factor, true, &mut tried);
+                if let Some(found) = self.judge.race(&base, trees, self.price * factor).0 {
+                    base = self.pruned(&found.root.clone(), &found);
+                    self.visit(&base);
+                }
+            }
+        }
+    }
+
+    /// The tree without what it never showed in its episodes: it plays them alike.
+    fn pruned(&self, root: &Node, shown: &Entrant) -> Node {
+        if Size::of(root).nodes > PRUNED {
+            return root.clone();
+        }
+        let paths = shown.contender.paths();
+        let mut root = root.clone();
+        while let Some(smaller) = self.alike(&root, &paths) {
+            root = smaller;
+        }
+        root
+    }
+
+    fn alike(&self, root: &Node, paths: &Paths) -> Option<Node> {
+        let requirements = self.settings.requirements;
+        let mut candidates = prune::candidates(root, requirements);
+        candidates.extend(prune::plainer(root, requirements));
+        candidates.sort_by_key(|candidate| candidate.size.nodes);
+        let trials = self.ground.trials(Purpose::Grow, 0);
+        candidates.into_iter().find_map(|candidate| {
+            let mut contender = trials.contender(&candidate.root).ok()?;
+            contender.agrees(paths).then_some(candidate.root)
+        })
+    }
+}
+
+fn add(visits: &mut Visits, other: Visits) {
+    let mut other: Vec<(Key, f64)> = other.into_iter().collect();
+    other.sort_by_key(|(key, _)| *key);
+    for (key, count) in other {
+        *visits.entry(key).or_default() += count;
+    }
+}
+
+/// The body that is worth most by itself.
+fn single(field: &Field, bodies: &[Node]) -> Option<Node> {
+    let worth = |body: &&Node| {
+        let drives = field.drives(body).unwrap_or_default();
+        let spots = field.spots.iter().zip(&drives);
+        spots
+            .map(|(spot, drive)| spot.weight * spot.worth(*drive))
+            .sum::<f64>()
+    };
+    let best = bodies.iter().map(|body| (worth(&body), body));
+    let best = best.reduce(|best, next| if next.0 > best.0 { next } else { best });
+    best.map(|(_, body)| body.clone())
+}
+
+/// The trees on the way from one tree by the change that the counts promise most of.
+fn sprouts(proposer: &Proposer, stem: Node) -> Vec<Node> {
+    let mut trees = vec![stem.clone()];
+    let mut root = stem;
+    for _ in 0..STEPS {
+        let Some(now) = proposer.field.drives(&root) else {
+            break;
+        };
+        let mut found = proposer.insertions(&root, &now);
+        found.extend(proposer.prunings(&root, &now));
+        let best = found.into_iter().reduce(|best, next| {
+            let better =
+                next.score > best.score || next.score == best.score && next.nodes < best.nodes;
+            if better { next } else { best }
+        });
+        let Some(best) = best.filter(|best| best.score > 0.0 && !trees.contains(&best.root)) else {
+            break;
+        };
+        root = best.root.clone();
+        trees.push(best.root);
+    }
+    trees
+}

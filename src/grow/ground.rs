@@ -1,0 +1,62 @@
+//! Where trees grow: a world, what may be chosen in it, and what its episodes are judged by.
+
+use crate::ir::Id;
+use crate::ir::law::Behavior;
+use crate::learn::discount::Discounting;
+use crate::learn::episode::Episode;
+use crate::learn::process::World;
+use crate::learn::simulated::Purpose;
+use crate::trial::paired::Trials;
+use crate::world::Start;
+
+/// Where trees grow.
+#[derive(Debug)]
+pub struct Ground<'w, W> {
+    /// The world.
+    pub world: &'w W,
+    /// The behaviours to choose from.
+    pub choices: &'w [Id<Behavior>],
+    /// The number of atoms of a minterm; they are the first of the world's.
+    pub observed: usize,
+    /// A decision is due after this many ticks without another reason.
+    pub patience: Option<u64>,
+    /// The start of an episode that counts; seed, stream and number are set for each use.
+    pub start: Start,
+    /// The start of an episode that explores, likewise.
+    pub exploring: Start,
+    /// How future reward counts in the eyes of the learner.
+    pub discounting: Discounting,
+    /// The number of lines of `end on`.
+    pub ends: usize,
+    /// The events that are claimed never to happen.
+    pub never: Vec<usize>,
+    /// The seed.
+    pub seed: u64,
+}
+
+/// The episodes between two races: each race has seeds of its own.
+const APART: u64 = 1 << 20;
+
+impl<'w, W: World> Ground<'w, W> {
+    /// Episodes that nothing was chosen by so far: those of a purpose, from race number `race` on.
+    pub fn trials(&self, purpose: Purpose, race: u64) -> Trials<'w, W> {
+        Trials::new(self.world, self.patience, self.episodes(purpose, race))
+    }
+
+    /// The start of these episodes.
+    pub fn episodes(&self, purpose: Purpose, race: u64) -> Start {
+        Start {
+            seed: self.seed,
+            stream: purpose as u64,
+            episode: race * APART,
+            ..self.start
+        }
+    }
+
+    /// What went wrong in an episode: an end that costs, and each event that is claimed never to happen.
+    pub fn harm(&self, episode: &Episode) -> u64 {
+        let fired = |event: &&usize| episode.events.get(**event).is_some_and(|count| *count > 0);
+        let broken = self.never.iter().filter(fired).count() as u64;
+        broken.max(u64::from(episode.lost))
+    }
+}
