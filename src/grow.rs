@@ -28,7 +28,6 @@ use crate::random::Random;
 use crate::tree::Size;
 use crate::tree::prune::{self, Requirement};
 use crate::trial::trace::Paths;
-use crate::world::Simulator;
 use evidence::{Evidence, Sight, Visits};
 use field::Field;
 pub use front::{Choice, Figures, Grown, Point};
@@ -96,10 +95,10 @@ const SHOWN: usize = 64;
 const PRUNED: usize = 120;
 
 /// Where the trees of a learner grow.
-pub fn ground<'w>(experiment: &'w Experiment, seed: u64) -> Ground<'w, Simulator> {
+pub fn ground<'w, W: World>(experiment: &'w Experiment<W>, seed: u64) -> Ground<'w, W> {
     let task = experiment.task;
     Ground {
-        world: &experiment.simulator,
+        world: &experiment.world,
         choices: &task.choose,
         observed: experiment.program.atoms(experiment.learner.task).len(),
         patience: task.patience,
@@ -120,7 +119,7 @@ pub fn ground<'w>(experiment: &'w Experiment, seed: u64) -> Ground<'w, Simulator
 const IMPROVING: u64 = 10;
 
 /// Improves the policy of a run by simulation.
-pub fn improve(experiment: &Experiment, run: &mut Run, effort: u64) -> Improved {
+pub fn improve<W: World>(experiment: &Experiment<W>, run: &mut Run, effort: u64) -> Improved {
     let ground = ground(experiment, run.seed);
     let improver = Improver {
         world: ground.world,

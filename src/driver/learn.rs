@@ -1,6 +1,7 @@
 //! `btc learn`: from a checked program to a learned, proved, printed tree.
 
 mod files;
+pub mod pipeline;
 mod places;
 mod warnings;
 
@@ -8,21 +9,17 @@ use super::load::Loaded;
 use super::refused::Refused;
 use super::{target, world};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::grow::{self, Choice, Grown, Starts, grow};
+use crate::grow::Choice;
 use crate::ir::Id;
 use crate::ir::task::Learner;
-use crate::ir::tree::{Node, Tree};
+use crate::ir::tree::Tree;
 use crate::learn::curve::Point;
-use crate::learn::experiment::{Experiment, Run};
-use crate::learn::extract;
-use crate::learn::improve::Improved;
-use crate::learn::simulated::Purpose;
+use crate::learn::experiment::Experiment;
 use crate::policy::Policy;
-use crate::report::results::{Results, Trees};
-use crate::tree::decanonicalise::{self, Care, Method};
+use crate::tree::decanonicalise::{Care, Method};
 use crate::tree::prove::Refuted;
-use crate::trial::{Unplayable, learned};
-use std::sync::atomic::{AtomicU64, Ordering};
+use crate::trial::Unplayable;
+pub use pipeline::Unlearned;
 
 /// The ticks of a search for a tree, if nothing else is said.
 pub const EFFORT: u64 = 60_000_000;
@@ -146,141 +143,23 @@ pub fn learn(
     let id = target::learner(loaded, options.learner)?;
     let experiment = Experiment::new(program, id, options.episodes, options.evidence)
         .map_err(|error| world::unplayable(loaded, error))?;
-    let seed = options.seed.unwrap_or(experiment.learner.seed);
-    let mut runs = learn_all(&experiment, seed, options.seeds, progress);
-    progress(Stage::Validating);
-    let (best, validated) = experiment.elect(&runs, seed);
-    let mut improved = Improved::default();
-    if options.shape == Shape::Grown
-        && let Some(run) = runs.get_mut(best)
-    {
-        progress(Stage::Improving);
-        improved = grow::improve(&experiment, run, options.effort);
-    }
-    let Some(run) = runs.get(best) else {
-        return Err(nothing(loaded, options.evidence));
-    };
-    progress(Stage::RollingOut);
-    let stream = (Purpose::RollOut, run.seed);
-    let (met, summary) = experiment.roll_out(&run.decisions, options.roll_outs, stream);
-    let atoms = program.atoms(experiment.learner.task);
-    let thin = extract::thin(&run.table, options.evidence, atoms.len());
-    let policy = extract::policy(&run.decisions, &run.table, &met, experiment.task, atoms);
-    let mut values = policy
-        .rows
-        .iter()
-        .flat_map(|row| row.values.iter().flatten());
-    if values.any(|value| !value.q.is_finite()) {
-        return Err(without_value(loaded));
-    }
-    progress(Stage::Proving);
-    let trees = trees(&policy, options).map_err(|why| refuted(loaded, &why, options.evidence))?;
-    let exact = &trees.chosen().root;
-    let unplayable = |why: Unplayable| world::unplayable(loaded, why);
-    let grown = match options.shape {
-        Shape::Exact => None,
-        Shape::Grown => {
-            Some(grown(&experiment, exact, (options, seed), progress).map_err(unplayable)?)
-        }
-    };
-    let tested = if options.tests > 0 {
-        progress(Stage::Testing);
-        let care = learned::care_set(options.care, &run.decisions, &met);
-        let tested = learned::test(&experiment, exact, &care, options.tests, seed);
-        Some(tested.map_err(|atom| unplayable(Unplayable::Unknown(atom)))?)
-    } else {
-        None
-    };
-    let results = Results {
-        experiment: &experiment,
-        runs,
-        validated,
-        best,
-        improved,
-        thin,
-        met,
-        summary,
-        policy,
-        trees,
-        grown,
-        tested,
-    };
+    let results = pipeline::learn(&experiment, options, progress);
+    let results = results.map_err(|why| unlearned(loaded, &why, options.evidence))?;
     files::written(loaded, options, id, results)
 }
 
-/// The runs of all seeds.
-fn learn_all(
-    experiment: &Experiment,
-    seed: u64,
-    seeds: u64,
-    progress: &(dyn Fn(Stage) + Sync),
-) -> Vec<Run> {
-    let all = experiment.episodes.saturating_mul(seeds);
-    let done = AtomicU64::new(0);
-    experiment.learn_all(seed, seeds, || {
-        let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-        progress(Stage::Learning(done, all));
-    })
-}
-
-/// The tree that grows from the exact one and those of the program.
-fn grown(
-    experiment: &Experiment,
-    exact: &Node,
-    (options, seed): (&Options, u64),
-    progress: &(dyn Fn(Stage) + Sync),
-) -> Result<Grown, Unplayable> {
-    let Experiment {
-        program,
-        task,
-        learner,
-        ..
-    } = *experiment;
-    let ground = grow::ground(experiment, seed);
-    let played = |tree: &&Tree| tree.task.is_none_or(|task| task == learner.task);
-    let others = program
-        .trees
-        .values()
-        .filter(played)
-        .map(|tree| tree.root.clone());
-    let starts = Starts {
-        exact: exact.clone(),
-        others: others.collect(),
-    };
-    let requirements = grow::requirements(program, task);
-    let settings = grow::Settings {
-        effort: options.effort,
-        requirements: &requirements,
-        choice: options.choice,
-        front: options.front || options.choice != Choice::Knee,
-    };
-    let heard = |heard: grow::Progress| progress(Stage::Growing(heard.ticks, heard.of));
-    grow(&ground, &starts, &settings, &heard).map_err(Unplayable::Unknown)
-}
-
-/// The policy as a tree, on both care sets.
-fn trees(policy: &Policy, options: &Options) -> Result<Trees, Refuted> {
-    let tree = |care| {
-        let options = decanonicalise::Options {
-            method: options.method,
-            care,
-            ..decanonicalise::Options::default()
-        };
-        decanonicalise::decanonicalise(policy, &options)
-    };
-    let (seen, reachable) = rayon::join(|| tree(Care::Seen), || tree(Care::Reachable));
-    Ok(Trees {
-        care: options.care,
-        seen: seen?,
-        reachable: reachable?,
-    })
+/// Why nothing was learned, with what may help.
+fn unlearned(loaded: &Loaded, why: &Unlearned, evidence: u64) -> Refused {
+    match why {
+        Unlearned::Nothing => nothing(loaded, evidence),
+        Unlearned::WithoutValue => without_value(loaded),
+        Unlearned::Refuted(why) => refuted(loaded, why),
+        Unlearned::Unknown(atom) => world::unplayable(loaded, Unplayable::Unknown(*atom)),
+    }
 }
 
 /// No tree is printed that is not proved.
-fn refuted(loaded: &Loaded, refuted: &Refuted, evidence: u64) -> Refused {
-    if *refuted == Refuted::Empty {
-        return nothing(loaded, evidence);
-    }
+fn refuted(loaded: &Loaded, refuted: &Refuted) -> Refused {
     let message = format!("the tree that was found is not equal to the policy: {refuted}");
     let at = target::end_of_file(loaded);
     let diagnostic = Diagnostic::new(Code::E0609, at, message)

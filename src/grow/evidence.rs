@@ -5,7 +5,7 @@ use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::{Node, Status};
 use crate::learn::discount::Discounting;
-use crate::learn::process::{End, Key, Process, World};
+use crate::learn::process::{Earned, End, Key, Process, World};
 use crate::learn::solve::{Outlook, Problem};
 use crate::random::Random;
 use crate::tree::Runner;
@@ -323,6 +323,7 @@ impl Gathered {
         let mut ticks = 0;
         let mut driver: Option<(Id<Behavior>, Status)> = None;
         let mut alone = true;
+        let mut earned = Earned::default();
         loop {
             process.begin_tick();
             let mut calls = 0;
@@ -338,10 +339,14 @@ impl Gathered {
             let same =
                 before.is_none_or(|(behavior, _)| driver.is_some_and(|(b, _)| b == behavior));
             alone = alone && calls == 1 && same;
-            let due = tick.terminated || tick.closed || tick.end.is_some();
-            if !due && process.key() == from && ticks < patience {
+            let due = tick.terminated
+                || tick.closed
+                || tick.end.is_some()
+                || process.key() != from
+                || ticks >= patience;
+            let Some(reward) = earned.after(&tick, due) else {
                 continue;
-            }
+            };
             let end = match tick.end {
                 None => End::Not,
                 Some(world::End::On(line)) => End::Terminal(line),
@@ -359,7 +364,7 @@ impl Gathered {
                         from,
                         choice,
                         to: process.key(),
-                        reward: tick.reward,
+                        reward,
                         ticks,
                         status,
                         end,

@@ -2,7 +2,7 @@
 
 use super::experiment::{Experiment, Run};
 use super::extract::{self, Decided, Decisions};
-use super::process::Key;
+use super::process::{Key, World};
 use super::q_table::QTable;
 use super::simulated::Purpose;
 use super::statistics::Summary;
@@ -16,7 +16,7 @@ const CLAIMED: u64 = 1000;
 /// The proposals of a run that are validated.
 const FINALISTS: usize = 3;
 
-impl Experiment<'_> {
+impl<W: World> Experiment<'_, W> {
     /// The place of the best of several runs on common episodes that none of them learned from, with the figures of
     /// each there; a single run is not measured.
     pub fn elect(&self, runs: &[Run], seed: u64) -> (usize, Vec<Summary>) {

@@ -1,6 +1,6 @@
 //! Whole episodes under a controller: a policy, a tree, or anything else that acts once a tick.
 
-use super::process::Process;
+use super::process::{Earned, Process};
 use crate::world::{End, Start};
 use rayon::prelude::*;
 
@@ -31,7 +31,7 @@ pub struct Episode {
     pub events: Vec<u64>,
     /// Why it ended.
     pub end: End,
-    /// Whether a line of `end on` ended it at a negative reward for an event.
+    /// Whether it ended badly, as the process says.
     pub lost: bool,
     /// Ticks in minterms that the controller was not made for.
     pub outside: u64,
@@ -49,23 +49,29 @@ pub fn play(
     controller.reset();
     let patience = patience.unwrap_or(u64::MAX);
     let (mut total, mut since) = (0.0, 0);
+    let mut earned = Earned::default();
     loop {
         process.begin_tick();
         controller.tick(process);
         let outcome = process.end_tick();
         since += 1;
-        let due = outcome.terminated || outcome.changed || outcome.closed || since >= patience;
-        if due || outcome.end.is_some() {
-            total += outcome.reward;
-            since = 0;
-        }
+        let due = outcome.terminated
+            || outcome.changed
+            || outcome.closed
+            || outcome.end.is_some()
+            || since >= patience;
+        let Some(last) = earned.after(&outcome, due) else {
+            continue;
+        };
+        total += last;
+        since = 0;
         if let Some(end) = outcome.end {
             return Episode {
                 ticks: process.ticks(),
                 total,
-                last: outcome.reward,
+                last,
                 events: process.events().to_vec(),
-                lost: end != End::Cut && outcome.closed && outcome.reward < 0.0,
+                lost: outcome.lost,
                 end,
                 outside: controller.outside(),
             };

@@ -40,7 +40,7 @@ pub struct Run {
 
 /// A learner with the world that it learns in.
 #[derive(Clone, Debug)]
-pub struct Experiment<'a> {
+pub struct Experiment<'a, W = Simulator> {
     /// The program.
     pub program: &'a Program,
     /// The learner.
@@ -48,7 +48,7 @@ pub struct Experiment<'a> {
     /// The task of the learner.
     pub task: &'a Task,
     /// The world.
-    pub simulator: Simulator,
+    pub world: W,
     /// Episodes of a run.
     pub episodes: u64,
     /// The fewest decisions by which a minterm counts as learned.
@@ -64,7 +64,7 @@ const EXPLORING: usize = 0;
 const OWN: usize = 1;
 
 impl<'a> Experiment<'a> {
-    /// The experiment of a learner, with its own number of episodes if `episodes` is `None`.
+    /// The experiment of a learner in the world of its program, with its own number of episodes if `episodes` is `None`.
     ///
     /// # Errors
     /// The world cannot be built.
@@ -77,15 +77,29 @@ impl<'a> Experiment<'a> {
         let learner = &program.learners[id];
         let task = &program.tasks[learner.task];
         let starts: [&[_]; 2] = [&learner.start, &task.start];
-        Ok(Self {
+        let world = Simulator::build(program, learner.task, &starts, &[])?;
+        Ok(Self::within(world, program, id, (episodes, evidence)))
+    }
+}
+
+impl<'a, W> Experiment<'a, W> {
+    /// The experiment of a learner in any world, whose atoms are those of the learner's task.
+    pub fn within(
+        world: W,
+        program: &'a Program,
+        id: Id<Learner>,
+        (episodes, evidence): (Option<u64>, u64),
+    ) -> Self {
+        let learner = &program.learners[id];
+        Self {
             program,
             learner,
-            task,
-            simulator: Simulator::build(program, learner.task, &starts, &[])?,
+            task: &program.tasks[learner.task],
+            world,
             episodes: episodes.unwrap_or(learner.episodes),
             evidence,
             never: never(program, id),
-        })
+        }
     }
 
     /// The name of one of the behaviours that there are to choose from.
@@ -104,9 +118,9 @@ impl<'a> Experiment<'a> {
         }
     }
 
-    /// The length of a tick in seconds.
+    /// The length of a tick in seconds; without a world in the program, time is in ticks.
     pub fn tick(&self) -> f64 {
-        self.program.world.as_ref().map_or(0.1, |world| world.tick)
+        self.program.world.as_ref().map_or(1.0, |world| world.tick)
     }
 
     /// How future reward counts.
@@ -150,6 +164,9 @@ impl<'a> Experiment<'a> {
         &self.never
     }
 
+}
+
+impl<W: World> Experiment<'_, W> {
     /// Learns with `count` seeds from `seed` on, on all threads. `episode` is called after each episode of any run.
     pub fn learn_all(&self, seed: u64, count: u64, episode: impl Fn() + Sync) -> Vec<Run> {
         let seeds = seed..seed.saturating_add(count);
@@ -187,7 +204,7 @@ impl<'a> Experiment<'a> {
             dwell: learner.dwell,
             seed,
         };
-        let mut process = self.simulator.process();
+        let mut process = self.world.process();
         let proposes = method.proposes();
         // Rounds are measured on other threads while learning goes on.
         let measured: Mutex<Vec<(Point, Option<QTable>)>> = Mutex::default();
@@ -232,7 +249,7 @@ impl<'a> Experiment<'a> {
         let decisions = extract::greedy(table, self.evidence);
         let start = self.measured(Purpose::Curve, seed);
         let policy = self.frozen(&decisions);
-        let met = roll_out(curve::EPISODES, &policy, start, || self.simulator.process());
+        let met = roll_out(curve::EPISODES, &policy, start, || self.world.process());
         let ended = met.episodes.iter().filter(|e| e.end != End::Cut);
         let totals: Vec<f64> = met.episodes.iter().map(|e| e.total).collect();
         Point {
@@ -254,7 +271,7 @@ impl<'a> Experiment<'a> {
     ) -> (RollOut, Summary) {
         let start = self.measured(purpose, seed);
         let policy = self.frozen(decisions);
-        let met = roll_out(episodes, &policy, start, || self.simulator.process());
+        let met = roll_out(episodes, &policy, start, || self.world.process());
         let summary = Summary::of(&met.episodes, self.task.end_on.len());
         (met, summary)
     }

@@ -46,6 +46,7 @@ pub trait Process {
         let from = self.key();
         let patience = patience.unwrap_or(u64::MAX);
         let mut ticks = 0;
+        let mut earned = Earned::default();
         loop {
             self.begin_tick();
             let status = self.act(behavior);
@@ -55,13 +56,14 @@ pub trait Process {
                 || tick.closed
                 || ticks >= patience
                 || (ticks >= dwell && self.key() != from);
-            if due || tick.end.is_some() {
+            if let Some(reward) = earned.after(&tick, due || tick.end.is_some()) {
                 return Step {
                     to: self.key(),
                     status,
-                    reward: tick.reward,
+                    reward,
                     ticks,
                     closed: tick.closed,
+                    lost: tick.lost,
                     end: match tick.end {
                         None => End::Not,
                         Some(world::End::On(line)) => End::Terminal(line),
@@ -71,6 +73,19 @@ pub trait Process {
                 };
             }
         }
+    }
+}
+
+/// The reward of a transition while it goes on: what its ticks pay, and at its end what the transition pays.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Earned(f64);
+
+impl Earned {
+    /// Takes in a tick. Where the transition ends with it, gives the transition's reward and begins the next.
+    #[inline]
+    pub fn after(&mut self, tick: &Tick, due: bool) -> Option<f64> {
+        self.0 += tick.flow;
+        due.then(|| std::mem::take(&mut self.0) + tick.reward)
     }
 }
 
@@ -101,6 +116,8 @@ pub struct Step {
     pub ticks: u64,
     /// Whether a rewarded event fired in its last tick.
     pub closed: bool,
+    /// Whether the episode ended badly.
+    pub lost: bool,
     /// Whether the episode goes on.
     pub end: End,
 }

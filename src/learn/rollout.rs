@@ -181,8 +181,7 @@ fn play(process: &mut impl Process, policy: &Frozen, met: &mut RollOut) {
         }
         key = step.to;
         if let Some(end) = end {
-            let lost = end != world::End::Cut && step.closed && step.reward < 0.0;
-            break (end, step.reward, lost);
+            break (end, step.reward, step.lost);
         }
     };
     met.worth.push(Worth {

@@ -9,7 +9,7 @@ use super::words::{end_names, line};
 const OFTEN: f64 = 0.01;
 
 /// Return, events, ends, size with what was proved or tested, and values.
-pub fn lines(results: &Results) -> Vec<String> {
+pub fn lines<W>(results: &Results<W>) -> Vec<String> {
     let printed = results.printed();
     let summary = printed.summary;
     let experiment = results.experiment;

@@ -16,7 +16,7 @@ use crate::tree::decanonicalise::{Care, Decanonicalised};
 const LISTED: usize = 10;
 
 /// The report in lines.
-pub fn lines(results: &Results) -> Vec<String> {
+pub fn lines<W>(results: &Results<W>) -> Vec<String> {
     let mut report = Report {
         results,
         lines: Vec::new(),
@@ -45,12 +45,12 @@ pub fn lines(results: &Results) -> Vec<String> {
     report.lines
 }
 
-struct Report<'a> {
-    results: &'a Results<'a>,
+struct Report<'a, W> {
+    results: &'a Results<'a, W>,
     lines: Vec<String>,
 }
 
-impl Report<'_> {
+impl<W> Report<'_, W> {
     fn line(&mut self, title: &str, text: String) {
         self.lines.push(words::line(title, &text));
     }

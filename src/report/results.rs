@@ -10,12 +10,13 @@ use crate::learn::statistics::Summary;
 use crate::policy::{Minterm, Policy};
 use crate::tree::Size;
 use crate::tree::decanonicalise::{Care, Decanonicalised};
+use crate::world::Simulator;
 
 /// Everything that learning found.
 #[derive(Clone, Debug)]
-pub struct Results<'a> {
+pub struct Results<'a, W = Simulator> {
     /// The learner in its world.
-    pub experiment: &'a Experiment<'a>,
+    pub experiment: &'a Experiment<'a, W>,
     /// The runs, in the order of their seeds.
     pub runs: Vec<Run>,
     /// The figures of each on the episodes by which the best was taken; empty for a single one.
@@ -72,7 +73,7 @@ pub struct Printed<'r> {
     pub evidence: String,
 }
 
-impl Results<'_> {
+impl<W> Results<'_, W> {
     /// The tree that is printed. The exact tree takes the decisions of the policy, so the episodes of the policy are its
     /// own, unless it was tested in others.
     pub fn printed(&self) -> Printed<'_> {

@@ -30,7 +30,7 @@ const MANY_CUT: f64 = 0.01;
 
 impl Value {
     /// The values of the policy that was learned.
-    pub fn of(results: &Results) -> Self {
+    pub fn of<W>(results: &Results<W>) -> Self {
         let learner = results.experiment.learner;
         let own = OnPolicy::of(&results.met, learner.initial);
         let mut value = match learner.objective {
@@ -57,7 +57,7 @@ impl Value {
         (predicted - mean).abs() > half.max(SLIGHT * mean.abs())
     }
 
-    fn reasons(&self, results: &Results) -> Vec<String> {
+    fn reasons<W>(&self, results: &Results<W>) -> Vec<String> {
         let mut why = Vec::new();
         if self.differs(self.on_policy) {
             why.push(
@@ -76,7 +76,7 @@ impl Value {
 }
 
 /// How learning differs from what the policy does from the task's own starts.
-fn causes(results: &Results) -> Vec<String> {
+fn causes<W>(results: &Results<W>) -> Vec<String> {
     let (learner, task) = (results.experiment.learner, results.experiment.task);
     let mut causes = Vec::new();
     if learner.start != task.start {
@@ -101,7 +101,7 @@ fn causes(results: &Results) -> Vec<String> {
     causes
 }
 
-fn discounted(results: &Results, own: &OnPolicy) -> Value {
+fn discounted<W>(results: &Results<W>, own: &OnPolicy) -> Value {
     let worth = &results.met.worth;
     let mean = |value: Vec<f64>| Mean::of(&value);
     let simulated = worth.iter().map(|worth| {
@@ -120,7 +120,7 @@ fn discounted(results: &Results, own: &OnPolicy) -> Value {
     }
 }
 
-fn average(results: &Results, own: &OnPolicy, span: f64) -> Value {
+fn average<W>(results: &Results<W>, own: &OnPolicy, span: f64) -> Value {
     let scale = span / results.experiment.tick();
     let episodes = results.met.episodes.iter();
     let simulated = ratio(episodes.map(|e| (e.total, e.ticks as f64)));

@@ -5,7 +5,7 @@ use crate::ir::tree::{Atom, Node};
 use crate::learn::episode::{Controller, play_all};
 use crate::learn::experiment::Experiment;
 use crate::learn::extract::Decisions;
-use crate::learn::process::{Key, Process};
+use crate::learn::process::{Key, Process, World};
 use crate::learn::rollout::RollOut;
 use crate::learn::simulated::Purpose;
 use crate::learn::statistics::Summary;
@@ -29,17 +29,15 @@ pub fn care_set(care: Care, decisions: &Decisions, met: &RollOut) -> FxHashSet<K
 ///
 /// # Errors
 /// An atom that the world does not know.
-pub fn test(
-    experiment: &Experiment,
+pub fn test<W: World>(
+    experiment: &Experiment<W>,
     root: &Node,
     care: &FxHashSet<Key>,
     episodes: u64,
     seed: u64,
 ) -> Result<Summary, Atom> {
-    let Experiment {
-        simulator, task, ..
-    } = experiment;
-    let runner = Runner::new(root, simulator.atoms())?;
+    let Experiment { world, task, .. } = experiment;
+    let runner = Runner::new(root, world.atoms())?;
     let start = experiment.measured(Purpose::Test, seed);
     let played = play_all(episodes, start, task.patience, || {
         let watched = Watched {
@@ -47,7 +45,7 @@ pub fn test(
             care,
             outside: 0,
         };
-        (simulator.simulation(), watched)
+        (world.process(), watched)
     });
     Ok(Summary::of(&played, task.end_on.len()))
 }

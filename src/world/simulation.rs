@@ -32,8 +32,12 @@ pub struct Tick {
     pub closed: bool,
     /// The value of the first line of `reward` whose event fired, of `otherwise` if none did.
     pub reward: f64,
+    /// What this tick pays whether or not a transition ends with it; the simulator pays transitions alone.
+    pub flow: f64,
     /// Whether the episode ended.
     pub end: Option<End>,
+    /// Whether it ended badly: an event with a negative reward ended it.
+    pub lost: bool,
 }
 
 /// A running instance of a behaviour.
@@ -182,7 +186,9 @@ impl<'a> Simulation<'a> {
             terminated: !quiet,
             closed: false,
             reward: 0.0,
+            flow: 0.0,
             end: None,
+            lost: false,
         };
         if quiet && run(&compiled.quiet, &mut self.registers, &mut self.body) != NOT_QUIET {
             tick.reward = match compiled.otherwise {
@@ -212,6 +218,7 @@ impl<'a> Simulation<'a> {
         tick.reward = self.registers.get(Fixed::Reward.register());
         let line = self.registers.get(Fixed::End.register()) as usize;
         tick.end = line.checked_sub(1).map(End::On);
+        tick.lost = tick.end.is_some() && tick.closed && tick.reward < 0.0;
         for &event in &self.body.fired {
             if let Some(count) = self.counts.get_mut(usize::from(event)) {
                 *count += 1;

@@ -66,6 +66,7 @@ impl<F: FnMut(Key, usize, &mut Random) -> Said> Process for Toy<F> {
             reward,
             ticks,
             closed: false,
+            lost: false,
             end,
         }
     }
