@@ -111,6 +111,50 @@
 //! # }
 //! ```
 //!
+//! # A world of your own
+//!
+//! An [`Environment`] is simulated by your program; a [`Trainer`] gives its predicates and behaviours their names and
+//! learns a tree for it:
+//!
+//! ```
+//! use btc::{Ended, Environment, LearnOptions, Outcome, Status, Trainer};
+//!
+//! #[derive(Default)]
+//! struct Corridor {
+//!     cell: i64,
+//!     step: i64,
+//! }
+//!
+//! impl Environment for Corridor {
+//!     fn start(&mut self, seed: u64) {
+//!         self.cell = (seed % 9) as i64 - 4;
+//!     }
+//!     fn holds(&self, _predicate: usize) -> bool {
+//!         self.cell < 0
+//!     }
+//!     fn act(&mut self, behavior: usize) -> Status {
+//!         self.step = [-1, 1][behavior];
+//!         Status::Running
+//!     }
+//!     fn step(&mut self) -> Outcome {
+//!         self.cell += self.step;
+//!         if self.cell == 0 { Outcome::end(10.0, Ended::Good) } else { Outcome::on(-1.0) }
+//!     }
+//! }
+//!
+//! # fn main() -> Result<(), btc::Error> {
+//! let trainer = Trainer::new(Corridor::default)
+//!     .predicates(["left_of_door"])
+//!     .behaviors(["go_left", "go_right"])
+//!     .limit(20)
+//!     .episodes(200);
+//! let options = LearnOptions { effort: 20_000, roll_outs: 50, ..LearnOptions::default() };
+//! let trained = trainer.learn(&options)?;
+//! assert!(trained.tree().to_string().contains("left_of_door => go_right"));
+//! # Ok(())
+//! # }
+//! ```
+//!
 //! # The rooms of the crate
 //!
 //! All of the above stands on the modules below. They are internals: public, so that tests, benches and the command
@@ -144,6 +188,8 @@ pub mod eval;
 pub mod world;
 
 pub mod learn;
+
+pub mod environment;
 
 pub mod policy;
 

@@ -2,6 +2,7 @@
 
 use crate::diagnostic::{Diagnostic, render};
 use crate::driver::Refused;
+use crate::driver::environment::Untaught;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -17,13 +18,15 @@ pub enum Error {
     },
     /// The input has mistakes. [`fmt::Display`] shows each with the lines that it is about.
     Mistakes(Refused),
+    /// Nothing can be learned in an environment.
+    Untaught(Untaught),
 }
 
 impl Error {
     /// The mistakes, sorted by place; none if a file cannot be read.
     pub fn diagnostics(&self) -> &[Diagnostic] {
         match self {
-            Self::File { .. } => &[],
+            Self::File { .. } | Self::Untaught(_) => &[],
             Self::Mistakes(refused) => &refused.diagnostics,
         }
     }
@@ -42,6 +45,7 @@ impl fmt::Display for Error {
                 sources,
                 diagnostics,
             }) => f.write_str(render::human(sources, diagnostics, false).trim_end()),
+            Self::Untaught(why) => why.fmt(f),
         }
     }
 }
@@ -51,7 +55,14 @@ impl std::error::Error for Error {
         match self {
             Self::File { source, .. } => Some(source),
             Self::Mistakes(_) => None,
+            Self::Untaught(why) => Some(why),
         }
+    }
+}
+
+impl From<Untaught> for Error {
+    fn from(why: Untaught) -> Self {
+        Self::Untaught(why)
     }
 }
 

@@ -22,6 +22,14 @@ impl Tree {
         Self { program, tree }
     }
 
+    pub(super) fn program(&self) -> &ir::Program {
+        &self.program
+    }
+
+    pub(super) fn ir(&self) -> &ir::tree::Tree {
+        &self.tree
+    }
+
     /// The name, as the language writes it.
     pub fn name(&self) -> String {
         self.tree.name.to_string()

@@ -163,7 +163,6 @@ impl<'a, W> Experiment<'a, W> {
     pub fn never(&self) -> &[Id<Event>] {
         &self.never
     }
-
 }
 
 impl<W: World> Experiment<'_, W> {

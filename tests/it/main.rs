@@ -9,6 +9,7 @@
 
 mod check;
 mod cli;
+mod environment;
 mod examples;
 mod explain;
 mod export;

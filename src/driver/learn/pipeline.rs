@@ -184,4 +184,3 @@ fn trees(policy: &Policy, options: &Options) -> Result<Trees, Refuted> {
         reachable: reachable?,
     })
 }
-
