@@ -4,8 +4,9 @@ use super::files::{self, STDIN};
 use super::progress::Progress;
 use super::report::{Reporter, tell};
 use super::{Failure, PLAYED};
-use crate::driver::learn::{self, Options, Shape};
-use crate::driver::{target, verify};
+use crate::driver::learn::{self, Learned, Options, Shape};
+use crate::driver::load::Loaded;
+use crate::driver::{target, tune, verify};
 use crate::grow::Choice;
 use crate::tree::decanonicalise::{Care, Method};
 use clap::Args;
@@ -63,6 +64,9 @@ pub(super) struct Arguments {
     /// Write the whole report, and not only its five lines on the tree.
     #[arg(long)]
     report: bool,
+    /// Then search for better values of the numbers that may be tuned, and learn again under them; see `btc tune`.
+    #[arg(long)]
+    tune: bool,
 }
 
 /// A part of a return: `1%` or `0.01`.
@@ -100,6 +104,9 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     // Without a learner no folder is made.
     target::learner(&loaded, arguments.learner.as_deref())
         .map_err(|refused| say.refused(&refused))?;
+    if arguments.tune {
+        tune::something(&loaded).map_err(|refused| say.refused(&refused))?;
+    }
     let folder = match &arguments.output {
         Some(folder) => folder.clone(),
         None => {
@@ -158,6 +165,36 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     for claim in &claims {
         tell(&claim.text);
     }
+    if arguments.tune {
+        tuned(&loaded, &learned, &options, &folder, say)?;
+    }
     tell(&format!("written to {}", folder.display()));
     super::verify::verdict(&claims)
+}
+
+/// Tunes the tree that was learned. The program and the tree that were written stay those of the values in use.
+fn tuned(
+    loaded: &Loaded,
+    learned: &Learned,
+    options: &Options,
+    folder: &Path,
+    say: &Reporter,
+) -> Result<(), Failure> {
+    let bar = Progress::new();
+    let search = tune::Options::default();
+    let tuned = tune::of_learned(loaded, learned, options, &search, &|stage| match stage {
+        tune::Stage::Learning(stage) => bar.show(stage),
+        tune::Stage::Tuning(_) => bar.stage("tuning"),
+    });
+    bar.finish();
+    let tuned = tuned.map_err(|refused| say.refused(&refused))?;
+    tell(tuned.human.trim_end());
+    if let Some(text) = &tuned.text {
+        tell(text.trim_end());
+    }
+    files::write(&folder.join("tune.json"), &tuned.json)?;
+    for (name, picture) in &tuned.pictures {
+        files::write(&folder.join(name), picture)?;
+    }
+    Ok(())
 }

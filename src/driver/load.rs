@@ -4,9 +4,10 @@ use super::text::{Text, decode};
 use crate::check::{self, Input};
 use crate::diagnostic::{self, Code, Diagnostic};
 use crate::ir::{Name, Program};
-use crate::source::{FileId, Sources, Span};
+use crate::source::{FileId, Source, Sources, Span};
 use crate::syntax;
 use crate::syntax::ast::{self, ItemKind, UseWhat};
+use std::collections::BTreeMap;
 
 /// The embedded library.
 const LIBRARY: &str = include_str!("../library/std.bt");
@@ -58,17 +59,44 @@ impl Loaded {
         std::iter::once(&self.ast).chain(used)
     }
 
-    /// The program with other values for its tunables, in their units. Behaviours, predicates and trees keep their ids.
-    /// `None` if it has mistakes under these values.
-    pub fn revalued(&self, values: &[f64]) -> Option<Program> {
+    /// The files with edits, by id; edits do not overlap.
+    pub fn texts(&self, edits: &[(Span, String)]) -> BTreeMap<FileId, Source> {
+        let mut texts: BTreeMap<FileId, String> = BTreeMap::new();
+        let mut edits = edits.to_vec();
+        // From the end, so that places before stay what they are; of several insertions at one place the first stands first.
+        edits.sort_by_key(|(span, _)| *span);
+        for (span, new) in edits.iter().rev() {
+            let Some(source) = self.sources.get(span.file) else {
+                continue;
+            };
+            let text = texts
+                .entry(span.file)
+                .or_insert_with(|| source.text.clone());
+            if text.get(span.range()).is_some() {
+                text.replace_range(span.range(), new);
+            }
+        }
+        let named = texts.into_iter().filter_map(|(id, text)| {
+            let source = self.sources.get(id)?;
+            Some((id, Source::new(source.name.clone(), text)))
+        });
+        named.collect()
+    }
+
+    fn inputs(&self) -> Vec<Input<'_>> {
         let main = Input {
             ast: &self.ast,
             library: false,
         };
-        let inputs: Vec<Input> = self.used.iter().map(Parsed::input).chain([main]).collect();
+        self.used.iter().map(Parsed::input).chain([main]).collect()
+    }
+
+    /// The program with other values for its tunables, in their units. Behaviours, predicates and trees keep their ids.
+    /// `None` if it has mistakes under these values.
+    pub fn revalued(&self, values: &[f64]) -> Option<Program> {
         let tuned = self.tunes.iter().zip(values);
         let tuned = tuned.flat_map(|(sites, value)| sites.iter().map(|site| (*site, *value)));
-        let checked = check::check_with(&inputs, tuned.collect());
+        let checked = check::check_with(&self.inputs(), tuned.collect());
         let program = checked.program;
         let wrong = checked.diagnostics.iter().any(Diagnostic::is_error);
         (!wrong && same_names(&self.program, &program)).then_some(program)

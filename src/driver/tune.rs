@@ -5,14 +5,13 @@ use super::load::Loaded;
 use super::refused::Refused;
 use super::{target, world};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::ir::task::{Learner, Task, TreeRef};
+use crate::ir::task::{Task, TreeRef};
 use crate::ir::tree::Node;
 use crate::ir::{Id, Name, Program};
 use crate::report::tuned::{Again, Edit, Report};
 use crate::source::Span;
 use crate::tune::confirm::duel;
 use crate::tune::{self, Progress, Subject, Tuned};
-use std::collections::BTreeMap;
 
 /// What a user may set.
 #[derive(Clone, Copy, Debug)]
@@ -74,13 +73,7 @@ pub fn tune(
     options: &Options,
     progress: &(dyn Fn(Stage) + Sync),
 ) -> Result<Outcome, Refused> {
-    if loaded.program.tunables.is_empty() {
-        let at = target::end_of_file(loaded);
-        let diagnostic = Diagnostic::new(Code::E0504, at, "the program has nothing to tune")
-            .label("`tune(VALUE, LOW .. HIGH)` is missing")
-            .help("for example: `predicate low = battery <= tune(25%, 5% .. 60%)`");
-        return Err(Refused::program(loaded, [diagnostic]));
-    }
+    something(loaded)?;
     let program = &loaded.program;
     let named = match options.tree {
         Some(name) => Some(target::tree(loaded, name)?),
@@ -107,40 +100,48 @@ pub fn tune(
         }
         None => {
             let id = target::learner(loaded, options.learner)?;
-            let learned = learned(loaded, id, progress)?;
-            of_learned(loaded, id, &learned, options, progress)
+            let name = program.learners[id].name.to_string();
+            let source = loaded.sources.get(loaded.main);
+            let how = learn::Options {
+                learner: Some(&name),
+                source: source.map_or("program.bt", |source| &source.name),
+                ..learn::Options::default()
+            };
+            let heard = |stage| progress(Stage::Learning(stage));
+            let learned = learn::learn(loaded, &how, &heard)?;
+            of_learned(loaded, &learned, &how, options, progress)
         }
     }
 }
 
-/// Learns a tree under the values in use.
-fn learned(
-    loaded: &Loaded,
-    id: Id<Learner>,
-    progress: &(dyn Fn(Stage) + Sync),
-) -> Result<Learned, Refused> {
-    let name = loaded.program.learners[id].name.to_string();
-    let source = loaded.sources.get(loaded.main);
-    let options = learn::Options {
-        learner: Some(&name),
-        source: source.map_or("program.bt", |source| &source.name),
-        ..learn::Options::default()
-    };
-    learn::learn(loaded, &options, &|stage| progress(Stage::Learning(stage)))
+/// Whether there is something to tune.
+///
+/// # Errors
+/// There is not.
+pub fn something(loaded: &Loaded) -> Result<(), Refused> {
+    if !loaded.program.tunables.is_empty() {
+        return Ok(());
+    }
+    let at = target::end_of_file(loaded);
+    let diagnostic = Diagnostic::new(Code::E0504, at, "the program has nothing to tune")
+        .label("`tune(VALUE, LOW .. HIGH)` is missing")
+        .help("for example: `predicate low = battery <= tune(25%, 5% .. 60%)`");
+    Err(Refused::program(loaded, [diagnostic]))
 }
 
-/// Tunes a tree that was learned under the values in use. Under better values it is learned again, and the better of
-/// both trees is taken.
+/// Tunes a tree that was learned under the values in use. Under better values it is learned again in the same way, and
+/// the better of both trees is taken.
 ///
 /// # Errors
 /// As [`tune`].
 pub fn of_learned(
     loaded: &Loaded,
-    id: Id<Learner>,
     learned: &Learned,
+    how: &learn::Options,
     options: &Options,
     progress: &(dyn Fn(Stage) + Sync),
 ) -> Result<Outcome, Refused> {
+    let id = learned.learner;
     let learner = &loaded.program.learners[id];
     let searched = Searched {
         loaded,
@@ -160,7 +161,8 @@ pub fn of_learned(
         program,
         ..loaded.clone()
     };
-    let anew = self::learned(&changed, id, progress)?;
+    let heard = |stage| progress(Stage::Learning(stage));
+    let anew = learn::learn(&changed, how, &heard)?;
     let subject = Subject {
         root: &anew.tree.root,
         ..searched.subject(&|_| None)
@@ -267,20 +269,6 @@ fn edit(loaded: &Loaded, (span, replacement): &(Span, String)) -> Edit {
 
 /// The files with their changes; nothing else in them is touched.
 fn fixed(loaded: &Loaded, changes: &[(Span, String)]) -> Vec<(String, String)> {
-    let mut texts: BTreeMap<_, (String, String)> = BTreeMap::new();
-    let mut changes = changes.to_vec();
-    // From the end, so that places before stay what they are.
-    changes.sort_by_key(|(span, _)| std::cmp::Reverse(*span));
-    for (span, new) in &changes {
-        let Some(source) = loaded.sources.get(span.file) else {
-            continue;
-        };
-        let (_, text) = texts
-            .entry(span.file)
-            .or_insert_with(|| (source.name.clone(), source.text.clone()));
-        if text.get(span.range()).is_some() {
-            text.replace_range(span.range(), new);
-        }
-    }
-    texts.into_values().collect()
+    let texts = loaded.texts(changes).into_values();
+    texts.map(|source| (source.name, source.text)).collect()
 }
