@@ -155,11 +155,11 @@ fn every_step_of_a_decision_is_paid() {
     let step = process.decide(Id::new(FETCH), None, 0);
     assert_eq!((step.reward, step.status), (-3.0, Status::Failure));
     assert_eq!((process.key() & 2, step.end), (0, End::Not));
-    // The limit cuts the episode.
+    // The limit ends the episode as a decision is due.
     let step = process.decide(Id::new(1), None, 0);
     assert_eq!(
         (step.status, step.end, step.lost),
-        (Status::Success, End::Cut, false)
+        (Status::Success, End::Limit, false)
     );
 }
 
