@@ -133,7 +133,7 @@ pub fn something(loaded: &Loaded) -> Result<(), Refused> {
 /// the better of both trees is taken.
 ///
 /// # Errors
-/// As [`tune`].
+/// As [`tune()`].
 pub fn of_learned(
     loaded: &Loaded,
     learned: &Learned,

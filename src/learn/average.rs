@@ -4,7 +4,7 @@
 //! reward of an episode by its expected length. What the tick limit cuts would have gone on.
 //!
 //! Where two parts of a problem do not lead to each other there is no single average. A restart with a probability of
-//! 10⁻⁵ in each tick, which is the discount of [`DISCOUNT`], joins them: each counts as often as it is entered from
+//! 10⁻⁵ in each tick, which is the discount of [`discount`], joins them: each counts as often as it is entered from
 //! the starts.
 
 use super::solve::{Problem, Solution};
