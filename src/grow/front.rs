@@ -250,7 +250,8 @@ fn points(entrants: &[Entrant], chosen: usize, harms: &impl Fn(&Entrant) -> u64)
         .collect();
     points.sort_by(|a, b| {
         let nodes = a.size.nodes.cmp(&b.size.nodes);
-        nodes.then(b.returns.mean.total_cmp(&a.returns.mean))
+        let better = b.returns.mean.total_cmp(&a.returns.mean);
+        nodes.then(better).then(b.taken.cmp(&a.taken))
     });
     let mut best = f64::NEG_INFINITY;
     points.retain(|point| {

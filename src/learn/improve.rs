@@ -164,7 +164,7 @@ impl<W: World, H: Fn(&Episode) -> u64 + Sync> Improver<'_, W, H> {
         Some((None, used))
     }
 
-    /// Whether these episodes gain over the same ones of the base by so many standard errors, without more harm.
+    /// Whether these episodes gain what a change must, by so many standard errors more, without more harm.
     fn gains(&self, played: &[(u64, Shown)], base: &[&(u64, Shown)], least: f64) -> bool {
         let harms = |shown: &Shown| (self.harm)(&shown.episode) as i64;
         let pairs = || played.iter().zip(base);
@@ -180,7 +180,7 @@ impl<W: World, H: Fn(&Episode) -> u64 + Sync> Improver<'_, W, H> {
         let returns = Mean::of(&returns);
         let spread = (returns.ci95[1] - returns.mean) / 1.96 * (base.len() as f64).sqrt();
         let worth = WORTH * returns.mean.abs().max(spread);
-        more <= 0 && gain.mean > (least * error).max(worth)
+        more <= 0 && gain.mean - least * error > worth
     }
 
     /// Plays episodes of these numbers.
