@@ -89,6 +89,8 @@ const MEMORIES: usize = 8;
 const FAILURES: usize = 3;
 /// The part of the effort that is kept for choosing and measuring.
 const KEPT: f64 = 0.2;
+/// The prices, in parts of a node's, at which smaller trees are looked for that cost something.
+const DEARER: [f64; 4] = [3.0, 10.0, 30.0, 100.0];
 /// Episodes that show what a tree does, for pruning without simulation.
 const SHOWN: usize = 64;
 /// The most nodes of a tree that is pruned so.
@@ -164,6 +166,7 @@ pub fn grow<W: World>(
         collected: 0,
         price: 0.0,
         visited: Vec::new(),
+        single: None,
     };
     let base = grower.begin(starts)?;
     let base = grower.sprout(base, starts);
@@ -197,6 +200,8 @@ struct Grower<'g, 'w, 'a, W> {
     collected: u64,
     price: f64,
     visited: Vec<Visited>,
+    /// The best single behaviour.
+    single: Option<Node>,
 }
 
 impl<W: World> Grower<'_, '_, '_, W> {
@@ -246,6 +251,14 @@ impl<W: World> Grower<'_, '_, '_, W> {
         let least = means.fold(f64::NEG_INFINITY, f64::max);
         let scale = (top - least).min(top.abs().max(spread)).max(0.1 * spread);
         self.price = PRICE * scale.max(1e-6);
+        let mean = |single: &Entrant| single.contender.returns().mean;
+        let best = singles
+            .iter()
+            .reduce(|best, next| match mean(next) > mean(best) {
+                true => next,
+                false => best,
+            });
+        self.single = best.map(|best| best.root.clone());
         let pruned = self.pruned(&starts.exact, &exact);
         self.visit(&pruned);
         let others: Vec<Node> = starts
@@ -431,15 +444,22 @@ impl<W: World> Grower<'_, '_, '_, W> {
 
     /// Smaller trees that cost little, for the front.
     fn refine(&mut self, mut base: Node) {
-        if self.settings.front {
-            for factor in [4.0, 16.0, 64.0] {
-                let mut tried = FxHashSet::default();
+        if !self.settings.front {
+            return;
+        }
+        for factor in DEARER {
+            let mut tried = FxHashSet::default();
+            while !self.spent(1.0) {
                 let trees = self.proposals(&base, self.price * factor, true, &mut tried);
-                if let Some(found) = self.judge.race(&base, trees, self.price * factor).0 {
-                    base = self.pruned(&found.root.clone(), &found);
-                    self.visit(&base);
-                }
+                let (found, _) = self.judge.race(&base, trees, self.price * factor);
+                let Some(found) = found else { break };
+                base = self.pruned(&found.root.clone(), &found);
+                self.visit(&base);
             }
+        }
+        // However few nodes are asked for, there is a tree.
+        if let Some(single) = self.single.clone() {
+            self.visit(&single);
         }
     }
 

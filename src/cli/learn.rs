@@ -44,8 +44,8 @@ pub(super) struct Arguments {
     #[arg(long)]
     front: bool,
     /// Take the best of the grown trees with at most this many nodes.
-    #[arg(long, value_name = "N", conflicts_with = "loss")]
-    nodes: Option<usize>,
+    #[arg(long, value_name = "N", conflicts_with = "loss", value_parser = clap::value_parser!(u64).range(1..))]
+    nodes: Option<u64>,
     /// Take the smallest of the grown trees that costs at most this part of the best one's return, such as `1%`.
     #[arg(long, value_name = "LOSS", value_parser = loss)]
     loss: Option<f64>,
@@ -100,8 +100,14 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
         tell("error: a program is learned from its file, so that the result can use it");
         return Err(Failure::Usage);
     }
+    let grows = arguments.front || arguments.nodes.is_some() || arguments.loss.is_some();
+    if arguments.shape == Shape::Exact && grows {
+        tell(
+            "error: `--front`, `--nodes` and `--loss` choose among grown trees: leave out `--shape exact`",
+        );
+        return Err(Failure::Usage);
+    }
     let loaded = files::load(&arguments.file, say)?;
-    // Without a learner no folder is made.
     target::learner(&loaded, arguments.learner.as_deref())
         .map_err(|refused| say.refused(&refused))?;
     if arguments.tune {
@@ -114,9 +120,14 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
             PathBuf::from(format!("{}.learned", name.to_string_lossy()))
         }
     };
-    std::fs::create_dir_all(&folder)
-        .map_err(|error| files::complain(&format!("{}: {error}", folder.display())))?;
-    let source = files::from_folder(&folder, Path::new(&arguments.file))?;
+    // Whether the results can be written shows before hours of learning; a run that is refused or killed leaves no folder.
+    let found = folder.exists();
+    make(&folder)?;
+    let source = files::from_folder(&folder, Path::new(&arguments.file));
+    if !found {
+        let _ = std::fs::remove_dir(&folder);
+    }
+    let source = source?;
     if source == "learned.bt" {
         let message =
             "is the program itself, and would be overwritten; name another folder with `-o`";
@@ -132,7 +143,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
         care: arguments.care,
         shape: arguments.shape,
         choice: match (arguments.nodes, arguments.loss) {
-            (Some(nodes), _) => Choice::Nodes(nodes),
+            (Some(nodes), _) => Choice::Nodes(usize::try_from(nodes).unwrap_or(usize::MAX)),
             (None, Some(loss)) => Choice::Loss(loss),
             (None, None) => Choice::Knee,
         },
@@ -149,6 +160,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     bar.finish();
     let learned = learned.map_err(|refused| say.refused(&refused))?;
     files::print(&learned.text)?;
+    make(&folder)?;
     for (name, text) in &learned.files {
         files::write(&folder.join(name), text)?;
     }
@@ -170,6 +182,11 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     }
     tell(&format!("written to {}", folder.display()));
     super::verify::verdict(&claims)
+}
+
+fn make(folder: &Path) -> Result<(), Failure> {
+    std::fs::create_dir_all(folder)
+        .map_err(|error| files::complain(&format!("{}: {error}", folder.display())))
 }
 
 /// Tunes the tree that was learned. The program and the tree that were written stay those of the values in use.

@@ -44,17 +44,22 @@ impl Progress {
         self.bar.set_message(name);
     }
 
+    /// Shows a stage of this length.
+    fn measured(&self, name: &'static str, length: u64) {
+        let template = "{msg:14} {wide_bar} {percent:>3} %  {eta}";
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            self.bar.set_style(style);
+        }
+        self.bar.set_message(name);
+        self.bar.set_length(length);
+    }
+
     /// Shows a stage of learning.
     pub(super) fn show(&self, stage: Stage) {
         match stage {
             Stage::Learning(done, all) => {
                 if done == 1 {
-                    let template = "{msg:14} {wide_bar} {percent:>3} %  {eta}";
-                    if let Ok(style) = ProgressStyle::with_template(template) {
-                        self.bar.set_style(style);
-                    }
-                    self.bar.set_message("learning");
-                    self.bar.set_length(all);
+                    self.measured("learning", all);
                 }
                 // A redraw takes longer than an episode.
                 if done % 64 == 0 || done == all {
@@ -65,7 +70,10 @@ impl Progress {
             Stage::RollingOut => self.stage("rolling out"),
             Stage::Proving => self.stage("proving"),
             Stage::Improving => self.stage("improving"),
-            Stage::Growing(..) => self.stage("growing"),
+            Stage::Growing(done, all) => {
+                self.measured("growing", all);
+                self.bar.set_position(done.min(all));
+            }
             Stage::Testing => self.stage("testing"),
         }
     }

@@ -67,6 +67,10 @@ fn mistakes_give_exit_code_1_and_a_bad_command_line_2() {
             "18446744073709551615",
         ],
         &["learn", SMALL, "--roll-outs", "18446744073709551615"],
+        &["learn", SMALL, "--effort", "5x"],
+        &["learn", SMALL, "--nodes", "0"],
+        &["learn", SMALL, "--nodes", "5", "--loss", "1%"],
+        &["learn", SMALL, "--shape", "exact", "--front"],
         &["verify", SMALL, "expert"],
         &["learn", "-"],
         &["compile", SMALL, "--emit", "pdf"],
@@ -278,6 +282,30 @@ fn a_world_that_cannot_be_built_is_a_mistake_of_the_program() {
     );
     let output = piped(&["check", "-"], declared.as_bytes());
     assert_eq!(out(&output), "ok\n", "{}", err(&output));
+}
+
+#[test]
+fn a_run_that_is_refused_leaves_no_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = folder.path().join("results");
+    let to = place.to_str().unwrap();
+    let output = btc(&[
+        "learn",
+        SMALL,
+        "-o",
+        to,
+        "--episodes",
+        "1",
+        "--evidence",
+        "100000",
+    ]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(
+        err(&output).contains("nothing was learned"),
+        "{}",
+        err(&output)
+    );
+    assert!(!place.exists());
 }
 
 #[test]
