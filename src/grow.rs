@@ -6,11 +6,13 @@
 //! What it does alike with fewer nodes costs no simulation at all. Effort is counted in ticks, not in time.
 
 pub mod bodies;
+pub mod cover;
 pub mod evidence;
 pub mod field;
 pub mod front;
 pub mod ground;
 pub mod guards;
+pub mod iterate;
 pub mod place;
 pub mod propose;
 pub mod race;
@@ -25,16 +27,18 @@ use crate::learn::improve::{Improved, Improver};
 use crate::learn::process::{Key, World};
 use crate::learn::simulated::Purpose;
 use crate::random::Random;
-use crate::tree::Size;
 use crate::tree::prune::{self, Requirement};
+use crate::tree::{Runner, Size};
+use crate::trial::play::Ticked;
 use crate::trial::trace::Paths;
 use evidence::{Evidence, Sight, Visits};
-use field::Field;
+use field::{Aim, Field};
 pub use front::{Choice, Figures, Grown, Point};
 use ground::Ground;
+use iterate::Iteration;
 use propose::{Proposal, Proposer};
 use race::{Entrant, Judge};
-use rustc_hash::FxHashSet;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// What a search starts from.
 #[derive(Clone, Debug)]
@@ -78,9 +82,14 @@ const STEPS: usize = 40;
 /// The part of the effort after which no more is grown from the start.
 const SPROUTS: f64 = 0.4;
 /// Rounds of growing from the start.
-const ROUNDS: usize = 3;
+const ROUNDS: usize = 2;
+/// The fewest nodes of a tree that is covered by smaller ones, and the part of the effort after which no more are made.
+const COVERED: usize = 20;
+const COVERS: f64 = 0.25;
+/// The races of the trees that cover another.
+const RUNS: usize = 2;
 /// The ticks of a collection, as a part of the effort, and at least how many episodes.
-const COLLECTED: f64 = 0.012;
+const COLLECTED: f64 = 0.006;
 /// Proposals of a round: those of which the counts promise most, others at random, and nodes with memory.
 const BEST: usize = 20;
 const RANDOM: usize = 20;
@@ -108,6 +117,7 @@ pub fn ground<'w, W: World>(experiment: &'w Experiment<W>, seed: u64) -> Ground<
         exploring: experiment.exploring(),
         discounting: experiment.discounting(),
         ends: task.end_on.len(),
+        history: task.history,
         never: experiment
             .never()
             .iter()
@@ -117,22 +127,48 @@ pub fn ground<'w, W: World>(experiment: &'w Experiment<W>, seed: u64) -> Ground<
     }
 }
 
-/// The part of the effort that improves the policy before a tree is made of it.
-const IMPROVING: u64 = 10;
+/// The part of the effort that goes into the policy, by iteration and then decision by decision.
+const ITERATING: f64 = 0.35;
+const IMPROVING: f64 = 0.05;
+/// The part that goes into the tree.
+const GROWING: f64 = 0.6;
 
 /// Improves the policy of a run by simulation.
 pub fn improve<W: World>(experiment: &Experiment<W>, run: &mut Run, effort: u64) -> Improved {
     let ground = ground(experiment, run.seed);
+    let unseen = greedy::unseen(experiment.program, experiment.learner.task);
+    let iteration = Iteration {
+        ground: &ground,
+        unseen,
+        least: experiment.evidence,
+        effort: part(effort, ITERATING),
+    };
+    let iterated = iteration.run(&run.decisions);
+    let ticks = iterated.ticks;
+    let changed = iterated.into(&mut run.decisions, &mut run.table);
     let improver = Improver {
         world: ground.world,
         choices: ground.choices,
-        unseen: greedy::unseen(experiment.program, experiment.learner.task),
+        unseen,
         patience: ground.patience,
         start: ground.episodes(Purpose::Improve, 0),
-        effort: effort / IMPROVING,
+        effort: part(effort, IMPROVING),
         harm: |episode: &Episode| ground.harm(episode),
     };
-    improver.improve(&mut run.decisions, &run.table)
+    let improved = improver.improve(&mut run.decisions, &run.table);
+    Improved {
+        changed: changed + improved.changed,
+        ticks: ticks + improved.ticks,
+    }
+}
+
+/// The part of the effort of learning that a search for a tree gets.
+pub fn growing(effort: u64) -> u64 {
+    part(effort, GROWING)
+}
+
+fn part(effort: u64, part: f64) -> u64 {
+    (effort as f64 * part) as u64
 }
 
 /// The predicate that each behaviour of the task requires, where it requires just that.
@@ -169,6 +205,7 @@ pub fn grow<W: World>(
         single: None,
     };
     let base = grower.begin(starts)?;
+    let base = grower.cover(base);
     let base = grower.sprout(base, starts);
     let base = grower.climb(base);
     grower.refine(base);
@@ -288,11 +325,63 @@ impl<W: World> Grower<'_, '_, '_, W> {
             episode: self.collected << 20,
             ..at
         };
-        let (visits, used) = self
-            .evidence
-            .collect(self.ground, root, (explore, start), ticks);
+        let Ok(runner) = Runner::new(root, self.ground.world.atoms()) else {
+            return Visits::default();
+        };
+        let (visits, used) =
+            self.evidence
+                .collect(self.ground, &Ticked(runner), (explore, start), ticks);
         self.judge.ticks += used;
         visits
+    }
+
+    /// Trees that decide as the base does where it matters, from few of its decisions to all, raced.
+    fn cover(&mut self, base: Node) -> Node {
+        let nodes = Size::of(&base).nodes;
+        let Some(mut tree) = self.single.clone().filter(|_| nodes > COVERED) else {
+            return base;
+        };
+        let mut visits = self.collect(&base, 0.05);
+        add(&mut visits, self.collect(&base, 0.2));
+        let mut kept: FxHashMap<Key, usize> = FxHashMap::default();
+        let mut trees: Vec<Node> = Vec::new();
+        while !self.spent(COVERS) {
+            self.report(&tree);
+            let aim = Aim::Of(&base);
+            let field = Field::new(self.ground, &self.evidence, Sight::Far, &visits, aim);
+            let most = (kept.len() / 5).max(2);
+            let before = kept.len();
+            kept.extend(cover::missed(&field, &tree, &base, most));
+            if kept.len() == before {
+                break;
+            }
+            let Some(next) = cover::tree(self.ground, &kept) else {
+                break;
+            };
+            tree = next;
+            if Size::of(&tree).nodes * 5 > nodes * 4 {
+                break;
+            }
+            // Where the trees before went still counts, less and less.
+            visits.values_mut().for_each(|weight| *weight *= 0.6);
+            add(&mut visits, self.collect(&tree, 0.05));
+            if !trees.contains(&tree) {
+                trees.push(tree.clone());
+            }
+        }
+        self.best_of(base, trees)
+    }
+
+    /// The best of these trees, pruned, if it is better than the base; one after another until none is.
+    fn best_of(&mut self, mut base: Node, trees: Vec<Node>) -> Node {
+        for _ in 0..RUNS {
+            let others = trees.iter().filter(|tree| **tree != base).cloned();
+            let (found, _) = self.judge.race(&base, others.collect(), self.price);
+            let Some(found) = found else { break };
+            base = self.pruned(&found.root.clone(), &found);
+            self.visit(&base);
+        }
+        base
     }
 
     /// Trees grown by the counts alone, from a single behaviour and from the best tree, raced; several times.
@@ -320,7 +409,11 @@ impl<W: World> Grower<'_, '_, '_, W> {
                 Sight::Learner
             };
             let bodies = bodies::bodies(self.ground, &self.evidence);
-            let field = Field::new(self.ground, &self.evidence, sight, &visits);
+            let aim = match round % 2 == 0 {
+                true => Aim::Of(&base),
+                false => Aim::Best,
+            };
+            let field = Field::new(self.ground, &self.evidence, sight, &visits, aim);
             let mut trees: Vec<Node> = Vec::new();
             for factor in [1.0, 3.0, 1.0 / 3.0] {
                 let proposer = Proposer {
@@ -391,7 +484,11 @@ impl<W: World> Grower<'_, '_, '_, W> {
         } else {
             Sight::Learner
         };
-        let field = Field::new(self.ground, &self.evidence, sight, &visits);
+        let aim = match self.random.chance(0.5) {
+            true => Aim::Of(base),
+            false => Aim::Best,
+        };
+        let field = Field::new(self.ground, &self.evidence, sight, &visits, aim);
         let proposer = Proposer {
             field: &field,
             bodies: &bodies,

@@ -3,13 +3,13 @@
 use super::ground::Ground;
 use crate::ir::Id;
 use crate::ir::law::Behavior;
-use crate::ir::tree::{Node, Status};
+use crate::ir::tree::Status;
 use crate::learn::discount::Discounting;
+use crate::learn::episode::Controller;
 use crate::learn::process::{Earned, End, Key, Process, World};
 use crate::learn::solve::{Outlook, Problem};
 use crate::random::Random;
-use crate::tree::Runner;
-use crate::world::{self, Start};
+use crate::world::{self, Start, Tick};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
@@ -51,6 +51,12 @@ pub struct Cell {
     /// How many decisions are counted.
     pub count: f64,
     reward: f64,
+    /// The sum of the squares of the rewards.
+    squares: f64,
+    /// The sum of the rewards below zero.
+    losses: f64,
+    /// Decisions that ended the episode.
+    ends: f64,
     ticks: f64,
     /// Failures in the first tick.
     refused: f64,
@@ -62,6 +68,11 @@ impl Cell {
     /// The part of its decisions that failed in the first tick.
     pub fn refused(&self) -> f64 {
         self.refused / self.count.max(1.0)
+    }
+
+    /// Whether it is known to fail at once, nearly always.
+    pub fn refuses(&self) -> bool {
+        self.count >= KNOWN && self.refused() >= REFUSES
     }
 
     /// The mean number of ticks of a decision.
@@ -80,7 +91,19 @@ impl Cell {
 const MOST: f64 = 100.0;
 
 /// The fewest decisions by which a choice is taken into account.
-pub const KNOWN: f64 = 4.0;
+pub const KNOWN: f64 = 10.0;
+
+/// The part of the decisions from which on a choice counts as failing at once.
+const REFUSES: f64 = 0.8;
+
+/// The decisions by which counts are doubted, see [`Evidence::doubted`].
+const DOUBT: f64 = 15.0;
+
+/// The ticks for which the hazard of all minterms counts in one.
+const ANYWHERE: f64 = 100.0;
+
+/// How often caution is taken anew with the values that it led to.
+const CAUTIONS: usize = 2;
 
 /// The part of an episode over which rewards count in the far sight.
 const FAR: f64 = 0.3;
@@ -157,13 +180,10 @@ impl Evidence {
     pub fn collect<W: World>(
         &mut self,
         ground: &Ground<W>,
-        root: &Node,
+        controller: &(impl Controller + Clone + Sync),
         (explore, start): (f64, Start),
         ticks: u64,
     ) -> (Visits, u64) {
-        let Ok(runner) = Runner::new(root, ground.world.atoms()) else {
-            return (Visits::default(), 0);
-        };
         let mut visits = Visits::default();
         let (mut used, mut episodes) = (0, 0);
         while used < ticks {
@@ -178,7 +198,13 @@ impl Evidence {
                         ..start
                     };
                     let mut process = ground.world.process();
-                    Gathered::of(ground, &mut process, &mut runner.clone(), explore, start)
+                    Gathered::of(
+                        ground,
+                        &mut process,
+                        &mut controller.clone(),
+                        explore,
+                        start,
+                    )
                 })
                 .collect();
             for gathered in gathered {
@@ -204,7 +230,7 @@ impl Evidence {
             return;
         }
         let row = self.find(taken.from);
-        let next = (taken.end == End::Not).then(|| self.find(taken.to));
+        let next = (!matches!(taken.end, End::Terminal(_))).then(|| self.find(taken.to));
         let factors = self.discounts.map(|discount| discount.factor(taken.ticks));
         let refused = taken.status == Status::Failure && taken.ticks == 1;
         if refused {
@@ -218,6 +244,9 @@ impl Evidence {
             let keep = (MOST - 1.0) / cell.count;
             cell.count *= keep;
             cell.reward *= keep;
+            cell.squares *= keep;
+            cell.losses *= keep;
+            cell.ends *= keep;
             cell.ticks *= keep;
             cell.refused *= keep;
             for (_, count, factors) in &mut cell.next {
@@ -227,6 +256,9 @@ impl Evidence {
         }
         cell.count += 1.0;
         cell.reward += taken.reward;
+        cell.losses += taken.reward.min(0.0);
+        cell.ends += f64::from(u8::from(next.is_none()));
+        cell.squares += taken.reward * taken.reward;
         cell.ticks += taken.ticks as f64;
         cell.refused += f64::from(u8::from(refused));
         let Some(next) = next else { return };
@@ -243,26 +275,150 @@ impl Evidence {
 
     /// The decision problem of the counts.
     pub fn problem(&self, sight: Sight) -> Problem {
-        let at = usize::from(sight == Sight::Far);
-        let outlook = |cell: &Cell| Outlook {
-            reward: cell.reward / cell.count,
-            ticks: cell.ticks / cell.count,
-            next: cell
-                .next
-                .iter()
-                .map(|(row, _, sums)| (*row, sums.get(at).copied().unwrap_or(0.0) / cell.count))
-                .collect(),
-        };
+        self.doubted(sight, DOUBT)
+    }
+
+    /// The decision problem of the counts, and of so many decisions more in each cell that go as badly as any in the
+    /// minterm: what is rare and dear is not met in a few decisions.
+    pub fn doubted(&self, sight: Sight, doubt: f64) -> Problem {
+        let anywhere = Hazard::of(&self.cells);
         let known = |row: &[Cell]| {
+            let here = Hazard::of(row).with(&anywhere);
+            let known = |cell: &Cell| cell.count >= KNOWN;
+            // A choice that fails at once is no way to wait: a tree goes on to the next.
+            let acts = |cell: &Cell| known(cell) && !cell.refuses();
+            let waits = row.iter().any(acts);
             let choices = row.iter().enumerate();
-            let known = choices.filter(|(_, cell)| cell.count >= KNOWN);
-            known
-                .map(|(choice, cell)| (choice, outlook(cell)))
+            let kept = choices.filter(|(_, cell)| if waits { acts(cell) } else { known(cell) });
+            kept.map(|(choice, cell)| (choice, cell.outlook(sight, doubt, &here)))
                 .collect()
         };
         Problem {
             states: self.cells.chunks(self.choices.max(1)).map(known).collect(),
             unknown: 0.0,
+        }
+    }
+
+    /// A problem of these counts with each reward less by so many standard errors of what the choice is worth.
+    pub fn cautious(&self, problem: &Problem, care: f64, sight: Sight) -> Problem {
+        let mut cautious = problem.clone();
+        for _ in 0..CAUTIONS {
+            let values = cautious.solve().values;
+            cautious.unknown = problem.low(&values);
+            let worth = |row: usize| match problem.states.get(row) {
+                Some(state) if !state.is_empty() => values.get(row).copied(),
+                _ => None,
+            };
+            let unknown = cautious.unknown;
+            let value = |row: usize| worth(row).unwrap_or(unknown);
+            for (row, (state, plain)) in cautious.states.iter_mut().zip(&problem.states).enumerate()
+            {
+                for ((choice, outlook), (_, plain)) in state.iter_mut().zip(plain) {
+                    let cell = self.cells(row).get(*choice);
+                    let error = cell.map_or(0.0, |cell| {
+                        (cell.variance(sight, value) / cell.count).sqrt()
+                    });
+                    outlook.reward = plain.reward - care * error;
+                }
+            }
+        }
+        cautious
+    }
+
+    /// What each choice is worth under the best policy of the counts, with the variance of one decision, by row and
+    /// choice; `None` where it is not known.
+    pub fn worths(&self, sight: Sight) -> Vec<Vec<Option<(f64, f64)>>> {
+        let problem = self.problem(sight);
+        let values = problem.solve().values;
+        let value = |row: usize| values.get(row).copied().unwrap_or(problem.unknown);
+        let rows = problem.states.iter().enumerate();
+        rows.map(|(row, state)| {
+            let mut worths = vec![None; self.choices];
+            for (choice, outlook) in state {
+                let cell = self.cells(row).get(*choice);
+                if let (Some(worth), Some(cell)) = (worths.get_mut(*choice), cell) {
+                    let mean = problem.worth(outlook, &values);
+                    *worth = Some((mean, cell.variance(sight, value)));
+                }
+            }
+            worths
+        })
+        .collect()
+    }
+}
+
+/// What goes wrong in a tick, whatever is done.
+struct Hazard {
+    losses: f64,
+    ends: f64,
+    ticks: f64,
+}
+
+impl Hazard {
+    fn of(cells: &[Cell]) -> Self {
+        let sum = |figure: fn(&Cell) -> f64| cells.iter().map(figure).sum();
+        Self {
+            losses: sum(|cell| cell.losses),
+            ends: sum(|cell| cell.ends),
+            ticks: sum(|cell| cell.ticks),
+        }
+    }
+
+    /// The hazard here, with some of the hazard anywhere.
+    fn with(&self, anywhere: &Self) -> Self {
+        let some = ANYWHERE / anywhere.ticks.max(1.0);
+        Self {
+            losses: self.losses + some * anywhere.losses,
+            ends: self.ends + some * anywhere.ends,
+            ticks: self.ticks + ANYWHERE,
+        }
+    }
+}
+
+impl Cell {
+    /// What is to be expected, if so many decisions more went wrong as any may.
+    fn outlook(&self, sight: Sight, doubt: f64, hazard: &Hazard) -> Outlook {
+        let n = self.count;
+        let ticks = self.ticks / n;
+        let plain = (self.reward - self.losses) / n;
+        let supposed = plain + ticks * hazard.losses / hazard.ticks;
+        let stays = (1.0 - ticks * hazard.ends / hazard.ticks).clamp(0.0, 1.0);
+        let met = n - self.ends;
+        let scale = match met > 0.0 {
+            true => (met + doubt * stays) / (n + doubt) / met,
+            false => 0.0,
+        };
+        let next = self.next.iter();
+        Outlook {
+            reward: (self.reward + doubt * supposed) / (n + doubt),
+            ticks,
+            next: next
+                .map(|(row, _, factors)| (*row, sight.of(factors) * scale))
+                .collect(),
+        }
+    }
+
+    /// The variance of what one decision is worth.
+    fn variance(&self, sight: Sight, value: impl Fn(usize) -> f64) -> f64 {
+        let n = self.count;
+        let rewards = self.squares / n - (self.reward / n) * (self.reward / n);
+        let (mut sum, mut squares) = (0.0, 0.0);
+        for (row, count, factors) in &self.next {
+            let worth = sight.of(factors) / count.max(f64::MIN_POSITIVE) * value(*row);
+            sum += count * worth;
+            squares += count * worth * worth;
+        }
+        let follows = squares / n - (sum / n) * (sum / n);
+        rewards.max(0.0) + follows.max(0.0)
+    }
+}
+
+impl Sight {
+    /// The figure for this sight.
+    fn of(self, [learner, far]: &[f64; 2]) -> f64 {
+        match self {
+            Self::Learner => *learner,
+            Self::Far => *far,
         }
     }
 }
@@ -274,17 +430,17 @@ impl Gathered {
     fn of<W: World>(
         ground: &Ground<W>,
         process: &mut impl Process,
-        runner: &mut Runner,
+        controller: &mut impl Controller,
         explore: f64,
         start: Start,
     ) -> Self {
         let mut random = Random::new(start.seed, EXPLORATION + start.stream, start.episode);
         let mut gathered = Self::default();
         process.start(start);
-        runner.reset();
+        controller.reset();
         loop {
             let end = if random.unit() < explore {
-                runner.reset();
+                controller.reset();
                 let choice = random.below(ground.choices.len() as u64) as usize;
                 let Some(behavior) = ground.choices.get(choice) else {
                     return gathered;
@@ -302,7 +458,7 @@ impl Gathered {
                 });
                 step.end
             } else {
-                gathered.follow(ground, process, runner)
+                gathered.follow(ground, process, controller)
             };
             if end != End::Not {
                 gathered.ticks = process.ticks();
@@ -311,12 +467,12 @@ impl Gathered {
         }
     }
 
-    /// Ticks the tree until a decision is due. It is counted where one behaviour alone was ticked all along.
+    /// Ticks the controller until a decision is due. It is counted where one behaviour alone was ticked all along.
     fn follow<W: World>(
         &mut self,
         ground: &Ground<W>,
         process: &mut impl Process,
-        runner: &mut Runner,
+        controller: &mut impl Controller,
     ) -> End {
         let from = process.key();
         let patience = ground.patience.unwrap_or(u64::MAX);
@@ -326,30 +482,28 @@ impl Gathered {
         let mut earned = Earned::default();
         loop {
             process.begin_tick();
-            let mut calls = 0;
             let before = driver;
-            runner.tick_key(process.atoms(), |behavior| {
-                let status = process.act(behavior);
-                calls += 1;
-                driver = Some((behavior, status));
-                status
-            });
+            let mut heard = Heard {
+                process: &mut *process,
+                calls: 0,
+                driver,
+            };
+            controller.tick(&mut heard);
+            let calls = heard.calls;
+            driver = heard.driver;
             let tick = process.end_tick();
             ticks += 1;
             let same =
                 before.is_none_or(|(behavior, _)| driver.is_some_and(|(b, _)| b == behavior));
             alone = alone && calls == 1 && same;
-            let due = tick.terminated
-                || tick.closed
-                || tick.end.is_some()
-                || process.key() != from
-                || ticks >= patience;
-            let Some(reward) = earned.after(&tick, due) else {
+            let due = tick.terminated || tick.closed || process.key() != from || ticks >= patience;
+            let Some(reward) = earned.after(&tick, due || tick.end.is_some()) else {
                 continue;
             };
             let end = match tick.end {
                 None => End::Not,
                 Some(world::End::On(line)) => End::Terminal(line),
+                Some(world::End::Cut) if due => End::Limit,
                 Some(world::End::Cut) => End::Cut,
             };
             let choice = driver.and_then(|(behavior, _)| {
@@ -375,5 +529,49 @@ impl Gathered {
             }
             return end;
         }
+    }
+}
+
+/// A process that notes which behaviours are ticked.
+struct Heard<'p, P> {
+    process: &'p mut P,
+    calls: usize,
+    driver: Option<(Id<Behavior>, Status)>,
+}
+
+impl<P: Process> Process for Heard<'_, P> {
+    fn start(&mut self, start: Start) {
+        self.process.start(start);
+    }
+
+    fn key(&self) -> Key {
+        self.process.key()
+    }
+
+    fn atoms(&self) -> Key {
+        self.process.atoms()
+    }
+
+    fn begin_tick(&mut self) {
+        self.process.begin_tick();
+    }
+
+    fn act(&mut self, behavior: Id<Behavior>) -> Status {
+        let status = self.process.act(behavior);
+        self.calls += 1;
+        self.driver = Some((behavior, status));
+        status
+    }
+
+    fn end_tick(&mut self) -> Tick {
+        self.process.end_tick()
+    }
+
+    fn ticks(&self) -> u64 {
+        self.process.ticks()
+    }
+
+    fn events(&self) -> &[u64] {
+        self.process.events()
     }
 }

@@ -3,7 +3,7 @@
 //! A tree is scored by the advantage of its decisions over those of another, weighted by visits: the sum over minterms
 //! approximates the difference of their returns (the performance difference lemma: Kakade and Langford 2002).
 
-use super::evidence::{Evidence, KNOWN, Sight, Visits};
+use super::evidence::{Cell, Evidence, Sight, Visits};
 use super::ground::Ground;
 use crate::ir::Id;
 use crate::ir::law::Behavior;
@@ -15,6 +15,18 @@ use crate::tree::atoms::behaviors;
 use crate::tree::guard::or;
 use crate::tree::unit::{guarded, selector};
 use rustc_hash::FxHashMap;
+
+/// By whose decisions what follows is judged.
+#[derive(Clone, Copy, Debug)]
+pub enum Aim<'n> {
+    /// The best ones, as far as the counts tell.
+    Best,
+    /// Those of a tree.
+    Of(&'n Node),
+}
+
+/// The behaviours by their numbers among the choices.
+type Numbers = FxHashMap<Id<Behavior>, usize>;
 
 /// What a tree does in a minterm.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,25 +80,47 @@ pub struct Field<'w> {
     asked: &'w [Atom],
     /// The behaviours to choose from.
     pub choices: &'w [Id<Behavior>],
-    numbers: FxHashMap<Id<Behavior>, usize>,
+    numbers: Numbers,
 }
-
-/// The part of the decisions from which on a choice counts as failing at once.
-const REFUSES: f64 = 0.8;
 
 /// The most minterms that are scored.
 const SPOTS: usize = 700;
 
 impl<'w> Field<'w> {
-    /// What is known, under the best policy of the counts, with the visits of a tree.
+    /// What is known, with the visits of a tree.
     pub fn new<W: World>(
         ground: &Ground<'w, W>,
         evidence: &Evidence,
         sight: Sight,
         visits: &Visits,
+        aim: Aim,
     ) -> Self {
-        let problem = evidence.problem(sight);
-        let solution = problem.solve();
+        let atoms = ground.world.atoms().get(..ground.observed).unwrap_or(&[]);
+        let numbers = ground.choices.iter().enumerate();
+        let numbers: Numbers = numbers.map(|(at, id)| (*id, at)).collect();
+        let mut problem = evidence.problem(sight);
+        let runner = match aim {
+            Aim::Best => None,
+            Aim::Of(root) => Runner::new(&without_memory(root, atoms), ground.world.atoms()).ok(),
+        };
+        let values = match runner {
+            None => problem.solve().values,
+            Some(mut runner) => {
+                let rows = evidence.keys().iter().zip(&problem.states).enumerate();
+                let policy = rows.map(|(row, (key, state))| {
+                    let cells = evidence.cells(row);
+                    let drive = driven(&mut runner, *key, &numbers, |choice| {
+                        cells.get(choice).is_some_and(Cell::refuses)
+                    });
+                    let taken = |(choice, _): &(usize, _)| Some(*choice) == drive.choice;
+                    state.iter().position(taken)
+                });
+                let policy: Vec<Option<usize>> = policy.collect();
+                // What is not known of the tree is about as bad as anything else that it does.
+                problem.unknown = problem.low(&problem.evaluate(&policy));
+                problem.evaluate(&policy)
+            }
+        };
         let refusal = evidence.refusal();
         let mut spots: Vec<Spot> = visits
             .iter()
@@ -96,7 +130,7 @@ impl<'w> Field<'w> {
                 let mut worths: Vec<Option<f64>> = vec![None; ground.choices.len()];
                 for (choice, outlook) in states {
                     if let Some(worth) = worths.get_mut(*choice) {
-                        *worth = Some(problem.worth(outlook, &solution.values));
+                        *worth = Some(problem.worth(outlook, &values));
                     }
                 }
                 let known = || worths.iter().flatten().copied();
@@ -115,47 +149,30 @@ impl<'w> Field<'w> {
                     key: *key,
                     weight: *weight,
                     values: values.collect(),
-                    refuses: cells
-                        .iter()
-                        .map(|cell| cell.count >= KNOWN && cell.refused() >= REFUSES)
-                        .collect(),
+                    refuses: cells.iter().map(Cell::refuses).collect(),
                     nothing: least + refusal.min(0.0),
                 })
             })
             .collect();
         spots.sort_by(|a, b| b.weight.total_cmp(&a.weight).then(a.key.cmp(&b.key)));
         spots.truncate(SPOTS);
-        let numbers = ground.choices.iter().enumerate();
         Self {
             spots,
-            atoms: ground.world.atoms().get(..ground.observed).unwrap_or(&[]),
+            atoms,
             asked: ground.world.atoms(),
             choices: ground.choices,
-            numbers: numbers.map(|(at, id)| (*id, at)).collect(),
+            numbers,
         }
     }
 
     /// What a tree does in each minterm; `None` if it asks what the world does not know.
     pub fn drives(&self, root: &Node) -> Option<Vec<Drive>> {
-        let read = self.without_memory(root);
+        let read = without_memory(root, self.atoms);
         let mut runner = Runner::new(&read, self.asked).ok()?;
         let drives = self.spots.iter().map(|spot| {
-            runner.reset();
-            let mut drive = Drive {
-                choice: None,
-                fell: false,
-            };
-            runner.tick_key(spot.key, |behavior| {
-                let choice = self.numbers.get(&behavior).copied();
-                let refuses = choice.and_then(|choice| spot.refuses.get(choice));
-                if refuses.copied().unwrap_or(false) {
-                    drive.fell = true;
-                    return Status::Failure;
-                }
-                drive.choice = choice;
-                Status::Running
-            });
-            drive
+            driven(&mut runner, spot.key, &self.numbers, |choice| {
+                spot.refuses.get(choice).copied().unwrap_or(false)
+            })
         });
         Some(drives.collect())
     }
@@ -172,68 +189,88 @@ impl<'w> Field<'w> {
         });
         gains.sum()
     }
+}
 
-    /// A tree whose memory nodes ask the history instead: a sequence goes on behind the last child that has succeeded, a
-    /// selector behind the last that has failed. Where the history is not kept, a later child comes first and fails at
-    /// once where it is not its turn.
-    fn without_memory(&self, node: &Node) -> Node {
-        match node {
-            Node::Condition(_) | Node::Behavior(_) => node.clone(),
+/// What a tree does in a minterm, its memory fresh, where some choices fail at once.
+fn driven(
+    runner: &mut Runner,
+    key: Key,
+    numbers: &Numbers,
+    refuses: impl Fn(usize) -> bool,
+) -> Drive {
+    runner.reset();
+    let mut drive = Drive {
+        choice: None,
+        fell: false,
+    };
+    runner.tick_key(key, |behavior| {
+        let choice = numbers.get(&behavior).copied();
+        if choice.is_some_and(&refuses) {
+            drive.fell = true;
+            return Status::Failure;
+        }
+        drive.choice = choice;
+        Status::Running
+    });
+    drive
+}
+
+/// A tree whose memory nodes ask the history instead: a sequence goes on behind the last child that has succeeded, a
+/// selector behind the last that has failed. Where the history is not kept, a later child comes first and fails at
+/// once where it is not its turn.
+fn without_memory(node: &Node, atoms: &[Atom]) -> Node {
+    match node {
+        Node::Condition(_) | Node::Behavior(_) => node.clone(),
+        Node::Composite {
+            kind,
+            memory,
+            children,
+        } => {
+            let children = children.iter().map(|child| without_memory(child, atoms));
+            let children: Vec<Node> = children.collect();
+            if *memory {
+                return by_history(*kind, &children, atoms);
+            }
             Node::Composite {
-                kind,
-                memory,
+                kind: *kind,
+                memory: false,
                 children,
-            } => {
-                let children: Vec<Node> = children
-                    .iter()
-                    .map(|child| self.without_memory(child))
-                    .collect();
-                if *memory {
-                    return self.by_history(*kind, &children);
-                }
-                Node::Composite {
-                    kind: *kind,
-                    memory: false,
-                    children,
+            }
+        }
+        Node::Parallel {
+            successes,
+            children,
+        } => {
+            let children = children.iter().map(|child| without_memory(child, atoms));
+            Node::Parallel {
+                successes: *successes,
+                children: children.collect(),
+            }
+        }
+        Node::Decorator { child, .. } => without_memory(child, atoms),
+    }
+}
+
+fn by_history(kind: Composite, children: &[Node], atoms: &[Atom]) -> Node {
+    let mut units: Vec<Node> = Vec::new();
+    for (at, child) in children.iter().enumerate() {
+        let before = at.checked_sub(1).and_then(|before| children.get(before));
+        let unit = match before {
+            None => child.clone(),
+            Some(before) => {
+                let ended = behaviors(before).into_iter().map(|behavior| match kind {
+                    Composite::Sequence => Atom::Done(behavior),
+                    Composite::Selector => Atom::Failed(behavior),
+                });
+                let kept = ended.filter(|atom| atoms.contains(atom));
+                let kept: Vec<Guard> = kept.map(Guard::Atom).collect();
+                match kept.is_empty() {
+                    true => child.clone(),
+                    false => guarded(or(kept), child.clone()),
                 }
             }
-            Node::Parallel {
-                successes,
-                children,
-            } => Node::Parallel {
-                successes: *successes,
-                children: children
-                    .iter()
-                    .map(|child| self.without_memory(child))
-                    .collect(),
-            },
-            Node::Decorator { child, .. } => self.without_memory(child),
-        }
+        };
+        units.insert(0, unit);
     }
-
-    fn by_history(&self, kind: Composite, children: &[Node]) -> Node {
-        let mut units: Vec<Node> = Vec::new();
-        for (at, child) in children.iter().enumerate() {
-            let before = at.checked_sub(1).and_then(|before| children.get(before));
-            let unit = match before {
-                None => child.clone(),
-                Some(before) => {
-                    let ended = behaviors(before).into_iter().map(|behavior| match kind {
-                        Composite::Sequence => Atom::Done(behavior),
-                        Composite::Selector => Atom::Failed(behavior),
-                    });
-                    let kept: Vec<Guard> = ended
-                        .filter(|atom| self.atoms.contains(atom))
-                        .map(Guard::Atom)
-                        .collect();
-                    match kept.is_empty() {
-                        true => child.clone(),
-                        false => guarded(or(kept), child.clone()),
-                    }
-                }
-            };
-            units.insert(0, unit);
-        }
-        selector(units)
-    }
+    selector(units)
 }

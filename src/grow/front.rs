@@ -16,7 +16,7 @@ const LOOKED_AT: usize = 16;
 /// Fresh episodes that measure the tree that was chosen.
 const FRESH: usize = 500;
 /// The effort that these numbers are for; for less of it they are less.
-const WHOLE: f64 = 60e6;
+const WHOLE: f64 = 36e6;
 /// The fewest episodes, whatever the effort.
 const FEWEST: usize = 40;
 /// A tree that is proved gives way to one that is only tested for a gain of so many prices of a node.

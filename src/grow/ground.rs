@@ -2,6 +2,7 @@
 
 use crate::ir::Id;
 use crate::ir::law::Behavior;
+use crate::ir::task::History;
 use crate::learn::discount::Discounting;
 use crate::learn::episode::Episode;
 use crate::learn::process::World;
@@ -30,6 +31,8 @@ pub struct Ground<'w, W> {
     pub ends: usize,
     /// The events that are claimed never to happen.
     pub never: Vec<usize>,
+    /// The window of the history that a minterm shows.
+    pub history: History,
     /// The seed.
     pub seed: u64,
 }

@@ -65,6 +65,15 @@ impl Problem {
         outlook.reward + next.map(|&(to, weight)| weight * value(to)).sum::<f64>()
     }
 
+    /// A low value among those of states with choices: one in ten is lower. For states of which nothing is known.
+    pub fn low(&self, values: &[f64]) -> f64 {
+        let known = self.states.iter().zip(values);
+        let known = known.filter(|(choices, _)| !choices.is_empty());
+        let mut known: Vec<f64> = known.map(|(_, value)| *value).collect();
+        known.sort_by(f64::total_cmp);
+        known.get(known.len() / 10).copied().unwrap_or(0.0)
+    }
+
     /// The policy that takes the first choice of every state.
     pub fn first(&self) -> Vec<Option<usize>> {
         let choices = self.states.iter();

@@ -158,7 +158,7 @@ fn grown<W: World>(
     };
     let requirements = grow::requirements(program, task);
     let settings = grow::Settings {
-        effort: options.effort,
+        effort: grow::growing(options.effort),
         requirements: &requirements,
         choice: options.choice,
         front: options.front || options.choice != Choice::Knee,

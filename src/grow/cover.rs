@@ -1,0 +1,63 @@
+//! Trees that decide as another does where it matters: in the minterms that cost most where a smaller tree decides
+//! otherwise, found by playing that smaller tree.
+
+use super::field::Field;
+use super::ground::Ground;
+use crate::ir::tree::Node;
+use crate::learn::process::{Key, World};
+use crate::policy::{Minterm, Policy, Row};
+use crate::tree::decanonicalise::{Options, decanonicalise};
+use rustc_hash::FxHashMap;
+
+/// The effort of the search for one of many trees.
+const EFFORT: u64 = 1;
+
+/// The smallest tree that is found for these decisions alone; `None` without any.
+pub fn tree<W: World>(ground: &Ground<W>, kept: &FxHashMap<Key, usize>) -> Option<Node> {
+    let mut rows: Vec<Row> = kept
+        .iter()
+        .filter_map(|(key, choice)| {
+            Some(Row {
+                minterm: Minterm::of_key(*key, ground.observed),
+                free: None,
+                behavior: *ground.choices.get(*choice)?,
+                visits: 1,
+                values: vec![None; ground.choices.len()],
+            })
+        })
+        .collect();
+    rows.sort_by(|a, b| a.minterm.cmp(&b.minterm));
+    let policy = Policy {
+        atoms: ground.world.atoms().get(..ground.observed)?.to_vec(),
+        behaviors: ground.choices.to_vec(),
+        history: ground.history,
+        rows,
+        ..Policy::default()
+    };
+    let options = Options {
+        effort: EFFORT,
+        ..Options::default()
+    };
+    decanonicalise(&policy, &options)
+        .ok()
+        .map(|found| found.root)
+}
+
+/// The decisions of `wanted` that are worth most against what a tree does, at most so many: by key, with the choice.
+pub fn missed(field: &Field, tree: &Node, wanted: &Node, most: usize) -> Vec<(Key, usize)> {
+    let (Some(drives), Some(aims)) = (field.drives(tree), field.drives(wanted)) else {
+        return Vec::new();
+    };
+    let spots = field.spots.iter().zip(drives.iter().zip(&aims));
+    let mut missed: Vec<(Key, usize, f64)> = spots
+        .filter_map(|(spot, (drive, aim))| {
+            let choice = aim.choice?;
+            let loss = spot.weight * (spot.worth(*aim) - spot.worth(*drive));
+            (drive.choice != aim.choice && loss > 0.0).then_some((spot.key, choice, loss))
+        })
+        .collect();
+    missed.sort_by(|a, b| b.2.total_cmp(&a.2).then(a.0.cmp(&b.0)));
+    missed.truncate(most);
+    let missed = missed.into_iter();
+    missed.map(|(key, choice, _)| (key, choice)).collect()
+}

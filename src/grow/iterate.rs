@@ -1,0 +1,353 @@
+//! Policy iteration with simulation as the judge.
+//!
+//! A minterm stands for many states, so what follows a decision depends on the way there, and a policy that a model calls
+//! better may be far worse: it goes where the counts are few, or round in circles that the minterms do not show. So every
+//! policy is doubted in several degrees, a part of its changes is taken at a time, and it is played. What looked good and
+//! was not is counted, and the next round knows it.
+
+use super::evidence::{Cell, Evidence, Sight};
+use super::ground::Ground;
+use crate::ir::Id;
+use crate::ir::law::Behavior;
+use crate::learn::episode::{Episode, play};
+use crate::learn::extract::{Decided, Decisions};
+use crate::learn::greedy::Greedy;
+use crate::learn::process::{Key, World};
+use crate::learn::q_table::QTable;
+use crate::learn::simulated::Purpose;
+use crate::learn::statistics::Mean;
+use crate::random::Random;
+use crate::trial::paired::error;
+use crate::world::Start;
+use rayon::prelude::*;
+use rustc_hash::FxHashMap;
+
+/// The decisions by which counts are doubted: so many more are supposed that go as badly as any in the minterm.
+const DOUBTS: [f64; 3] = [4.0, 15.0, 40.0];
+/// The standard errors of its worth by which a choice is held for worse than it looks.
+const CARES: [f64; 2] = [0.0, 1.5];
+/// The stages of a round: episodes, and the policies that stay.
+const STAGES: [(usize, usize); 3] = [(4, 8), (16, 3), (64, 1)];
+/// The stage from which on a policy has to look better.
+const TELLING: usize = 16;
+/// Policies of a round that are counted under, whether they turn out good or not.
+const COUNTED: usize = 3;
+/// The gain that a policy must have, in standard errors.
+const SURE: f64 = 2.0;
+/// The part of a return, or of its standard deviation, that a change must gain: a policy is not made another for less.
+const WORTH: f64 = 0.01;
+/// Rounds without a better policy before it is enough.
+const FAILURES: usize = 10;
+/// Rounds without a better policy before the same one is counted under again.
+const STALE: usize = 4;
+/// Random decisions under the policy at hand.
+const EXPLORING: [f64; 3] = [0.05, 0.2, 0.6];
+/// Random decisions under those that are tried.
+const TRYING: f64 = 0.1;
+/// The effort is so many collections.
+const COLLECTIONS: u64 = 100;
+
+/// The choice in each minterm, by its number.
+type Choices = FxHashMap<Key, usize>;
+
+/// A better policy.
+#[derive(Debug)]
+pub struct Iterated {
+    choices: Choices,
+    evidence: Evidence,
+    /// Ticks that were simulated.
+    pub ticks: u64,
+}
+
+impl Iterated {
+    /// Takes the decisions over, with the evidence for minterms that have none; gives the number of those that changed.
+    pub fn into(self, decisions: &mut Decisions, table: &mut QTable) -> usize {
+        let mut changed = 0;
+        let mut choices: Vec<(Key, usize)> = self.choices.into_iter().collect();
+        choices.sort_unstable();
+        let worths = self.evidence.worths(Sight::Learner);
+        for (key, choice) in choices {
+            if let Some(decided) = decisions.get_mut(&key) {
+                changed += usize::from(decided.choice != choice);
+                decided.choice = choice;
+                continue;
+            }
+            let Some(found) = self.evidence.row(key) else {
+                continue;
+            };
+            let row = table.row(key);
+            let cells = self.evidence.cells(found).iter().enumerate();
+            for (choice, counted) in cells {
+                let worth = worths.get(found).and_then(|row| row.get(choice));
+                let Some((mean, variance)) = worth.copied().flatten() else {
+                    continue;
+                };
+                if let Some(cell) = table.cell_mut(row, choice) {
+                    cell.visits = counted.count as u64;
+                    cell.q = mean;
+                    cell.squares = counted.count * (mean * mean + variance);
+                }
+            }
+            let value = table.cells(row).get(choice).map_or(0.0, |cell| cell.q);
+            decisions.insert(key, Decided { choice, value });
+            changed += 1;
+        }
+        changed
+    }
+}
+
+/// Policies by the thousand, judged by simulation.
+#[derive(Debug)]
+pub struct Iteration<'g, 'w, W> {
+    /// Where they are judged.
+    pub ground: &'g Ground<'w, W>,
+    /// What is done in a minterm without a decision.
+    pub unseen: Id<Behavior>,
+    /// The fewest decisions by which a minterm is known.
+    pub least: u64,
+    /// About how many ticks may be simulated.
+    pub effort: u64,
+}
+
+/// A policy with the episodes that it has played.
+struct Candidate {
+    choices: Choices,
+    played: Vec<Episode>,
+}
+
+impl<W: World> Iteration<'_, '_, W> {
+    /// Improves a policy.
+    pub fn run(&self, decisions: &Decisions) -> Iterated {
+        let choices = decisions.iter();
+        let mut base = Candidate {
+            choices: choices.map(|(key, it)| (*key, it.choice)).collect(),
+            played: Vec::new(),
+        };
+        let mut evidence = Evidence::new(self.ground);
+        let mut random = Random::new(self.ground.seed, 1 << 42, 0);
+        let (mut ticks, mut failures) = (0, 0);
+        let mut round = 0;
+        while ticks < self.effort && failures < FAILURES {
+            round += 1;
+            if failures % STALE == 0 {
+                for (at, explore) in EXPLORING.into_iter().enumerate() {
+                    let number = round * 8 + at as u64;
+                    ticks += self.collect(&mut evidence, &base.choices, explore, number);
+                }
+            }
+            if round == 1 {
+                self.acts(&evidence, &mut base.choices);
+            }
+            base.played.clear();
+            let candidates = self.candidates(&evidence, &base.choices, &mut random);
+            let (found, used) = self.race(&mut evidence, &mut base, candidates, round);
+            ticks += used;
+            match found {
+                Some(better) => {
+                    base = better;
+                    failures = 0;
+                }
+                None => failures += 1,
+            }
+        }
+        Iterated {
+            choices: base.choices,
+            evidence,
+            ticks,
+        }
+    }
+
+    /// Counts under a policy.
+    fn collect(&self, evidence: &mut Evidence, choices: &Choices, part: f64, number: u64) -> u64 {
+        let from = match part >= 0.5 {
+            true => self.ground.exploring,
+            false => self.ground.start,
+        };
+        let start = Start {
+            seed: self.ground.seed,
+            stream: Purpose::Count as u64,
+            episode: (1 << 40) + (number << 20),
+            ..from
+        };
+        let greedy = self.greedy(choices);
+        let ticks = self.effort / COLLECTIONS;
+        evidence
+            .collect(self.ground, &greedy, (part, start), ticks)
+            .1
+    }
+
+    /// Decisions that fail at once give way to the best that do not, by the counts: a tree would not wait there, but go
+    /// on to something else.
+    fn acts(&self, evidence: &Evidence, choices: &mut Choices) {
+        let problem = evidence.problem(Sight::Far);
+        let policy = evidence.cautious(&problem, 1.0, Sight::Far).solve().policy;
+        let rows = evidence.keys().iter().zip(&problem.states).zip(&policy);
+        for (row, ((key, state), taken)) in rows.enumerate() {
+            let Some(now) = choices.get_mut(key) else {
+                continue;
+            };
+            let cell = evidence.cells(row).get(*now);
+            let best = taken.and_then(|taken| state.get(taken));
+            if let (true, Some((best, _))) = (cell.is_some_and(Cell::refuses), best) {
+                *now = *best;
+            }
+        }
+    }
+
+    /// Policies that are better by the counts, or take a part of what makes one better.
+    fn candidates(
+        &self,
+        evidence: &Evidence,
+        now: &Choices,
+        random: &mut Random,
+    ) -> Vec<Candidate> {
+        let mut found: Vec<Choices> = Vec::new();
+        for sight in [Sight::Far, Sight::Learner] {
+            for doubt in DOUBTS {
+                let problem = evidence.doubted(sight, doubt);
+                for care in CARES {
+                    let cautious = evidence.cautious(&problem, care, sight);
+                    let policy = cautious.solve().policy;
+                    let rows = evidence.keys().iter().zip(&cautious.states).zip(&policy);
+                    let mut changes: Vec<(Key, usize)> = rows
+                        .filter_map(|((key, state), taken)| {
+                            let (choice, _) = state.get((*taken)?)?;
+                            let new = now.get(key) != Some(choice);
+                            (new && self.is_known(evidence, *key)).then_some((*key, *choice))
+                        })
+                        .collect();
+                    changes.sort_unstable();
+                    // All of them, or a few.
+                    let all = f64::from(u8::from(random.chance(0.25)));
+                    let few = |random: &mut Random| 0.03 + 0.6 * random.unit() * random.unit();
+                    for part in [all, few(random), few(random)] {
+                        let mut mixed = now.clone();
+                        let taken = changes.iter().filter(|_| random.chance(part));
+                        mixed.extend(taken.copied());
+                        if mixed != *now && !found.contains(&mixed) {
+                            found.push(mixed);
+                        }
+                    }
+                }
+            }
+        }
+        let candidates = found.into_iter().map(|choices| Candidate {
+            choices,
+            played: Vec::new(),
+        });
+        candidates.collect()
+    }
+
+    fn is_known(&self, evidence: &Evidence, key: Key) -> bool {
+        let row = evidence.row(key).map(|row| evidence.cells(row));
+        let counts = row.into_iter().flatten().map(|cell| cell.count);
+        counts.sum::<f64>() >= self.least as f64
+    }
+
+    /// The best of these policies if it is surely better than the base, and the ticks that it took to find out.
+    fn race(
+        &self,
+        evidence: &mut Evidence,
+        base: &mut Candidate,
+        mut standing: Vec<Candidate>,
+        round: u64,
+    ) -> (Option<Candidate>, u64) {
+        let start = self.ground.episodes(Purpose::Improve, (1 << 12) + round);
+        let mut used = 0;
+        for (stage, (episodes, stay)) in STAGES.into_iter().enumerate() {
+            if standing.is_empty() {
+                return (None, used);
+            }
+            used += self.play(std::iter::once(&mut *base), start, episodes);
+            used += self.play(standing.iter_mut(), start, episodes);
+            if episodes >= TELLING {
+                standing.retain(|candidate| {
+                    let gain = gain(candidate, base);
+                    gain.mean + 0.5 * error(&gain) > 0.0
+                });
+            }
+            let worth = |candidate: &Candidate| gain(candidate, base).mean;
+            standing.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
+            standing.truncate(stay);
+            if stage == 0 {
+                for (at, candidate) in standing.iter().take(COUNTED).enumerate() {
+                    let number = round * 8 + (EXPLORING.len() + at) as u64;
+                    used += self.collect(evidence, &candidate.choices, TRYING, number);
+                }
+            }
+        }
+        let surely = |candidate: &Candidate| {
+            let gain = gain(candidate, base);
+            let totals: Vec<f64> = base.played.iter().map(|e| e.total).collect();
+            let returns = Mean::of(&totals);
+            let spread = error(&returns) * (totals.len() as f64).sqrt();
+            let worth = WORTH * returns.mean.abs().max(spread);
+            let harms = |played: &[Episode]| -> u64 {
+                let harms = played.iter().map(|episode| self.ground.harm(episode));
+                harms.sum()
+            };
+            let (own, other) = (harms(&candidate.played), harms(&base.played));
+            let more = own.saturating_sub(other) as f64;
+            more <= ((own + other) as f64).sqrt() && gain.mean - SURE * error(&gain) > worth
+        };
+        (standing.into_iter().next().filter(surely), used)
+    }
+
+    /// Lets policies play up to a number of episodes, on all threads, and counts the ticks.
+    fn play<'c>(
+        &self,
+        candidates: impl Iterator<Item = &'c mut Candidate>,
+        start: Start,
+        episodes: usize,
+    ) -> u64 {
+        let mut candidates: Vec<(&mut Candidate, Greedy)> = candidates
+            .map(|candidate| {
+                let greedy = self.greedy(&candidate.choices);
+                (candidate, greedy)
+            })
+            .collect();
+        let due: Vec<(usize, usize)> = candidates
+            .iter()
+            .enumerate()
+            .flat_map(|(i, (candidate, _))| (candidate.played.len()..episodes).map(move |n| (i, n)))
+            .collect();
+        let played: Vec<Option<Episode>> = due
+            .par_iter()
+            .map_init(
+                || self.ground.world.process(),
+                |process, (i, n)| {
+                    let mut greedy = candidates.get(*i)?.1.clone();
+                    let start = Start {
+                        episode: start.episode + *n as u64,
+                        ..start
+                    };
+                    Some(play(process, &mut greedy, start, self.ground.patience))
+                },
+            )
+            .collect();
+        let mut ticks = 0;
+        for ((i, _), episode) in due.into_iter().zip(played) {
+            if let (Some(episode), Some((candidate, _))) = (episode, candidates.get_mut(i)) {
+                ticks += episode.ticks;
+                candidate.played.push(episode);
+            }
+        }
+        ticks
+    }
+
+    fn greedy(&self, choices: &Choices) -> Greedy {
+        let choices = choices.iter();
+        let behaviors = choices.filter_map(|(key, choice)| {
+            let behavior = self.ground.choices.get(*choice)?;
+            Some((*key, *behavior))
+        });
+        Greedy::of(behaviors.collect(), self.unseen)
+    }
+}
+
+/// How much more a policy returns than another, episode by episode.
+fn gain(candidate: &Candidate, base: &Candidate) -> Mean {
+    let pairs = candidate.played.iter().zip(&base.played);
+    let gains: Vec<f64> = pairs.map(|(own, other)| own.total - other.total).collect();
+    Mean::of(&gains)
+}
