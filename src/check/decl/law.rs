@@ -86,7 +86,7 @@ impl<'a> Checker<'a> {
         let typed = self.declared(ty, value, &name.name);
         let mut ids = Vec::new();
         let mut leaves = Vec::new();
-        for initial in typed.value.parts() {
+        for initial in self.held_parts(&typed.value) {
             let name = Name::word(&name.name);
             let id = locals.push(Local { name, initial });
             ids.push(id);
@@ -94,9 +94,13 @@ impl<'a> Checker<'a> {
         }
         let binding = Binding {
             name,
+            value: match typed.value {
+                Value::Unknown => Value::Unknown,
+                _ => self.held(&typed.ty, &leaves),
+            },
             ty: typed.ty,
-            value: Value::of_parts(&leaves),
             locals: Some(ids),
+            given: None,
         };
         self.bind(binding, "local", 0);
         !leaves.is_empty()

@@ -5,7 +5,7 @@ use crate::check::context::{Context, Region};
 use crate::check::names::{Decl, START_WORDS};
 use crate::check::types::{Type, Value};
 use crate::diagnostic::{Code, suggest};
-use crate::ir::task::{History, StartLine};
+use crate::ir::task::{History, Placing, StartLine};
 use crate::syntax::ast;
 
 impl<'a> Checker<'a> {
@@ -14,23 +14,33 @@ impl<'a> Checker<'a> {
         self.context = Context::new(Region::Start);
         self.kept = history;
         let mut lines: Vec<StartLine> = Vec::new();
-        let mut set: Vec<&ast::Ident> = Vec::new();
+        let mut set: Vec<(&ast::Ident, Option<StartLine>)> = Vec::new();
         for line in &start.lines {
-            let built = self.start_line(line);
             let name = &line.target.name;
-            match set.iter().find(|first| first.name == name.name) {
-                Some(first) => self
-                    .error(
+            let scopes = self.ranges(&line.target).unwrap_or_default();
+            let built = self.for_each_member(scopes, |checker, _| checker.start_line(line));
+            let built: Vec<StartLine> = built.into_iter().flatten().flatten().collect();
+            let first = set
+                .iter()
+                .find(|(first, known)| match (known, built.first()) {
+                    (Some(known), Some(_)) => built.iter().any(|new| known.replaced_by(new)),
+                    _ => first.name == name.name && line.target.args.is_none(),
+                });
+            match first {
+                Some((first, _)) => {
+                    let first = first.span;
+                    self.error(
                         Code::E0503,
                         name.span,
                         format!("`{}` is set twice", name.name),
                     )
                     .label("this line would undo the first")
-                    .also(first.span, "first set here")
-                    .emit(),
-                None => set.push(name),
+                    .also(first, "first set here");
+                }
+                None if built.is_empty() => set.push((name, None)),
+                None => set.extend(built.iter().map(|line| (name, Some(line.clone())))),
             }
-            lines.extend(built.into_iter().flatten());
+            lines.extend(built);
         }
         self.kept = None;
         lines
@@ -39,7 +49,11 @@ impl<'a> Checker<'a> {
     fn start_line(&mut self, line: &'a ast::StartLine) -> Option<Vec<StartLine>> {
         self.context.region = Region::Start;
         let value = &line.value;
-        match line.target.name.name.as_str() {
+        let word = line.target.name.name.as_str();
+        if matches!(word, "pose" | "position" | "heading") && line.target.args.is_some() {
+            return self.other_line(line);
+        }
+        match word {
             "pose" => {
                 let value = self.expr(value);
                 if !value.ty.fits(&Type::Anywhere) {
@@ -77,6 +91,49 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// `pose(robot) = …` and its like.
+    fn other_line(&mut self, line: &'a ast::StartLine) -> Option<Vec<StartLine>> {
+        let target = &line.target;
+        let &[whose] = self.positional(target, 1, 1)?.as_slice() else {
+            return None;
+        };
+        let robot = self.expect(whose, &Type::Robot, "what stands there");
+        let value = &line.value;
+        let word = target.name.name.as_str();
+        let placing = match word {
+            "pose" => {
+                let value = self.expr(value);
+                if value.ty == Type::Point {
+                    let Value::Point(x, y) = value.value else {
+                        return None;
+                    };
+                    Placing::Position(x, y)
+                } else {
+                    if !value.ty.fits(&Type::Anywhere) {
+                        self.error(Code::E0302, value.span, "`pose` is `anywhere`, or a point")
+                            .this_is(&value.ty);
+                    }
+                    Placing::Anywhere
+                }
+            }
+            "position" => match self.expect(value, &Type::Point, "`position`").value {
+                Value::Point(x, y) => Placing::Position(x, y),
+                _ => return None,
+            },
+            _ => Placing::Heading(self.expect(value, &Type::ANGLE, "`heading`").scalar()?),
+        };
+        let Value::Robot(id) = robot.value else {
+            return None;
+        };
+        let line = match (id == self.subject, placing) {
+            (false, placing) => StartLine::Other(id, placing),
+            (true, Placing::Anywhere) => StartLine::Anywhere,
+            (true, Placing::Position(x, y)) => StartLine::Position(x, y),
+            (true, Placing::Heading(angle)) => StartLine::Heading(angle),
+        };
+        Some(vec![line])
+    }
+
     fn state_line(&mut self, line: &'a ast::StartLine) -> Option<Vec<StartLine>> {
         let name = line.target.name.name.as_str();
         let state = match self.names.value(name, false) {
@@ -97,17 +154,26 @@ impl<'a> Checker<'a> {
                 return self.undeclared(&line.target.name, "state", likely).none();
             }
         };
-        let ty = self.state_value(state, &line.target)?.ty;
+        let (ty, variables) = self.state_variables(state, &line.target)?;
         let value = self.expect(&line.value, &ty, &format!("`{name}`"));
         let parts = value.value.parts();
         if parts.is_empty() {
             return None;
         }
-        let states = self.state_variables(name).into_iter();
+        let [(_, ids)] = variables.as_slice() else {
+            return self
+                .error(
+                    Code::E0303,
+                    line.target.span,
+                    format!("which `{name}` is set has to be a constant"),
+                )
+                .label("this is known only as the episode starts")
+                .none();
+        };
+        let ids = ids.iter();
         Some(
-            states
-                .zip(parts)
-                .map(|(id, part)| StartLine::State(id, part))
+            ids.zip(parts)
+                .map(|(id, part)| StartLine::State(*id, part))
                 .collect(),
         )
     }
