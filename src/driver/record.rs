@@ -20,6 +20,9 @@ pub struct Done {
     pub tick: Tick,
 }
 
+/// Who looks on: shown the atoms, the world and what was done, it says whether to go on.
+pub type Look<'l> = dyn FnMut(&[Atom], &Simulation, Option<Done>) -> bool + 'l;
+
 /// Plays an episode; `look` is shown the world before the first tick and after every tick, with what was done in it, and
 /// says whether to go on. The atoms are those that the bits of [`Simulation::atoms`] mean.
 ///
@@ -29,7 +32,7 @@ pub fn watch(
     loaded: &Loaded,
     subject: &Subject,
     start: Start,
-    look: &mut dyn FnMut(&[Atom], &Simulation, Option<Done>) -> bool,
+    look: &mut Look<'_>,
 ) -> Result<(), Refused> {
     let program = &loaded.program;
     let id = subject.task(loaded)?;
@@ -66,7 +69,7 @@ pub fn watch(
 fn play_through(
     simulator: &Simulator,
     start: Start,
-    look: &mut dyn FnMut(&[Atom], &Simulation, Option<Done>) -> bool,
+    look: &mut Look<'_>,
     mut act: impl FnMut(&mut Simulation) -> Option<(Id<Behavior>, Status)>,
 ) {
     let mut simulation = simulator.simulation();

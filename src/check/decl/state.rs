@@ -12,6 +12,9 @@ use crate::ir::program::{State, ValueKind};
 use crate::ir::{Id, Name};
 use crate::syntax::ast::{self, Ref};
 
+/// A type, and the variables of this type that a reference may mean, each with the condition that it does.
+type Meant = (Type, Vec<(ExprId, Vec<Id<State>>)>);
+
 /// The variables behind a declared state: of each member of a family, one, or two for a point. A single state is a family
 /// of one.
 #[derive(Clone, Debug)]
@@ -204,7 +207,7 @@ impl<'a> Checker<'a> {
         &mut self,
         state: &'a ast::State,
         reference: &'a Ref,
-    ) -> Option<(Type, Vec<(ExprId, Vec<Id<State>>)>)> {
+    ) -> Option<Meant> {
         let (slot, codes) = self.state_slot(state, reference)?;
         let Some(codes) = codes else {
             return Some((slot.ty, Vec::new()));

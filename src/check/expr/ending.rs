@@ -27,7 +27,12 @@ impl<'a> Checker<'a> {
                 "the history window is asked in the guards of trees",
             );
         }
-        if !region.sees_events() && !matches!(region, Region::StartHistory | Region::Let) {
+        // What runs is known from the tick before.
+        let runs = function == Function::Running && region == Region::EachTick;
+        if !region.sees_events()
+            && !runs
+            && !matches!(region, Region::StartHistory | Region::Let)
+        {
             return self.out_of_scope(
                 function.name(),
                 reference.name.span,

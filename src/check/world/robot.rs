@@ -117,10 +117,10 @@ impl<'a> Checker<'a> {
             }
         }
         for entry in entries {
-            if let RobotEntryKind::Sensor { name, value } = &entry.kind {
-                if let Some(sensor) = self.sensor(name, value) {
-                    robot.sensors.push(sensor);
-                }
+            if let RobotEntryKind::Sensor { name, value } = &entry.kind
+                && let Some(sensor) = self.sensor(name, value)
+            {
+                robot.sensors.push(sensor);
             }
         }
         Some(robot)
