@@ -333,6 +333,19 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// The names of all targets of a type, by their codes.
+    pub fn target_names(&self, ty: &Type) -> Vec<Name> {
+        let Some(world) = &self.program.world else {
+            return Vec::new();
+        };
+        match ty {
+            Type::Place(_) => world.places.values().map(|it| it.name.clone()).collect(),
+            Type::Wall(_) => world.walls.values().map(|it| it.name.clone()).collect(),
+            Type::Robot => world.robots().map(|it| it.name.clone()).collect(),
+            _ => Vec::new(),
+        }
+    }
+
     /// Runs a pass under each of these bindings. A mistake that several members make is reported once.
     pub fn for_each_member<T>(
         &mut self,
@@ -401,6 +414,7 @@ impl<'a> Checker<'a> {
     pub fn nothing(&mut self, ty: &Type, count: usize) -> Vec<ExprId> {
         let zero = match ty {
             Type::Bool => self.program.pool.bool(false),
+            ty if ty.is_named_target() => self.program.pool.num(NOWHERE),
             _ => self.program.pool.num(0.0),
         };
         vec![zero; count]

@@ -97,6 +97,11 @@ impl Name {
         }
     }
 
+    /// The robot whose it is, where it is not the acting one's.
+    pub fn robot(&self) -> Option<&str> {
+        self.robot.as_deref()
+    }
+
     /// The values that are given, each with its parameter if it stands by name: by position as long as none is left out.
     pub fn given(&self) -> impl Iterator<Item = (Option<&str>, &Given)> {
         let mut left_out = false;

@@ -235,9 +235,11 @@ fn number(value: f64) -> String {
     rounded(value).to_string()
 }
 
+/// The name of a variant, or of a target.
 fn variant(variants: &[Name], index: f64) -> String {
-    let variant = variants.get(index as usize);
-    variant.map_or_else(String::new, Name::bare)
+    let known = (index >= 0.0).then_some(index as usize);
+    let variant = known.and_then(|index| variants.get(index));
+    variant.map_or_else(|| "nowhere".to_owned(), Name::bare)
 }
 
 /// A row of cells; one with a comma or a quote stands in quotes.

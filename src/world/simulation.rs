@@ -509,7 +509,7 @@ impl<'a> Simulation<'a> {
 }
 
 /// Ticks a behaviour, in the registers and with the senses of its robot. A behaviour without a law fails.
-#[inline]
+#[inline(always)]
 fn tick_behavior(
     simulator: &Simulator,
     now: u64,

@@ -84,6 +84,17 @@ impl<'a> Checker<'a> {
         locals: &mut Table<Local>,
     ) -> bool {
         let typed = self.declared(ty, value, &name.name);
+        let holds = match &typed.ty {
+            Type::Bool | Type::Quantity(_) | Type::Ratio | Type::Point | Type::Enum(_) => true,
+            Type::Error => true,
+            ty => ty.is_named_target(),
+        };
+        if !holds {
+            let message = format!("a local cannot hold {}", typed.ty);
+            self.error(Code::E0302, typed.span, message).label(
+                "numbers, truth values, points, enums, places, walls, robots and sensors can be held",
+            );
+        }
         let mut ids = Vec::new();
         let mut leaves = Vec::new();
         for initial in self.held_parts(&typed.value) {

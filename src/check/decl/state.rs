@@ -91,6 +91,7 @@ impl<'a> Checker<'a> {
             Type::Bool => ValueKind::Bool,
             Type::Enum(name) => ValueKind::Enum(self.variants(name)),
             Type::Point | Type::Quantity(_) | Type::Ratio => ValueKind::Quantity,
+            ty if ty.is_named_target() => ValueKind::Enum(self.target_names(ty)),
             other => {
                 return self
                     .error(
@@ -98,10 +99,13 @@ impl<'a> Checker<'a> {
                         value.span,
                         format!("a state cannot hold {other}"),
                     )
-                    .label("numbers, truth values, points and enums can be held")
+                    .label("numbers, truth values, points, enums, places, walls and robots can be held")
                     .none();
             }
         };
+        if value.value == Value::Unknown {
+            return None;
+        }
         let name = self.member_name(&state.name.name, scope);
         let parts = match value.value {
             Value::Scalar(id) => vec![(name, id)],
@@ -109,7 +113,7 @@ impl<'a> Checker<'a> {
                 (name.coordinate(Coordinate::X), x),
                 (name.coordinate(Coordinate::Y), y),
             ],
-            _ => return None,
+            ref target => vec![(name, self.code(target)?)],
         };
         let mut ids = Vec::new();
         for (name, initial) in parts {
@@ -179,7 +183,8 @@ impl<'a> Checker<'a> {
             })
             .collect();
         let parts = self.member_parts(&codes, &members, &none);
-        Some(Typed::new(slot.ty, Value::of_parts(&parts), span))
+        let value = self.held(&slot.ty, &parts);
+        Some(Typed::new(slot.ty, value, span))
     }
 
     /// The variables behind a state with the codes of the arguments that a reference gives; no codes where an argument is
@@ -203,11 +208,7 @@ impl<'a> Checker<'a> {
 
     /// The type of a state, and the variables that a reference may mean, each with the condition that it does; no
     /// variables where an argument is known by its type only.
-    pub fn state_variables(
-        &mut self,
-        state: &'a ast::State,
-        reference: &'a Ref,
-    ) -> Option<Meant> {
+    pub fn state_variables(&mut self, state: &'a ast::State, reference: &'a Ref) -> Option<Meant> {
         let (slot, codes) = self.state_slot(state, reference)?;
         let Some(codes) = codes else {
             return Some((slot.ty, Vec::new()));

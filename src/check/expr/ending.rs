@@ -29,10 +29,7 @@ impl<'a> Checker<'a> {
         }
         // What runs is known from the tick before.
         let runs = function == Function::Running && region == Region::EachTick;
-        if !region.sees_events()
-            && !runs
-            && !matches!(region, Region::StartHistory | Region::Let)
-        {
+        if !region.sees_events() && !runs && !matches!(region, Region::StartHistory | Region::Let) {
             return self.out_of_scope(
                 function.name(),
                 reference.name.span,

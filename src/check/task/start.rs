@@ -5,6 +5,7 @@ use crate::check::context::{Context, Region};
 use crate::check::names::{Decl, START_WORDS};
 use crate::check::types::{Type, Value};
 use crate::diagnostic::{Code, suggest};
+use crate::ir::expr::ExprId;
 use crate::ir::task::{History, Placing, StartLine};
 use crate::syntax::ast;
 
@@ -55,13 +56,13 @@ impl<'a> Checker<'a> {
         }
         match word {
             "pose" => {
-                let value = self.expr(value);
-                if !value.ty.fits(&Type::Anywhere) {
-                    self.error(Code::E0302, value.span, "`pose` is `anywhere`")
-                        .this_is(&value.ty)
-                        .help("a pose of your own: `position = (1 m, 2 m)`, `heading = 90 deg`");
-                }
-                Some(vec![StartLine::Anywhere])
+                let placings = self.pose(value)?;
+                let own = |placing| match placing {
+                    Placing::Anywhere => StartLine::Anywhere,
+                    Placing::Position(x, y) => StartLine::Position(x, y),
+                    Placing::Heading(angle) => StartLine::Heading(angle),
+                };
+                Some(placings.into_iter().map(own).collect())
             }
             "position" => match self.expect(value, &Type::Point, "`position`").value {
                 Value::Point(x, y) => Some(vec![StartLine::Position(x, y)]),
@@ -100,38 +101,69 @@ impl<'a> Checker<'a> {
         let robot = self.expect(whose, &Type::Robot, "what stands there");
         let value = &line.value;
         let word = target.name.name.as_str();
-        let placing = match word {
-            "pose" => {
-                let value = self.expr(value);
-                if value.ty == Type::Point {
-                    let Value::Point(x, y) = value.value else {
-                        return None;
-                    };
-                    Placing::Position(x, y)
-                } else {
-                    if !value.ty.fits(&Type::Anywhere) {
-                        self.error(Code::E0302, value.span, "`pose` is `anywhere`, or a point")
-                            .this_is(&value.ty);
-                    }
-                    Placing::Anywhere
-                }
-            }
+        let placings = match word {
+            "pose" => self.pose(value)?,
             "position" => match self.expect(value, &Type::Point, "`position`").value {
-                Value::Point(x, y) => Placing::Position(x, y),
+                Value::Point(x, y) => vec![Placing::Position(x, y)],
                 _ => return None,
             },
-            _ => Placing::Heading(self.expect(value, &Type::ANGLE, "`heading`").scalar()?),
+            _ => {
+                let angle = self.expect(value, &Type::ANGLE, "`heading`");
+                vec![Placing::Heading(angle.scalar()?)]
+            }
         };
         let Value::Robot(id) = robot.value else {
             return None;
         };
-        let line = match (id == self.subject, placing) {
+        let line = |placing| match (id == self.subject, placing) {
             (false, placing) => StartLine::Other(id, placing),
             (true, Placing::Anywhere) => StartLine::Anywhere,
             (true, Placing::Position(x, y)) => StartLine::Position(x, y),
             (true, Placing::Heading(angle)) => StartLine::Heading(angle),
         };
-        Some(vec![line])
+        Some(placings.into_iter().map(line).collect())
+    }
+
+    /// What a `pose` is set to: `anywhere`, a point, or a place, whose centre and `facing` it is then.
+    fn pose(&mut self, value: &'a ast::Expr) -> Option<Vec<Placing>> {
+        let value = self.expr(value);
+        match (&value.ty, &value.value) {
+            (_, Value::Anywhere) => Some(vec![Placing::Anywhere]),
+            (_, Value::Point(x, y)) => Some(vec![Placing::Position(*x, *y)]),
+            (_, Value::Place(id)) => {
+                let (x, y) = self.point_of(&value.value)?;
+                let facing = self.program.world.as_ref()?.places[*id].facing;
+                let heading = facing.map(|angle| self.program.pool.num(angle));
+                let heading = heading.map(Placing::Heading);
+                Some(
+                    [Placing::Position(x, y)]
+                        .into_iter()
+                        .chain(heading)
+                        .collect(),
+                )
+            }
+            (Type::Place(_), Value::Chosen(..)) => {
+                let coordinate = |checker: &mut Self, of: fn((ExprId, ExprId)) -> ExprId| {
+                    checker.of_each(&value.value, &mut |checker, place| match place {
+                        Value::Place(_) => checker.point_of(place).map(of),
+                        _ => Some(checker.program.pool.num(f64::INFINITY)),
+                    })
+                };
+                let x = coordinate(self, |(x, _)| x)?;
+                let y = coordinate(self, |(_, y)| y)?;
+                Some(vec![Placing::Position(x, y)])
+            }
+            (Type::Error, _) => None,
+            (ty, _) => self
+                .error(
+                    Code::E0302,
+                    value.span,
+                    "`pose` is `anywhere`, a point or a place",
+                )
+                .this_is(ty)
+                .help("a pose of your own: `position = (1 m, 2 m)`, `heading = 90 deg`")
+                .none(),
+        }
     }
 
     fn state_line(&mut self, line: &'a ast::StartLine) -> Option<Vec<StartLine>> {
@@ -156,7 +188,7 @@ impl<'a> Checker<'a> {
         };
         let (ty, variables) = self.state_variables(state, &line.target)?;
         let value = self.expect(&line.value, &ty, &format!("`{name}`"));
-        let parts = value.value.parts();
+        let parts = self.held_parts(&value.value);
         if parts.is_empty() {
             return None;
         }
