@@ -4,6 +4,7 @@
 //! checked. Where it is known only at run time which member is meant, its *code* says so: a number of its own for each.
 
 use super::Checker;
+use super::builtin::Function;
 use super::context::Binding;
 use super::types::{Type, Value};
 use crate::diagnostic::{Code, Diagnostic};
@@ -307,7 +308,7 @@ impl<'a> Checker<'a> {
     pub fn member_name(&self, family: &str, scope: &[Binding]) -> Name {
         let arguments = scope.iter().map(|binding| Argument {
             parameter: binding.name.name.clone(),
-            value: self.name_of(&binding.ty, &binding.value).map(Given::Name),
+            value: self.given_member(&binding.ty, &binding.value),
         });
         Name::instance(family, arguments.collect())
     }
@@ -325,11 +326,18 @@ impl<'a> Checker<'a> {
                 let index = self.program.pool.constant(*id)?;
                 self.variants(name).into_iter().nth(index as usize)
             }
-            (Value::Scalar(id), Type::Bool) => match self.program.pool.constant(*id)? {
-                0.0 => Some(Name::word("false")),
-                _ => Some(Name::word("true")),
-            },
             _ => None,
+        }
+    }
+
+    /// A member as an argument in a name.
+    pub fn given_member(&self, ty: &Type, value: &Value) -> Option<Given> {
+        match (value, ty) {
+            (Value::Scalar(id), Type::Bool) => {
+                let holds = self.program.pool.constant(*id)? != 0.0;
+                Some(Given::Text(holds.to_string()))
+            }
+            _ => self.name_of(ty, value).map(Given::Name),
         }
     }
 
@@ -372,6 +380,9 @@ impl<'a> Checker<'a> {
     /// Every way to bind the names that range over something in a call: `due(r in room)`. A call without such names is
     /// one way, with nothing bound.
     pub fn ranges(&mut self, reference: &'a Ref) -> Option<Vec<Vec<Binding<'a>>>> {
+        if !Self::ranging(reference) {
+            return Some(vec![Vec::new()]);
+        }
         let mut ranges = Vec::new();
         for arg in reference.args.iter().flatten() {
             let ArgKind::Binder {
@@ -403,8 +414,13 @@ impl<'a> Checker<'a> {
         bound.is_some_and(|bound| bound.name.span == name.span)
     }
 
-    /// Whether an expression is a call of a family in which names range over members.
+    /// Whether an expression is a call of a family in which names range over members; `any` and its relatives are none.
     pub fn ranging(reference: &Ref) -> bool {
+        let function = Function::named(&reference.name.name);
+        if let Some(Function::Any | Function::All | Function::Count | Function::Nearest) = function
+        {
+            return false;
+        }
         let args = reference.args.iter().flatten();
         args.into_iter()
             .any(|arg| matches!(arg.kind, ArgKind::Binder { .. }))

@@ -51,8 +51,8 @@ impl Checker<'_> {
         {
             return known.clone();
         }
-        if let Some(named) = self.name_of(ty, value) {
-            return Given::Name(named);
+        if let Some(named) = self.given_member(ty, value) {
+            return named;
         }
         match (value, &given.kind) {
             // A parameter of a subtree or a shared expression stands for a number that is not written here.
