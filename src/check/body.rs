@@ -20,6 +20,8 @@ pub struct Bodies<'a> {
     pub clean: BTreeMap<Span, bool>,
     /// The bodies that are being checked within one another, to find circles.
     pub open: Vec<Open<'a>>,
+    /// Whether the body at hand is being checked for itself.
+    pub for_itself: bool,
     /// How many bodies have been unrolled so far.
     unrolled: usize,
     /// Whether it was reported that definitions grow too large.
@@ -63,7 +65,9 @@ impl<'a> Checker<'a> {
             library: false,
             scope,
         };
+        let outer = std::mem::replace(&mut self.bodies.for_itself, true);
         let ((), found) = self.within(body.span, &body.name, context, pass);
+        self.bodies.for_itself = outer;
         let clean = !found.iter().any(Diagnostic::is_error);
         self.bodies.clean.insert(body.span, clean);
         self.diagnostics.extend(found);
@@ -105,7 +109,9 @@ impl<'a> Checker<'a> {
             library,
             scope,
         };
+        let outer = std::mem::replace(&mut self.bodies.for_itself, false);
         let (result, found) = self.within(body, name, context, pass);
+        self.bodies.for_itself = outer;
         let mut seen: Vec<(Code, String)> = Vec::new();
         for inner in found.into_iter().filter(Diagnostic::is_error) {
             let what = (inner.code, inner.message.clone());

@@ -35,6 +35,7 @@ named! {
         Elapsed "elapsed",
         Tick "tick",
         NearestWall "nearest_wall",
+        Nowhere "nowhere",
         Visits "visits",
         Progress "progress",
         Anywhere "anywhere",
@@ -53,6 +54,8 @@ named! {
         Facing "facing",
         Success "success",
         Failure "failure",
+        Running "running",
+        Pose "pose",
         Done "done",
         Failed "failed",
         Uniform "uniform",
@@ -84,6 +87,11 @@ pub enum BuiltIn {
 }
 
 impl BuiltIn {
+    /// Whether a declaration of the user may have its name: what is declared is meant then.
+    pub fn gives_way(self) -> bool {
+        matches!(self, Self::Function(Function::Running | Function::Pose))
+    }
+
     /// The built-in of that name.
     pub fn named(name: &str) -> Option<Self> {
         let unary = || Unary::named(name).map(Self::Unary);

@@ -6,14 +6,16 @@ use super::decl::behavior::BehaviorId;
 use super::decl::event::EventId;
 use super::decl::predicate::PredicateId;
 use super::decl::state::StateSlot;
+use super::members::{Kinds, Member};
 use super::names::Names;
 use super::tune::Tunes;
 use super::{Checked, Input};
 use crate::diagnostic::{self, Diagnostic};
 use crate::ir::task::History;
-use crate::ir::{Name, Program};
+use crate::ir::world::{Robot, World};
+use crate::ir::{Id, Name, Program};
 use crate::source::Span;
-use crate::syntax::ast::{ItemKind, Outcome};
+use crate::syntax::ast::{Expr, Ident, ItemKind, Outcome};
 use std::collections::BTreeMap;
 
 /// The state that all passes share.
@@ -40,14 +42,20 @@ pub struct Checker<'a> {
     pub tunes: Tunes,
     /// The names that bodies of the user bind, by where they are bound.
     pub bound: BTreeMap<Span, Bound<'a>>,
-    /// The predicates, by name with arguments; `None` for one with a mistake.
+    /// The predicates, by name with arguments, of another robot with its name; `None` for one with a mistake.
     pub predicates: BTreeMap<Name, Option<PredicateId>>,
     /// The behaviours, by name with arguments; `None` for one with a mistake.
     pub behaviors: BTreeMap<Name, Option<BehaviorId>>,
     /// The states, by name.
     pub states: BTreeMap<&'a str, StateSlot>,
-    /// The events that have been checked, by name.
-    pub events: BTreeMap<&'a str, EventId>,
+    /// The events that have been checked, by name: a single event is a family of one.
+    pub events: BTreeMap<&'a str, Vec<Member<EventId>>>,
+    /// The places and walls with their kinds.
+    pub kinds: Kinds,
+    /// The robot that the expression at hand is read by.
+    pub subject: Id<Robot>,
+    /// The robots that run a tree of their own, in order: their names, and what they run.
+    pub scripts: Vec<(&'a Ident, &'a Expr)>,
     /// The length of a tick in seconds, once the world has said it.
     pub tick: Option<f64>,
     /// Whether there is a world, right or wrong.
@@ -74,6 +82,9 @@ impl<'a> Checker<'a> {
             behaviors: BTreeMap::new(),
             states: BTreeMap::new(),
             events: BTreeMap::new(),
+            kinds: Kinds::default(),
+            subject: World::acting(),
+            scripts: Vec::new(),
             tick: None,
             has_world: false,
         }
@@ -128,6 +139,7 @@ impl<'a> Checker<'a> {
                 self.tree(tree, &item.docs);
             }
         }
+        self.scripts();
         for item in items() {
             if let ItemKind::Claim(claim) = &item.kind {
                 self.claim(claim);

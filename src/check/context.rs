@@ -5,6 +5,7 @@ use super::types::{Type, Value};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::Id;
 use crate::ir::expr::Local;
+use crate::ir::name::Given;
 use crate::source::Span;
 use crate::syntax::ast::Ident;
 
@@ -96,6 +97,8 @@ pub struct Binding<'a> {
     pub value: Value,
     /// The variables behind a local, which can be set: two for a point, none where they are not known.
     pub locals: Option<Vec<Id<Local>>>,
+    /// What a reference gave for it, as names have it.
+    pub given: Option<Given>,
 }
 
 impl<'a> Binding<'a> {
@@ -106,6 +109,7 @@ impl<'a> Binding<'a> {
             ty,
             value,
             locals: None,
+            given: None,
         }
     }
 

@@ -15,7 +15,7 @@ mod tune;
 
 use super::Checker;
 use super::types::{Type, Typed, Value};
-use crate::syntax::ast::{Expr, ExprKind, Ref};
+use crate::syntax::ast::{Axis, Expr, ExprKind, Ref};
 
 /// How many expressions may be checked within one another, those of unrolled bodies included.
 const DEEP: usize = 700;
@@ -49,6 +49,18 @@ impl<'a> Checker<'a> {
             ExprKind::If(choice) => self.choice(choice, span),
             ExprKind::Point(x, y) => Some(self.point(x, y, span)),
             ExprKind::Paren(inner) => Some(self.expr(inner)),
+            ExprKind::Coordinate(point, axis) => {
+                let point = self.expect(point, &Type::Point, "what has coordinates");
+                if point.ty == Type::Error {
+                    return None;
+                }
+                let coordinate = match (point.value, axis) {
+                    (Value::Point(x, _), Axis::X) => Some(x),
+                    (Value::Point(_, y), Axis::Y) => Some(y),
+                    _ => None,
+                };
+                Some(Typed::new(Type::LENGTH, coordinate, span))
+            }
             ExprKind::Unary { op, operand } => self.unary(op.node, operand, span),
             ExprKind::Binary { op, left, right } => self.binary(*op, left, right, span),
             ExprKind::Error => None,

@@ -149,5 +149,8 @@ impl<'a> Names<'a> {
 
 /// Whether a name is one that the compiler knows.
 pub fn is_built_in(name: &str) -> bool {
+    if builtin::BuiltIn::named(name).is_some_and(builtin::BuiltIn::gives_way) {
+        return false;
+    }
     builtin::names().any(|known| known == name)
 }

@@ -188,12 +188,6 @@ impl<'a> Checker<'a> {
         let message = format!("{what} needs a world, and there is none");
         self.error(Code::E0407, span, message).label(label)
     }
-
-    /// Reports a part of the language that btc does not support yet: `what` names it in the plural.
-    pub fn not_yet(&mut self, span: Span, what: &str) -> Draft<'_> {
-        self.error(Code::E0701, span, format!("{what} are not built yet"))
-            .label("the language has this, this version of btc cannot run it")
-    }
 }
 
 /// Names in a sentence: `a`, `b` and `c`.

@@ -64,11 +64,12 @@ fn name(arg: &Arg) -> Option<&Ident> {
     }
 }
 
-/// The value that an argument gives; a range and a binder give none.
+/// The value that an argument gives: what a name that ranges over members stands for; a range gives none.
 fn value(arg: &Arg) -> Option<&Expr> {
     match &arg.kind {
         ArgKind::Positional(value) | ArgKind::Named(_, value) => Some(value),
-        ArgKind::Range(..) | ArgKind::Binder { .. } => None,
+        ArgKind::Binder { member, .. } => Some(member),
+        ArgKind::Range(..) => None,
     }
 }
 
@@ -128,6 +129,11 @@ impl<'a> Checker<'a> {
                         .help(format!("it has {}", listed(names, "and")));
                 }
                 None
+            }
+            // Its name is bound to each member in turn.
+            (ArgKind::Binder { name, .. }, Takes::Parameters { .. }) if self.is_ranging(name) => {
+                *position += 1;
+                Some(*position - 1)
             }
             (ArgKind::Binder { .. }, _) => self
                 .error(Code::E0305, arg.span, format!("{owner} takes no `in`"))
@@ -192,7 +198,7 @@ impl<'a> Checker<'a> {
 
     /// Checks an argument that has no parameter, for its own mistakes.
     pub fn stray_argument(&mut self, arg: &'a Arg) {
-        if let Some(value) = value(arg) {
+        if let ArgKind::Positional(value) | ArgKind::Named(_, value) = &arg.kind {
             self.expr(value);
         }
     }

@@ -10,13 +10,13 @@ use super::expr::plain_ref;
 use super::names::Decl;
 use super::types::Type;
 use crate::diagnostic::Code;
-use crate::ir::expr::ExprId;
+use crate::ir::expr::{Binary, Expr as Pooled};
 use crate::ir::law::Behavior;
 use crate::ir::program::Predicate;
-use crate::ir::task::{History, RewardLine, Task};
+use crate::ir::task::{History, Price, RewardLine, Task, Written};
 use crate::ir::{Id, Name};
 use crate::source::Span;
-use crate::syntax::ast::{self, AspectKind, Expr};
+use crate::syntax::ast::{self, AspectKind, Expr, Paid};
 use crate::syntax::print;
 use std::collections::BTreeMap;
 
@@ -35,7 +35,10 @@ impl<'a> Checker<'a> {
             end_after: 0,
             reward: Vec::new(),
             otherwise: zero,
+            prices: Vec::new(),
+            written: Written::default(),
         };
+        let mut ends = 0;
         let mut seen: BTreeMap<&str, Span> = BTreeMap::new();
         // A `start` may refer to a `history` that comes after it.
         let mut starts = Vec::new();
@@ -50,7 +53,9 @@ impl<'a> Checker<'a> {
             }
             match &aspect.kind {
                 AspectKind::Observe(list) => built.observe = self.observed(list),
-                AspectKind::Choose(list) => built.choose = self.chosen(list),
+                AspectKind::Choose(list) => {
+                    (built.choose, built.written.choose) = self.chosen(list);
+                }
                 AspectKind::History { window, outcomes } => {
                     built.history = self.history(window, outcomes);
                 }
@@ -58,14 +63,25 @@ impl<'a> Checker<'a> {
                 AspectKind::Start(start) => starts.push(start),
                 AspectKind::EndOn(event) => {
                     self.context = Context::new(Region::Reward);
-                    let event = self.expect(event, &Type::Bool, "what an episode ends on");
-                    built.end_on.extend(event.scalar());
+                    let scopes = match plain_ref(event) {
+                        Some(reference) => self.ranges(reference),
+                        None => Some(vec![Vec::new()]),
+                    };
+                    let events = self.for_each_member(scopes.unwrap_or_default(), |checker, _| {
+                        let what = "what an episode ends on";
+                        checker.expect(event, &Type::Bool, what).scalar()
+                    });
+                    for event in events.into_iter().flatten() {
+                        built.end_on.push(event);
+                        built.written.end_on.push(ends);
+                    }
+                    ends += 1;
                 }
                 AspectKind::EndAfter(ticks) => {
                     built.end_after = self.ticks(ticks, "`end after`").unwrap_or(0);
                 }
                 AspectKind::Reward { lines, otherwise } => {
-                    (built.reward, built.otherwise) = self.reward(lines, otherwise.as_ref());
+                    self.reward(lines, otherwise.as_ref(), &mut built);
                 }
                 AspectKind::Error => {}
             }
@@ -73,6 +89,7 @@ impl<'a> Checker<'a> {
         for start in starts {
             built.start = self.start(start, Some(built.history));
         }
+        self.dear_moments(task, &built);
         for (word, example) in [
             ("choose", "choose goto(A), goto(B)"),
             ("end after", "end after 5_000 ticks"),
@@ -102,27 +119,37 @@ impl<'a> Checker<'a> {
                 Decl::Predicate(predicate) => Some(predicate),
                 _ => None,
             });
-            if let Some((predicate, library)) = predicate
-                && let Some(id) = self.predicate_instance(predicate, library, reference)
-            {
+            let (Some((predicate, library)), Some(scopes)) = (predicate, self.ranges(reference))
+            else {
+                continue;
+            };
+            let ids = self.for_each_member(scopes, |checker, _| {
+                checker.predicate_instance(predicate, library, reference)
+            });
+            for id in ids.into_iter().flatten() {
                 self.once(&mut observed, id, reference.span);
             }
         }
         observed
     }
 
-    fn chosen(&mut self, list: &'a [Expr]) -> Vec<Id<Behavior>> {
+    /// The behaviours of a list, and for each the place of its entry.
+    fn chosen(&mut self, list: &'a [Expr]) -> (Vec<Id<Behavior>>, Vec<usize>) {
         let mut chosen: Vec<Id<Behavior>> = Vec::new();
-        for expr in list {
+        let mut places = Vec::new();
+        for (place, expr) in list.iter().enumerate() {
             let Some(reference) = plain_ref(expr) else {
                 self.not_named(expr, "a behaviour", "behavior NAME { … }");
                 continue;
             };
-            if let Some(id) = self.behavior_ref(reference) {
+            let scopes = self.ranges(reference).unwrap_or_default();
+            let ids = self.for_each_member(scopes, |checker, _| checker.behavior_ref(reference));
+            for id in ids.into_iter().flatten() {
                 self.once(&mut chosen, id, reference.span);
+                places.resize(chosen.len(), place);
             }
         }
-        chosen
+        (chosen, places)
     }
 
     fn once<T: PartialEq>(&mut self, list: &mut Vec<T>, item: T, span: Span) {
@@ -156,25 +183,121 @@ impl<'a> Checker<'a> {
         &mut self,
         lines: &'a [ast::RewardLine],
         otherwise: Option<&'a Expr>,
-    ) -> (Vec<RewardLine>, ExprId) {
-        let mut built = Vec::new();
-        for line in lines {
+        task: &mut Task,
+    ) {
+        for (place, line) in lines.iter().enumerate() {
             self.context = Context::new(Region::Reward);
-            let event = self.expect(&line.event, &Type::Bool, "what is rewarded");
-            let value = self.expect(&line.value, &Type::NUMBER, "a reward");
-            if let (Some(event), Some(value)) = (event.scalar(), value.scalar()) {
-                built.push(RewardLine {
-                    name: print::expr(&line.event),
-                    event,
+            let event = match &line.paid {
+                Paid::On(event) => event,
+                Paid::Per { during, time } => {
+                    task.prices
+                        .extend(self.price(during.as_ref(), time, &line.value));
+                    continue;
+                }
+            };
+            let range = plain_ref(event).filter(|reference| Self::ranging(reference));
+            let scopes = match range {
+                Some(reference) => self.ranges(reference),
+                None => Some(vec![Vec::new()]),
+            };
+            let built = self.for_each_member(scopes.unwrap_or_default(), |checker, _| {
+                let on = checker.expect(event, &Type::Bool, "what is rewarded");
+                let value = checker.expect(&line.value, &Type::NUMBER, "a reward");
+                let (on, value) = (on.scalar()?, value.scalar()?);
+                let name = match (range, checker.program.pool.get(on)) {
+                    (Some(_), Pooled::Event(id)) => checker.program.events[id].name.to_string(),
+                    _ => print::expr(event),
+                };
+                Some(RewardLine {
+                    name,
+                    event: on,
                     value,
-                });
+                })
+            });
+            for line in built.into_iter().flatten() {
+                task.reward.push(line);
+                task.written.reward.push(place);
             }
         }
         self.context = Context::new(Region::Reward);
-        let otherwise =
-            otherwise.and_then(|value| self.expect(value, &Type::NUMBER, "a reward").scalar());
-        let otherwise = otherwise.unwrap_or_else(|| self.program.pool.num(0.0));
-        (built, otherwise)
+        if let Some(value) = otherwise
+            && let Some(value) = self.expect(value, &Type::NUMBER, "a reward").scalar()
+        {
+            task.otherwise = value;
+        }
+    }
+
+    /// `while condition, per time: value`
+    fn price(
+        &mut self,
+        during: Option<&'a Expr>,
+        time: &'a Expr,
+        value: &'a Expr,
+    ) -> Option<Price> {
+        let what = "what has to hold while time is paid";
+        let during = match during {
+            Some(during) => self.expect(during, &Type::Bool, what).scalar(),
+            None => Some(self.program.pool.bool(true)),
+        };
+        let seconds = self.constant(time, &Type::TIME, "the time that is paid");
+        let paid = self.expect(value, &Type::NUMBER, "a reward").scalar();
+        let (seconds, paid) = (seconds?, paid?);
+        if seconds <= 0.0 {
+            return self
+                .out_of_range(
+                    time.span,
+                    "the time that is paid is above zero",
+                    "no time passes in this",
+                )
+                .none();
+        }
+        let seconds = self.program.pool.num(seconds);
+        let per_second = self.program.pool.binary(Binary::Div, paid, seconds);
+        Some(Price {
+            name: format!("per {}", print::expr(time)),
+            during: during?,
+            per_second,
+        })
+    }
+
+    /// Warns of a cost for each decision where a behaviour may succeed in the tick in which it starts, however the robot
+    /// stands: what it costs to wait is then another thing for each behaviour.
+    fn dear_moments(&mut self, task: &'a ast::Task, built: &Task) {
+        let pool = &self.program.pool;
+        if pool
+            .constant(built.otherwise)
+            .is_none_or(|cost| cost == 0.0)
+        {
+            return;
+        }
+        let at_once = built.choose.iter().find(|id| {
+            let law = self.program.behaviors[**id].law.as_ref();
+            law.is_some_and(|law| {
+                let takes_time = pool.any(law.succeed, &mut |expr| {
+                    !matches!(
+                        expr,
+                        Pooled::Num(_)
+                            | Pooled::Bool(_)
+                            | Pooled::State(_)
+                            | Pooled::Unary(..)
+                            | Pooled::Binary(..)
+                            | Pooled::Select(..)
+                    )
+                });
+                !takes_time && pool.constant(law.succeed) != Some(0.0)
+            })
+        });
+        let Some(id) = at_once else { return };
+        let name = self.program.behaviors[*id].name.clone();
+        let otherwise = task.aspects.iter().find_map(|aspect| match &aspect.kind {
+            AspectKind::Reward { otherwise, .. } => otherwise.as_ref(),
+            _ => None,
+        });
+        let Some(otherwise) = otherwise else { return };
+        let message = format!("this is paid per decision, and `{name}` may succeed at once");
+        self.warning(Code::W0509, otherwise.span, message)
+            .label("a tick of that costs as much as a long drive")
+            .help("let time have a price of its own: `per 1 s: -0.01`");
     }
 }
 

@@ -6,13 +6,15 @@ mod node;
 
 use super::Checker;
 use super::context::Region;
+use super::expr::plain_ref;
 use super::names::Decl;
 use super::task::history::keeping;
 use crate::diagnostic::Code;
 use crate::ir::task::Task;
 use crate::ir::tree::Tree;
+use crate::ir::world::Robot;
 use crate::ir::{Id, Name};
-use crate::syntax::ast::{self, Outcome};
+use crate::syntax::ast::{self, Expr, Outcome};
 
 impl<'a> Checker<'a> {
     /// `tree name(params) for task = node`
@@ -22,6 +24,15 @@ impl<'a> Checker<'a> {
         if let Some((Decl::Tree(known), _)) = self.names.value(&tree.name.name, false)
             && known.name.span.file != tree.name.span.file
         {
+            return;
+        }
+        if let Some(robot) = self.runs(tree) {
+            let scope = self.unknown_parameters(tree.params.as_ref());
+            self.as_robot(robot, |checker| {
+                checker.body_for_itself(&tree.name, Region::Tree, scope, |checker| {
+                    checker.node(&tree.root);
+                });
+            });
             return;
         }
         let task = match &tree.task {
@@ -47,6 +58,17 @@ impl<'a> Checker<'a> {
             task,
             root,
         });
+    }
+
+    /// The first of the robots that run a tree as their own, if it is for no task.
+    fn runs(&self, tree: &'a ast::Tree) -> Option<Id<Robot>> {
+        let runs = |runs: &Expr| {
+            let reference = plain_ref(runs)?;
+            Some(reference.name.name == tree.name.name)
+        };
+        let mut scripts = self.scripts.iter();
+        let at = scripts.position(|(_, script)| runs(script) == Some(true))?;
+        tree.task.is_none().then(|| Id::new(at + 1))
     }
 
     /// `done(b)` and `failed(b)` ask a window that the task has to keep; one message for each outcome.

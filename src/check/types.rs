@@ -8,7 +8,7 @@ use crate::geometry;
 use crate::ir::Id;
 use crate::ir::expr::ExprId;
 use crate::ir::law::Behavior;
-use crate::ir::world::{Place, Sensor, Wall};
+use crate::ir::world::{Place, Robot, Sensor, Wall};
 use crate::source::Span;
 use std::fmt;
 
@@ -35,6 +35,10 @@ pub enum Type {
     Robot,
     /// `sensor`
     Sensor,
+    /// `target`: anything that is measured to.
+    Target,
+    /// `nowhere`, which may stand for any target that has a name.
+    Nowhere,
     /// A behaviour.
     Behavior,
     /// A shape.
@@ -72,10 +76,26 @@ impl Type {
 
     /// Whether something can be measured to it.
     pub fn is_target(&self) -> bool {
+        matches!(self, Type::Point | Type::Target | Type::Nowhere) || self.is_named_target()
+    }
+
+    /// Whether it is a target that has a name.
+    pub fn is_named_target(&self) -> bool {
         matches!(
             self,
-            Type::Point | Type::Place(_) | Type::Wall(_) | Type::Robot | Type::Sensor
+            Type::Place(_) | Type::Wall(_) | Type::Robot | Type::Sensor
         )
+    }
+
+    /// The type of what may be a value of either type.
+    pub fn join(&self, other: &Type) -> Option<Type> {
+        match (self, other) {
+            _ if other.fits(self) => Some(self.clone()),
+            _ if self.fits(other) => Some(other.clone()),
+            (Type::Place(_), Type::Place(_)) => Some(Type::Place(None)),
+            (Type::Wall(_), Type::Wall(_)) => Some(Type::Wall(None)),
+            _ => None,
+        }
     }
 
     /// Whether a value of this type may stand where `wanted` is asked for.
@@ -83,6 +103,8 @@ impl Type {
         match (self, wanted) {
             (Type::Error, _) | (_, Type::Error) => true,
             (Type::Place(_), Type::Place(None)) | (Type::Wall(_), Type::Wall(None)) => true,
+            (_, Type::Target) => self.is_target(),
+            (Type::Nowhere, _) => wanted.is_named_target() || *wanted == Type::Nowhere,
             _ => match (self.dim(), wanted.dim()) {
                 (Some(a), Some(b)) => a == b,
                 _ => self == wanted,
@@ -107,6 +129,8 @@ impl fmt::Display for Type {
             Type::Wall(Some(kind)) => write!(f, "a wall of kind `{kind}`"),
             Type::Robot => f.write_str("a robot"),
             Type::Sensor => f.write_str("a sensor"),
+            Type::Target => f.write_str("a target"),
+            Type::Nowhere => f.write_str("the word `nowhere`"),
             Type::Behavior => f.write_str("a behaviour"),
             Type::Shape => f.write_str("a shape"),
             Type::Termination => f.write_str("the end of a behaviour"),
@@ -130,10 +154,14 @@ pub enum Value {
     Wall(Id<Wall>),
     /// The nearest wall.
     NearestWall,
-    /// The acting robot.
-    Robot,
+    /// A robot, by its place among all robots.
+    Robot(Id<Robot>),
     /// A sensor.
     Sensor(Id<Sensor>),
+    /// No target at all.
+    Nowhere,
+    /// A target that is chosen while the program runs: its code, and what it may be.
+    Chosen(ExprId, Vec<Value>),
     /// A behaviour.
     Behavior(Id<Behavior>),
     /// A shape.
@@ -178,6 +206,7 @@ impl Value {
         match self {
             Value::Scalar(id) => Value::Scalar(replaced(id)),
             Value::Point(x, y) => Value::Point(replaced(x), replaced(y)),
+            Value::Chosen(code, of) => Value::Chosen(replaced(code), of),
             other => other,
         }
     }

@@ -68,16 +68,30 @@ impl<'a> Checker<'a> {
             walls: Table::default(),
             places: Table::default(),
             robot: no_robot(),
+            others: Table::default(),
         });
         for entry in &world.entries {
             match &entry.kind {
                 WorldEntryKind::Place {
                     name,
+                    of_kind,
                     shape,
                     facing,
+                } => {
+                    let kind = of_kind.as_ref().map(|kind| kind.name.clone());
+                    self.kinds.places.push((Name::word(&name.name), kind));
+                    self.place(name, shape, facing.as_ref(), arena.as_ref());
+                }
+                WorldEntryKind::Wall {
+                    name,
+                    of_kind,
+                    shape,
                     ..
-                } => self.place(name, shape, facing.as_ref(), arena.as_ref()),
-                WorldEntryKind::Wall { name, shape, .. } => self.wall(name, shape),
+                } => {
+                    let kind = of_kind.as_ref().map(|kind| kind.name.clone());
+                    self.kinds.walls.push((Name::word(&name.name), kind));
+                    self.wall(name, shape);
+                }
                 _ => {}
             }
         }
@@ -119,8 +133,13 @@ impl<'a> Checker<'a> {
             } = &entry.kind
             {
                 self.context = Context::new(Region::Predicate);
-                self.expect(when, &Type::Bool, "the condition of a wall");
-                self.not_yet(name.span, "walls that stand under a condition");
+                let stands = self.expect(when, &Type::Bool, "the condition of a wall");
+                let name = Name::word(&name.name);
+                if let (Some(when), Some(world)) = (stands.scalar(), &mut self.program.world)
+                    && let Some(wall) = world.walls.find(|wall| wall.name == name)
+                {
+                    world.walls[wall].when = Some(when);
+                }
             }
         }
     }
@@ -159,6 +178,7 @@ impl<'a> Checker<'a> {
             world.walls.push(Wall {
                 name: Name::word(&name.name),
                 shape,
+                when: None,
             });
         }
     }

@@ -95,6 +95,11 @@ pub(super) fn write(path: &Path, text: &str) -> Result<(), Failure> {
     attempt().map_err(|error| complain(&format!("{}: {error}", path.display())))
 }
 
+/// Makes a folder, with those that it stands in.
+pub(super) fn make_folder(path: &Path) -> Result<(), Failure> {
+    std::fs::create_dir_all(path).map_err(|error| complain(&format!("{}: {error}", path.display())))
+}
+
 /// Writes to a file, or to standard output.
 pub(super) fn put(path: Option<&Path>, text: &str) -> Result<(), Failure> {
     match path {

@@ -122,7 +122,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     };
     // Whether the results can be written shows before hours of learning; a run that is refused or killed leaves no folder.
     let found = folder.exists();
-    make(&folder)?;
+    files::make_folder(&folder)?;
     let source = files::from_folder(&folder, Path::new(&arguments.file));
     if !found {
         let _ = std::fs::remove_dir(&folder);
@@ -160,7 +160,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     bar.finish();
     let learned = learned.map_err(|refused| say.refused(&refused))?;
     files::print(&learned.text)?;
-    make(&folder)?;
+    files::make_folder(&folder)?;
     for (name, text) in &learned.files {
         files::write(&folder.join(name), text)?;
     }
@@ -182,11 +182,6 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     }
     tell(&format!("written to {}", folder.display()));
     super::verify::verdict(&claims)
-}
-
-fn make(folder: &Path) -> Result<(), Failure> {
-    std::fs::create_dir_all(folder)
-        .map_err(|error| files::complain(&format!("{}: {error}", folder.display())))
 }
 
 /// Tunes the tree that was learned. The program and the tree that were written stay those of the values in use.

@@ -13,6 +13,7 @@ mod fmt;
 mod interrupt;
 mod learn;
 mod minimize;
+mod new;
 mod progress;
 mod report;
 mod run;
@@ -42,6 +43,8 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    /// Start a project: a small world that learns, a test, a file for continuous integration.
+    New(new::Arguments),
     /// Report every mistake of a program.
     Check(check::Arguments),
     /// Say what was built, or write it in another form.
@@ -100,6 +103,7 @@ pub fn main() -> ExitCode {
     interrupt::watch();
     let say = report::Reporter::new(arguments.color);
     let result = match arguments.command {
+        Command::New(arguments) => new::run(&arguments),
         Command::Check(arguments) => check::run(&arguments, &say),
         Command::Compile(arguments) => compile::run(&arguments, &say),
         Command::Learn(arguments) => learn::run(&arguments, &say),

@@ -4,15 +4,16 @@ use super::report::{Format, Reporter};
 use super::{Failure, PLAYED, files};
 use crate::driver::picture;
 use crate::driver::run::{self, Subject};
-use clap::Args;
+use crate::driver::trace::{self, Step};
+use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
-#[command(group = clap::ArgGroup::new("subject").required(true).args(["tree", "policy"]))]
+#[command(group = clap::ArgGroup::new("subject").args(["tree", "policy"]))]
 pub(super) struct Arguments {
     /// The program; `-` is standard input.
     file: String,
-    /// The tree to run.
+    /// The tree to run; the only one of the program if neither a tree nor a policy is named.
     #[arg(long, value_name = "NAME")]
     tree: Option<String>,
     /// The policy to run, as `btc learn` writes it.
@@ -33,6 +34,27 @@ pub(super) struct Arguments {
     /// How many ticks of it to draw.
     #[arg(long, value_name = "N", default_value_t = 2_000, requires = "svg")]
     svg_ticks: u64,
+    /// Write what was found, done and rewarded, a line for each decision; `-` is standard output, then without the figures.
+    #[arg(long, value_name = "FILE")]
+    trace: Option<PathBuf>,
+    /// A line for each tick instead.
+    #[arg(long, requires = "trace")]
+    ticks: bool,
+    /// How many episodes to trace.
+    #[arg(long, value_name = "N", default_value_t = 1, requires = "trace", value_parser = clap::value_parser!(u64).range(1..=PLAYED))]
+    trace_episodes: u64,
+    /// How to write the trace; JSON Lines if the name of the file ends so, else CSV.
+    #[arg(long, value_name = "FORM", requires = "trace")]
+    trace_format: Option<TraceFormat>,
+}
+
+/// The forms of a trace.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum TraceFormat {
+    /// Comma-separated values, with a header.
+    Csv,
+    /// JSON Lines: a document a line.
+    Jsonl,
 }
 
 pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {
@@ -40,10 +62,28 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     let subject = match (&arguments.policy, &arguments.tree) {
         (Some(path), _) => Subject::policy(&loaded, files::read(path)?.text()),
         (None, Some(name)) => Subject::tree(&loaded, name),
-        // clap asks for one of the two.
-        (None, None) => return Err(Failure::Usage),
+        (None, None) => Subject::only_tree(&loaded),
     };
     let subject = subject.map_err(|refused| say.refused(&refused))?;
+    if let Some(path) = &arguments.trace {
+        let step = match arguments.ticks {
+            true => Step::Tick,
+            false => Step::Decision,
+        };
+        let episodes = arguments.trace_episodes;
+        let trace = trace::trace(&loaded, &subject, episodes, arguments.seed, step)
+            .map_err(|refused| say.refused(&refused))?;
+        let by_name = path.extension().filter(|end| *end == "jsonl");
+        let by_name = by_name.map_or(TraceFormat::Csv, |_| TraceFormat::Jsonl);
+        let text = match arguments.trace_format.unwrap_or(by_name) {
+            TraceFormat::Csv => trace.csv(),
+            TraceFormat::Jsonl => trace.json_lines(),
+        };
+        if path.as_os_str() == files::STDIN {
+            return files::print(&text);
+        }
+        files::write(path, &text)?;
+    }
     let ran = run::run(&loaded, &subject, arguments.episodes, arguments.seed)
         .map_err(|refused| say.refused(&refused))?;
     if let Some(path) = &arguments.svg {

@@ -68,8 +68,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
         Format::Json => files::print(&tuned.json)?,
     }
     if let Some(folder) = &arguments.output {
-        std::fs::create_dir_all(folder)
-            .map_err(|error| files::complain(&format!("{}: {error}", folder.display())))?;
+        files::make_folder(folder)?;
         files::write(&folder.join("tune.json"), &tuned.json)?;
         for (name, picture) in &tuned.pictures {
             files::write(&folder.join(name), picture)?;

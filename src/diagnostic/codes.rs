@@ -79,6 +79,7 @@ codes! {
     E0207 "declared only",
     E0208 "a file that cannot be read",
     E0209 "definitions within definitions without end",
+    E0210 "files that use each other in a circle",
 
     E0301 "units do not match",
     E0302 "types do not match",
@@ -120,7 +121,6 @@ codes! {
     E0609 "a tree that is not equal to its policy",
     E0610 "a table that does not fit",
 
-    E0701 "not built yet",
 
     E0801 "a keyword of a PLA that does not fit",
     E0802 "a row of a PLA of another width",
@@ -153,6 +153,7 @@ codes! {
     W0506 "an end that training hardly met",
     W0507 "learned from too little",
     W0508 "a failure that is repeated",
+    W0509 "a cost per decision and a behaviour without duration",
 }
 
 impl Code {

@@ -7,7 +7,7 @@ use crate::ir::expr::Expr;
 use crate::ir::law::Behavior;
 use crate::ir::operator::Binary;
 use crate::ir::program::{Event, Predicate};
-use crate::ir::task::{Discount, History, Learner, Method, Objective, Task};
+use crate::ir::task::{Discount, History, Learner, Method, Objective, Task, Written};
 use crate::ir::tree::{Node, Tree};
 use crate::ir::{Id, Name, Program};
 use crate::learn::episode::play_all;
@@ -183,6 +183,8 @@ impl Terms {
             end_after: self.limit,
             reward: Vec::new(),
             otherwise: zero,
+            prices: Vec::new(),
+            written: Written::default(),
         });
         let pool = &mut program.pool;
         let [from, to] = self.explore;

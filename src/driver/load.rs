@@ -110,6 +110,7 @@ pub fn load(name: &str, text: Vec<u8>, reader: &mut dyn Reader) -> Loaded {
         sources: Sources::default(),
         parsed: Vec::new(),
         known: Vec::new(),
+        open: Vec::new(),
         tables: Vec::new(),
         diagnostics: Vec::new(),
         depth: 0,
@@ -188,6 +189,8 @@ struct Loader<'r> {
     /// Used files before those that use them.
     parsed: Vec<Parsed>,
     known: Vec<String>,
+    /// The files that are being read within one another.
+    open: Vec<String>,
     tables: Vec<(FileId, Span)>,
     diagnostics: Vec<Diagnostic>,
     depth: usize,
@@ -198,6 +201,7 @@ struct Loader<'r> {
 impl Loader<'_> {
     fn file(&mut self, name: &str, bytes: &[u8], library: bool) -> FileId {
         self.known.push(beside("", name));
+        self.open.push(beside("", name));
         let (file, mistake) = decode(&mut self.sources, Text { name, bytes });
         let broken = mistake.is_some();
         self.diagnostics.extend(mistake);
@@ -216,6 +220,7 @@ impl Loader<'_> {
             }
         }
         self.depth -= 1;
+        self.open.pop();
         self.parsed.push(Parsed { file, ast, library });
         file
     }
@@ -229,6 +234,15 @@ impl Loader<'_> {
     fn used(&mut self, from: &str, path: &str, span: Span) {
         let resolved = beside(from, path);
         let table = path.ends_with(".csv");
+        if self.open.contains(&resolved) {
+            let message = format!("`{path}` uses this file, or is this file");
+            self.diagnostics.push(
+                Diagnostic::new(Code::E0210, span, message)
+                    .label("this closes the circle")
+                    .help("put what both need into a third file"),
+            );
+            return;
+        }
         if self.known.contains(&resolved) && !table {
             return;
         }

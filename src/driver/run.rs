@@ -31,6 +31,14 @@ impl Subject {
         target::tree(loaded, name).map(Self::Tree)
     }
 
+    /// The only tree of the program.
+    ///
+    /// # Errors
+    /// There is none, or there are several.
+    pub fn only_tree(loaded: &Loaded) -> Result<Self, Refused> {
+        target::only_tree(loaded).map(Self::Tree)
+    }
+
     /// The policy in a table, for the only task of the program.
     ///
     /// # Errors

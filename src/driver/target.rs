@@ -39,6 +39,16 @@ pub fn tree(loaded: &Loaded, name: &str) -> Result<Id<Tree>, Refused> {
         .ok_or_else(|| missing(loaded, "tree", name, trees.values().map(|tree| &tree.name)))
 }
 
+/// The only tree.
+///
+/// # Errors
+/// There is none, or there are several.
+pub fn only_tree(loaded: &Loaded) -> Result<Id<Tree>, Refused> {
+    let trees = &loaded.program.trees;
+    let names = trees.values().map(|tree| &tree.name);
+    only(loaded, "tree", names, trees.ids())
+}
+
 /// The learner of that name, or the only one.
 ///
 /// # Errors
@@ -87,6 +97,7 @@ fn only<'n, T>(
             ),
             match word {
                 "learn" => "say which one with `--learner NAME`",
+                "tree" => "say which one with `--tree NAME`",
                 _ => "a tree says which one is meant: `tree NAME for TASK = …`",
             }
             .to_owned(),

@@ -4,7 +4,7 @@ use crate::ir::expr::{Draw, Expr, ExprId};
 use crate::ir::law::{Block, Law, Stmt};
 use crate::ir::name;
 use crate::ir::program::{Program, ValueKind};
-use crate::ir::task::{Discount, Objective, StartLine, TreeRef};
+use crate::ir::task::{Discount, Objective, Placing, StartLine, TreeRef};
 use crate::ir::tree::Tree;
 use std::fmt::Write;
 
@@ -44,7 +44,12 @@ impl Out<'_> {
         self.line(0, format!("world {} tick {} s", world.name, world.tick));
         self.line(1, format!("arena {:?}", world.arena));
         for (id, wall) in world.walls.iter() {
-            self.line(1, format!("wall {id:?} {} {:?}", wall.name, wall.shape));
+            let when = wall.when.map(|when| format!(" when {}", self.expr(when)));
+            let when = when.unwrap_or_default();
+            self.line(
+                1,
+                format!("wall {id:?} {} {:?}{when}", wall.name, wall.shape),
+            );
         }
         for (id, place) in world.places.iter() {
             let facing = place
@@ -55,22 +60,23 @@ impl Out<'_> {
                 format!("place {id:?} {} {:?}{facing}", place.name, place.shape),
             );
         }
-        let robot = &world.robot;
-        self.line(
-            1,
-            format!(
-                "robot {} radius {} {:?} {:?}",
-                robot.name, robot.radius, robot.drive, robot.contact
-            ),
-        );
-        for (id, sensor) in robot.sensors.iter() {
+        for robot in world.robots() {
             self.line(
-                2,
+                1,
                 format!(
-                    "sensor {id:?} {} {:?} noise {}",
-                    sensor.name, sensor.kind, sensor.noise
+                    "robot {} radius {} {:?} {:?}",
+                    robot.name, robot.radius, robot.drive, robot.contact
                 ),
             );
+            for (id, sensor) in robot.sensors.iter() {
+                self.line(
+                    2,
+                    format!(
+                        "sensor {id:?} {} {:?} noise {}",
+                        sensor.name, sensor.kind, sensor.noise
+                    ),
+                );
+            }
         }
     }
 
@@ -210,6 +216,14 @@ impl Out<'_> {
                 let (event, value) = (self.expr(line.event), self.expr(line.value));
                 self.line(1, format!("reward {event}: {value}  // {}", line.name));
             }
+            for price in &task.prices {
+                let (during, value) = (self.expr(price.during), self.expr(price.per_second));
+                let name = &price.name;
+                self.line(
+                    1,
+                    format!("reward while {during}, per second: {value}  // {name}"),
+                );
+            }
             let otherwise = self.expr(task.otherwise);
             self.line(1, format!("reward otherwise: {otherwise}"));
         }
@@ -259,6 +273,16 @@ impl Out<'_> {
                     format!("start position ({}, {})", self.expr(*x), self.expr(*y))
                 }
                 StartLine::Heading(a) => format!("start heading {}", self.expr(*a)),
+                StartLine::Other(robot, placing) => {
+                    let what = match placing {
+                        Placing::Anywhere => "pose anywhere".to_owned(),
+                        Placing::Position(x, y) => {
+                            format!("position ({}, {})", self.expr(*x), self.expr(*y))
+                        }
+                        Placing::Heading(a) => format!("heading {}", self.expr(*a)),
+                    };
+                    format!("start of robot {} {what}", robot.index())
+                }
                 StartLine::State(id, value) => {
                     let name = &self.program.states[*id].name;
                     format!("start {name} = {}", self.expr(*value))
@@ -301,6 +325,7 @@ impl Out<'_> {
             Expr::Local(id) => format!("local{id:?}"),
             Expr::Temp(id) => format!("t{}", id.index()),
             Expr::Pose(pose) => lower(&pose),
+            Expr::Robot(id, pose) => format!("robot{id:?}.{}", lower(&pose)),
             Expr::Touching => "touching".to_owned(),
             Expr::Elapsed => "elapsed".to_owned(),
             Expr::Visits => "visits".to_owned(),

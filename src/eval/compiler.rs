@@ -3,9 +3,10 @@
 use super::code::{Code, Instruction, Op, Register};
 use super::layout::{Fixed, Layout};
 use super::memo::Memo;
-use crate::ir::expr::{Local, Temp};
+use crate::ir::expr::{Local, Pose, Temp};
 use crate::ir::law::Behavior;
 use crate::ir::program::Event;
+use crate::ir::world::Robot;
 use crate::ir::{Expr, ExprId, Id, Pool};
 use rustc_hash::FxHashMap;
 use std::fmt;
@@ -135,6 +136,11 @@ impl<'a> Compiler<'a> {
         self.emit(Op::Fire, 0, event.index() as Register, 0);
         self.bind(no);
         Ok(())
+    }
+
+    /// The register of a part of a robot's pose.
+    pub fn robot_register(&self, robot: Id<Robot>, pose: Pose) -> Register {
+        self.layout.robot(robot, pose)
     }
 
     /// Whether the code so far reads how long the behaviour has run.

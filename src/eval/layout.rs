@@ -3,11 +3,12 @@
 use super::code::Register;
 use super::compiler::TooLarge;
 use super::machine::{REGISTERS, Registers};
+use crate::ir::expr::Pose;
 use crate::ir::law::Behavior;
 use crate::ir::program::{Event, State};
 use crate::ir::tree::Status;
-use crate::ir::world::{Sensor, Wall};
-use crate::ir::{Id, Program};
+use crate::ir::world::{Robot, Sensor, Wall};
+use crate::ir::{Expr, Id, Program};
 use rustc_hash::FxHashMap;
 
 /// The registers that every program has.
@@ -42,14 +43,16 @@ pub enum Fixed {
     End,
     /// What a start line says of the history.
     History,
+    /// What the tick pays, whatever happens in it.
+    Flow,
 }
 
 impl Fixed {
-    const COUNT: usize = 14;
+    const COUNT: usize = 15;
 
     /// Whether a register takes an answer of the code, which is given once.
     pub(super) fn is_output(register: Register) -> bool {
-        (Self::Speed.register()..=Self::History.register()).contains(&register)
+        (Self::Speed.register()..=Self::Flow.register()).contains(&register)
     }
 
     /// Its register.
@@ -76,6 +79,10 @@ pub struct Layout {
     locals: Vec<usize>,
     events: usize,
     ended: usize,
+    /// The registers that say whether a behaviour runs, of those that are asked.
+    running: FxHashMap<Id<Behavior>, Register>,
+    /// The poses of all robots, where there are several.
+    robots: usize,
     echoes: usize,
     sensors: usize,
     scratch: usize,
@@ -105,9 +112,24 @@ impl Layout {
             .collect();
         let events = take(program.events.len());
         let ended = take(2 * program.behaviors.len());
-        let (sensors, walls) = program.world.as_ref().map_or((0, 0), |world| {
-            (world.robot.sensors.len(), world.walls.len())
-        });
+        let mut asked: Vec<Id<Behavior>> = Vec::new();
+        for (_, expr) in program.pool.iter() {
+            if let Expr::Ended(behavior, Status::Running) = expr {
+                asked.push(behavior);
+            }
+        }
+        let running = asked.into_iter();
+        let running = running.map(|behavior| (behavior, take(1) as Register));
+        let running = running.collect();
+        let (mut sensors, mut walls, mut robots) = (0, 0, 0);
+        if let Some(world) = &program.world {
+            let counts = world.robots().map(|robot| robot.sensors.len());
+            sensors = counts.max().unwrap_or(0);
+            walls = world.walls.len();
+            if !world.others.is_empty() {
+                robots = take(3 * (1 + world.others.len()));
+            }
+        }
         let echoes = take(4 * (1 + sensors + walls));
         if next >= REGISTERS {
             return Err(TooLarge);
@@ -117,6 +139,8 @@ impl Layout {
             locals,
             events,
             ended,
+            running,
+            robots,
             echoes,
             sensors,
             scratch: next,
@@ -141,14 +165,31 @@ impl Layout {
         (self.events + id.index()) as Register
     }
 
-    /// The register that says whether a behaviour ended so; running has none.
+    /// The register that says whether a behaviour ended so; whether it runs has one only where that is asked.
     pub fn ended(&self, id: Id<Behavior>, status: Status) -> Option<Register> {
         let offset = match status {
             Status::Success => 0,
             Status::Failure => 1,
-            Status::Running => return None,
+            Status::Running => return self.running.get(&id).copied(),
         };
         Some((self.ended + 2 * id.index() + offset) as Register)
+    }
+
+    /// The behaviours of which it is asked whether they run, with their registers, in order.
+    pub fn running(&self) -> Vec<(Id<Behavior>, Register)> {
+        let mut running: Vec<_> = self.running.iter().map(|(id, at)| (*id, *at)).collect();
+        running.sort_unstable();
+        running
+    }
+
+    /// A register of a robot's pose, by the robot's place among all of them.
+    pub fn robot(&self, robot: Id<Robot>, pose: Pose) -> Register {
+        (self.robots + 3 * robot.index() + pose as usize) as Register
+    }
+
+    /// How many sensors a robot may have: the number that echo sources count with.
+    pub fn sensors(&self) -> usize {
+        self.sensors
     }
 
     /// The number of an echo source: the nearest wall, then the sensors, then the walls.

@@ -31,6 +31,7 @@ impl Compiler<'_> {
             Expr::Pose(Pose::X) => Fixed::X.register(),
             Expr::Pose(Pose::Y) => Fixed::Y.register(),
             Expr::Pose(Pose::Heading) => Fixed::Heading.register(),
+            Expr::Robot(robot, pose) => self.layout.robot(robot, pose),
             Expr::Touching => Fixed::Touching.register(),
             Expr::Elapsed => {
                 self.timed = true;

@@ -9,7 +9,7 @@ pub use super::operator::{Binary, Kind, Unary};
 use super::program::{Event, State};
 use super::table::Id;
 use super::tree::Status;
-use super::world::{Place, Sensor, Wall};
+use super::world::{Place, Robot, Sensor, Wall};
 use rustc_hash::FxHashMap;
 
 /// A behaviour's own variable.
@@ -54,6 +54,8 @@ pub enum Expr {
     Temp(Id<Temp>),
     /// The robot's pose.
     Pose(Pose),
+    /// The pose of another robot, by its place among all robots.
+    Robot(Id<Robot>, Pose),
     /// Whether the last tick's commanded motion was blocked.
     Touching,
     /// Seconds since the behaviour started.
@@ -68,7 +70,7 @@ pub enum Expr {
     Sensor(Id<Sensor>, Echo),
     /// Whether the robot's centre is in a place that is not a disc.
     Inside(Id<Place>),
-    /// Whether the behaviour ended so in this tick; in events, effects and rewards.
+    /// Whether the behaviour ended so in this tick, or was running in it; in events, effects and rewards.
     Ended(Id<Behavior>, Status),
     /// Whether the event happens in this tick.
     Event(Id<Event>),
@@ -307,6 +309,7 @@ fn key(expr: Expr) -> Key {
         Expr::Local(id) => (id.index() as u64, 0),
         Expr::Temp(id) => (id.index() as u64, 0),
         Expr::Pose(pose) => (pose as u64, 0),
+        Expr::Robot(id, pose) => (id.index() as u64, pose as u64),
         Expr::Touching | Expr::Elapsed | Expr::Visits | Expr::Progress => (0, 0),
         Expr::Visible(a, b) => (pair(a.index(), b.index()), 0),
         Expr::NearestWall(echo) => (echo as u64, 0),

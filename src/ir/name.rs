@@ -15,6 +15,8 @@ pub struct Name {
     pub arguments: Vec<Argument>,
     /// Which coordinate of a point this is.
     coordinate: Option<Coordinate>,
+    /// The robot whose it is, where it is not the acting one's.
+    robot: Option<String>,
 }
 
 /// A parameter of a family, with what it is given.
@@ -86,6 +88,20 @@ impl Name {
         }
     }
 
+    /// The same of another robot.
+    #[must_use]
+    pub fn of_robot(&self, robot: &Name) -> Self {
+        Self {
+            robot: Some(robot.family.clone()),
+            ..self.clone()
+        }
+    }
+
+    /// The robot whose it is, where it is not the acting one's.
+    pub fn robot(&self) -> Option<&str> {
+        self.robot.as_deref()
+    }
+
     /// The values that are given, each with its parameter if it stands by name: by position as long as none is left out.
     pub fn given(&self) -> impl Iterator<Item = (Option<&str>, &Given)> {
         let mut left_out = false;
@@ -98,7 +114,8 @@ impl Name {
 
     /// The word, if there is nothing to the name but a word.
     pub fn as_word(&self) -> Option<&str> {
-        let alone = self.given().next().is_none() && self.coordinate.is_none();
+        let alone = self.given().next().is_none();
+        let alone = alone && self.coordinate.is_none() && self.robot.is_none();
         alone.then_some(self.family.as_str())
     }
 
@@ -133,7 +150,9 @@ impl fmt::Display for Name {
             Some(parameter) => format!("{} = {value}", spelled(parameter)),
             None => value.to_string(),
         });
-        let given: Vec<String> = given.collect();
+        let by = self.robot.as_ref();
+        let by = by.map(|robot| format!("by = {}", spelled(robot)));
+        let given: Vec<String> = given.chain(by).collect();
         if !given.is_empty() {
             text.push_str(&format!("({})", given.join(", ")));
         }

@@ -6,6 +6,7 @@ use super::name::Name;
 use super::program::{Event, Predicate, State};
 use super::table::Id;
 use super::tree::{Status, Tree};
+use super::world::Robot;
 
 /// What is worth doing, and when an episode starts and ends.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,6 +31,33 @@ pub struct Task {
     pub reward: Vec<RewardLine>,
     /// The reward of every other transition.
     pub otherwise: ExprId,
+    /// What time pays, whether or not a transition ends with it.
+    pub prices: Vec<Price>,
+    /// Which entries of the text its own come from.
+    pub written: Written,
+}
+
+/// `while condition, per time: value`
+#[derive(Clone, Debug, PartialEq)]
+pub struct Price {
+    /// As it is written.
+    pub name: String,
+    /// What has to hold.
+    pub during: ExprId,
+    /// What a second pays; reads the state before effects.
+    pub per_second: ExprId,
+}
+
+/// Which entries of the text those of a task come from, by their places there: an entry that ranges over the members of a
+/// kind is several.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Written {
+    /// Of each behaviour to choose.
+    pub choose: Vec<usize>,
+    /// Of each line of `end on`.
+    pub end_on: Vec<usize>,
+    /// Of each line of `reward`.
+    pub reward: Vec<usize>,
 }
 
 /// The window over the last terminations.
@@ -63,11 +91,24 @@ pub enum StartLine {
     Position(ExprId, ExprId),
     /// `heading = a`
     Heading(ExprId),
+    /// One of these of another robot, by its place among all robots.
+    Other(Id<Robot>, Placing),
     /// A state variable.
     State(Id<State>, ExprId),
     /// The newest termination in the window, as its [code](StartLine::code); −1 for none. Older places of the window stay
     /// empty.
     History(ExprId),
+}
+
+/// A start line for the pose of another robot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Placing {
+    /// As [`StartLine::Anywhere`].
+    Anywhere,
+    /// As [`StartLine::Position`].
+    Position(ExprId, ExprId),
+    /// As [`StartLine::Heading`].
+    Heading(ExprId),
 }
 
 impl StartLine {
@@ -91,6 +132,9 @@ impl StartLine {
     pub fn replaced_by(&self, other: &Self) -> bool {
         match (self, other) {
             (StartLine::State(a, _), StartLine::State(b, _)) => a == b,
+            (StartLine::Other(a, one), StartLine::Other(b, other)) => {
+                a == b && std::mem::discriminant(one) == std::mem::discriminant(other)
+            }
             (StartLine::Anywhere, StartLine::Anywhere)
             | (StartLine::Position(..), StartLine::Position(..))
             | (StartLine::Heading(_), StartLine::Heading(_))

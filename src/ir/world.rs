@@ -1,10 +1,12 @@
 //! The world: geometry in metres, angles in radians, counter-clockwise from the x axis.
 
+use super::expr::ExprId;
 use super::name::Name;
-use super::table::Table;
+use super::table::{Id, Table};
+use super::tree::Node;
 use crate::geometry::{Point, Shape};
 
-/// A world with one acting robot.
+/// A world with one acting robot, and perhaps others that run scripts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct World {
     /// Its name.
@@ -19,6 +21,35 @@ pub struct World {
     pub places: Table<Place>,
     /// The robot that acts.
     pub robot: Robot,
+    /// The other robots.
+    pub others: Table<Scripted>,
+}
+
+/// A robot that runs a tree of its own.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scripted {
+    /// The robot.
+    pub robot: Robot,
+    /// Its tree, whose behaviours and predicates are its own; `None` until it is checked.
+    pub script: Option<Node>,
+}
+
+impl World {
+    /// The acting robot among [`World::robots`].
+    pub fn acting() -> Id<Robot> {
+        Id::new(0)
+    }
+
+    /// All robots, the acting one first.
+    pub fn robots(&self) -> impl Iterator<Item = &Robot> {
+        let others = self.others.values().map(|other| &other.robot);
+        std::iter::once(&self.robot).chain(others)
+    }
+
+    /// A robot by its place among [`World::robots`].
+    pub fn robot_of(&self, id: Id<Robot>) -> &Robot {
+        self.robots().nth(id.index()).unwrap_or(&self.robot)
+    }
 }
 
 /// A wall or an obstacle. A polyline is thin, every other shape is solid.
@@ -28,6 +59,8 @@ pub struct Wall {
     pub name: Name,
     /// Its shape.
     pub shape: Shape,
+    /// When it stands; `None` if always.
+    pub when: Option<ExprId>,
 }
 
 /// A place. It stands in nobody's way.

@@ -91,28 +91,33 @@ impl Episodes {
     pub fn human(&self) -> String {
         let summary = &self.summary;
         let [low, high] = summary.total.ci95;
+        let ended = self.ended();
+        let ends = ended.iter().map(|ended| &ended.name);
+        let names = self.events.iter().chain(ends);
+        // As wide as the names of most programs; wider only where a name is longer.
+        let width = names.map(|name| name.len()).max().unwrap_or(0).max(16);
         let mut text = format!(
-            "{} episodes, {} ticks\n\n  {:<16} {:>9.3}   95 % [{:.3}, {:.3}]\n",
+            "{} episodes, {} ticks\n\n  {:<width$} {:>9.3}   95 % [{:.3}, {:.3}]\n",
             summary.episodes, summary.ticks, "return", summary.total.mean, low, high
         );
         for (name, rate) in self.events.iter().zip(&summary.events) {
             let [low, high] = rate.ci95;
             text.push_str(&format!(
-                "  {name:<16} {:>9.3}   95 % [{low:.3}, {high:.3}] in 1000 ticks, {} in all\n",
+                "  {name:<width$} {:>9.3}   95 % [{low:.3}, {high:.3}] in 1000 ticks, {} in all\n",
                 rate.per_1000, rate.count
             ));
         }
         text.push('\n');
-        for ended in self.ended() {
+        for ended in ended {
             text.push_str(&format!(
-                "  {:<16} {:>9}   of {} episodes, {}\n",
+                "  {:<width$} {:>9}   of {} episodes, {}\n",
                 ended.name,
                 ended.count,
                 ended.episodes,
                 ended.bound()
             ));
         }
-        text.push_str(&format!("  {:<16} {:>9}\n", "limit", summary.cut));
+        text.push_str(&format!("  {:<width$} {:>9}\n", "limit", summary.cut));
         text
     }
 }

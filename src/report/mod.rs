@@ -11,6 +11,7 @@ pub mod learned;
 pub mod metrics;
 pub mod program;
 pub mod results;
+pub mod trace;
 pub mod tuned;
 pub mod value;
 pub mod verdict;

@@ -18,12 +18,12 @@ pub use declaration::{
     Enum, Event, Let, LetBody, On, Param, Params, Predicate, State, Trigger, TypeExpr, Use, UseWhat,
 };
 pub use expr::{
-    Arg, ArgKind, BinaryOp, Choice, Expr, ExprKind, Literal, Otherwise, Ref, UnaryOp, Unit,
+    Arg, ArgKind, Axis, BinaryOp, Choice, Expr, ExprKind, Literal, Otherwise, Ref, UnaryOp, Unit,
     UnitFactor, Yield,
 };
 pub use task::{
-    Aspect, AspectKind, Learn, LearnEntry, Link, Outcome, RewardLine, Setting, Start, StartLine,
-    Task,
+    Aspect, AspectKind, Learn, LearnEntry, Link, Outcome, Paid, RewardLine, Setting, Start,
+    StartLine, Task,
 };
 pub use tree::{Claim, ClaimWhat, Node, NodeKind, Tree, Word};
 pub use world::{Field, RobotEntry, RobotEntryKind, World, WorldEntry, WorldEntryKind};

@@ -4,21 +4,28 @@ use super::pose::Pose;
 use super::scene::Scene;
 use super::sensing::Probe;
 use crate::eval::{Host, Reading};
-use crate::geometry::Shape;
+use crate::geometry::{Circle, Shape};
 use crate::random::Random;
 
-/// What senses and is sensed.
+/// What is sensed.
 #[derive(Clone, Debug)]
 pub(super) struct Surroundings {
+    /// The obstacles, every wall standing.
     pub(super) scene: Scene,
-    pub(super) probes: Vec<Probe>,
     pub(super) places: Vec<Shape>,
+    /// How many sensors the numbers of echo sources leave room for.
+    pub(super) sensors: usize,
 }
 
 /// The moving part.
 #[derive(Clone, Debug)]
 pub(super) struct Body<'a> {
     around: &'a Surroundings,
+    probes: &'a [Probe],
+    /// The obstacles as they stand now, in a world whose walls may open.
+    now: Option<Box<Scene>>,
+    /// The other robots, where they stand now.
+    pub(super) bodies: Vec<Circle>,
     pub(super) pose: Pose,
     pub(super) random: Random,
     /// The echo sources whose readings still hold, one bit each.
@@ -33,25 +40,52 @@ pub(super) struct Body<'a> {
 }
 
 impl<'a> Body<'a> {
-    pub(super) fn new(around: &'a Surroundings, events: usize) -> Self {
+    pub(super) fn new(around: &'a Surroundings, probes: &'a [Probe], events: usize) -> Self {
         let noisy = |probe: &Probe| probe.noise > 0.0;
-        let steady = around
-            .probes
+        let steady = probes
             .iter()
             .zip(1..)
             .filter(|(probe, _)| noisy(probe))
             .fold(u128::MAX, |bits, (_, source)| bits & !bit(source));
         Self {
             around,
+            probes,
+            now: None,
+            bodies: Vec::new(),
             pose: Pose::new([0.0; 2], 0.0),
             random: Random::new(0, 0, 0),
             fresh: 0,
             steady,
-            noise: vec![None; around.probes.len()],
-            noisy: around.probes.iter().any(noisy),
+            noise: vec![None; probes.len()],
+            noisy: probes.iter().any(noisy),
             atoms: 0,
             fired: Vec::with_capacity(events),
         }
+    }
+
+    /// The obstacles as they stand now.
+    #[inline(always)]
+    pub(super) fn scene(&self) -> &Scene {
+        match &self.now {
+            None => &self.around.scene,
+            Some(now) => now,
+        }
+    }
+
+    /// The obstacles and the other robots, with what moves among them.
+    #[inline(always)]
+    pub(super) fn moving(&mut self) -> (&Scene, &[Circle], &mut Random, &mut Pose) {
+        let scene = match &self.now {
+            None => &self.around.scene,
+            Some(now) => now,
+        };
+        (scene, &self.bodies, &mut self.random, &mut self.pose)
+    }
+
+    /// Obstacles have changed: these stand now, or those of the surroundings.
+    pub(super) fn set_scene(&mut self, scene: Option<&Scene>) {
+        self.now = scene.map(|scene| Box::new(scene.clone()));
+        self.moved();
     }
 
     /// The robot has moved: nothing that was read still holds.
@@ -76,7 +110,7 @@ fn bit(source: u16) -> u128 {
 impl Host for Body<'_> {
     #[inline]
     fn visible(&mut self, x: f64, y: f64) -> bool {
-        self.around.scene.sees(self.pose.position, [x, y])
+        self.scene().sees(self.pose.position, [x, y])
     }
 
     #[inline]
@@ -88,7 +122,7 @@ impl Host for Body<'_> {
         self.fresh |= bit;
         let distance = |v: [f64; 2]| (v[0] * v[0] + v[1] * v[1]).sqrt();
         if source == 0 {
-            let toward = self.around.scene.nearest(self.pose.position);
+            let toward = self.scene().nearest(self.pose.position);
             return Some(Reading {
                 distance: distance(toward),
                 toward,
@@ -96,16 +130,16 @@ impl Host for Body<'_> {
             });
         }
         let index = usize::from(source) - 1;
-        let Some(probe) = self.around.probes.get(index) else {
-            let wall = index - self.around.probes.len();
-            let (toward, seen) = self.around.scene.nearest_of(wall, self.pose.position);
+        let Some(probe) = self.probes.get(index) else {
+            let wall = index.saturating_sub(self.around.sensors);
+            let (toward, seen) = self.scene().nearest_of(wall, self.pose.position);
             return Some(Reading {
                 distance: distance(toward),
                 toward,
                 seen,
             });
         };
-        let mut reading = probe.read(&self.around.scene, &self.pose);
+        let mut reading = probe.read(self.scene(), &self.bodies, &self.pose);
         if probe.noise > 0.0
             && reading.seen
             && let Some(noise) = self.noise.get_mut(index)

@@ -3,9 +3,11 @@
 use super::atoms::Atoms;
 use super::body::Surroundings;
 use super::compiled::Compiled;
+use super::door::Door;
 use super::error::BuildError;
 use super::motion::Motion;
 use super::scene::Scene;
+use super::script::Script;
 use super::sensing::Probe;
 use super::simulation::Simulation;
 use super::start::Start;
@@ -21,7 +23,10 @@ use std::f64::consts::PI;
 #[derive(Clone, Debug)]
 pub struct Simulator {
     pub(super) around: Surroundings,
+    pub(super) probes: Vec<Probe>,
     pub(super) motion: Motion,
+    pub(super) others: Vec<Script>,
+    pub(super) doors: Vec<Door>,
     pub(super) compiled: Compiled,
     pub(super) atoms: Atoms,
     pub(super) history: task::History,
@@ -73,7 +78,10 @@ impl Simulator {
         let mut random = Random::new(0, 0, 0);
         let free = find_free(&scene, radius, &mut random, TRIES).ok_or(BuildError::NoFreeArea)?;
         let mut layout = Layout::new(program)?;
-        let compiled = Compiled::new(program, task, starts, &atoms, scene.is_open(), &mut layout)?;
+        let doors = Door::all(world);
+        let open = scene.is_open();
+        let compiled = Compiled::new(program, task, starts, &atoms, open, &doors, &mut layout)?;
+        let others = Script::all(program, &mut layout)?;
         let states = program
             .states
             .iter()
@@ -83,8 +91,11 @@ impl Simulator {
             })
             .collect();
         let simulator = Self {
+            probes: world.robot.sensors.values().map(Probe::new).collect(),
+            others,
+            doors,
             around: Surroundings {
-                probes: world.robot.sensors.values().map(Probe::new).collect(),
+                sensors: layout.sensors(),
                 places: world.places.values().map(|p| p.shape.clone()).collect(),
                 scene,
             },
@@ -129,9 +140,9 @@ impl Simulator {
         self.atoms.observed
     }
 
-    /// A free position, uniformly drawn.
-    pub(super) fn anywhere(&self, random: &mut Random) -> Point {
-        find_free(&self.around.scene, self.radius, random, 100 * TRIES).unwrap_or(self.free)
+    /// A position that is free for a robot of this radius, every wall standing; uniformly drawn.
+    pub(super) fn anywhere(&self, radius: f64, random: &mut Random) -> Point {
+        find_free(&self.around.scene, radius, random, 100 * TRIES).unwrap_or(self.free)
     }
 }
 

@@ -1,12 +1,14 @@
 //! The code of a task: what its episodes and ticks run.
 
 use super::atoms::Atoms;
-use super::ending::Ending;
+use super::door::{self, Door};
+use super::ending::{End, Ending};
 use super::error::BuildError;
 use super::start::StartStep;
 use crate::eval::{Code, Compiler, Folding, Layout, TooLarge};
 use crate::ir::law::{Behavior, Law};
 use crate::ir::task::{StartLine, Task};
+use crate::ir::tree::Status;
 use crate::ir::{Expr, Id, Pool, Program};
 
 /// The code of a task.
@@ -23,10 +25,15 @@ pub(super) struct Compiled {
     pub(super) full: Code,
     /// The predicates alone.
     pub(super) predicates: Code,
+    /// Which doors are to stand. Where there are any, the end of a tick leaves the predicates to [`Compiled::predicates`],
+    /// which sees the doors as they stand after it.
+    pub(super) doors: Code,
     /// The lists of start lines.
     pub(super) starts: Vec<Vec<StartStep>>,
     /// The reward of a tick without events where it is always the same.
     pub(super) otherwise: Option<f64>,
+    /// What a tick pays, whatever happens in it, where that is always the same.
+    pub(super) flow: Option<f64>,
 }
 
 /// A behaviour.
@@ -48,8 +55,12 @@ impl Compiled {
         starts: &[&[StartLine]],
         atoms: &Atoms,
         open: bool,
+        doors: &[Door],
         layout: &mut Layout,
     ) -> Result<Self, BuildError> {
+        if doors.len() > door::MOST {
+            return Err(BuildError::TooManyDoors(doors.len()));
+        }
         let mut pool = program.pool.clone();
         let ending = Ending::new(program, task, atoms, &mut pool)?;
         let mut sight = Folding::new(&mut pool, |expr| match expr {
@@ -64,15 +75,24 @@ impl Compiled {
             .map(|behavior| behavior.law.as_ref().map(|law| sight.law(law)))
             .collect();
         let nothing = ending.fold(&mut Folding::new(&mut pool, |expr| match expr {
+            Expr::Ended(_, Status::Running) => None,
             Expr::Ended(..) | Expr::Event(_) => Some(false),
             _ => None,
         }));
 
         let otherwise = pool.constant(nothing.otherwise);
+        let flow = pool.constant(ending.flow);
+        let flows = flow.is_none();
         let predicates = piece(&pool, layout, |c| ending.read_predicates(c))?;
-        let full = piece(&pool, layout, |c| ending.compile(c))?;
-        let quiet = piece(&pool, layout, |c| {
-            nothing.compile_quiet(otherwise.is_none(), c)
+        let end = End {
+            rewards: otherwise.is_none(),
+            flows,
+            reads: doors.is_empty(),
+        };
+        let full = piece(&pool, layout, |c| ending.compile(end, c))?;
+        let quiet = piece(&pool, layout, |c| nothing.compile_quiet(end, c))?;
+        let doors = piece(&pool, layout, |c| {
+            Door::read(doors.iter().map(|door| door.when), c)
         })?;
         let each_tick = piece(&pool, layout, |c| c.block(&each_tick))?;
         let routines = laws
@@ -90,9 +110,11 @@ impl Compiled {
                 }),
             })
             .collect::<Result<_, TooLarge>>()?;
+        let others = program.world.as_ref();
+        let others = others.map_or(0, |world| world.others.len());
         let starts = starts
             .iter()
-            .map(|lines| StartStep::list(&pool, layout, lines))
+            .map(|lines| StartStep::list(&pool, layout, lines, others))
             .collect::<Result<_, TooLarge>>()?;
         Ok(Self {
             each_tick,
@@ -100,13 +122,15 @@ impl Compiled {
             quiet,
             full,
             predicates,
+            doors,
             starts,
             otherwise,
+            flow,
         })
     }
 }
 
-fn piece<'a>(
+pub(super) fn piece<'a>(
     pool: &'a Pool,
     layout: &'a mut Layout,
     fill: impl FnOnce(&mut Compiler<'a>) -> Result<(), TooLarge>,

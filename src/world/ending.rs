@@ -3,12 +3,24 @@
 use super::atoms::Atoms;
 use super::error::BuildError;
 use crate::eval::{Compiler, Fixed, Folding, Label, TooLarge};
+use crate::ir::expr::Binary;
 use crate::ir::law::{Block, Stmt};
 use crate::ir::task::Task;
 use crate::ir::{Expr, ExprId, Id, Pool, Program};
 
 /// The answer of the quiet end if an event happens after all.
 pub(super) const NOT_QUIET: u16 = 1;
+
+/// What the code of an end has to say.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct End {
+    /// The reward of a tick in which nothing happens is not always the same.
+    pub(super) rewards: bool,
+    /// What ticks pay is not always the same.
+    pub(super) flows: bool,
+    /// The predicates are read at once.
+    pub(super) reads: bool,
+}
 
 /// What the end of a tick computes.
 #[derive(Clone, Debug)]
@@ -20,6 +32,8 @@ pub(super) struct Ending {
     end: ExprId,
     reward: ExprId,
     pub(super) otherwise: ExprId,
+    /// What the tick pays, whatever happens in it.
+    pub(super) flow: ExprId,
     effects: Block,
     predicates: Vec<(u16, ExprId)>,
 }
@@ -31,6 +45,17 @@ impl Ending {
         atoms: &Atoms,
         pool: &mut Pool,
     ) -> Result<Self, BuildError> {
+        let tick = program.world.as_ref().map_or(0.0, |world| world.tick);
+        let (tick, none) = (pool.num(tick), pool.num(0.0));
+        let mut flow = none;
+        for price in &task.prices {
+            let paid = pool.binary(Binary::Mul, price.per_second, tick);
+            let paid = pool.select(price.during, paid, none);
+            flow = match flow == none {
+                true => paid,
+                false => pool.binary(Binary::Add, flow, paid),
+            };
+        }
         let mut closed = pool.bool(false);
         let mut reward = task.otherwise;
         for line in task.reward.iter().rev() {
@@ -70,6 +95,7 @@ impl Ending {
             end,
             reward,
             otherwise: task.otherwise,
+            flow,
             effects: Block(conditions),
             predicates,
         })
@@ -82,6 +108,7 @@ impl Ending {
             end: folding.expr(self.end),
             reward: folding.expr(self.reward),
             otherwise: folding.expr(self.otherwise),
+            flow: folding.expr(self.flow),
             effects: folding.block(&self.effects),
             predicates: self
                 .predicates
@@ -98,21 +125,27 @@ impl Ending {
     }
 
     /// Everything, in order.
-    pub(super) fn compile(&self, compiler: &mut Compiler<'_>) -> Result<(), TooLarge> {
+    pub(super) fn compile(&self, end: End, compiler: &mut Compiler<'_>) -> Result<(), TooLarge> {
         for (i, &when) in self.events.iter().enumerate() {
             compiler.event(Id::new(i), when)?;
         }
         compiler.assign(Fixed::Closed.register(), self.closed)?;
         compiler.assign(Fixed::Reward.register(), self.reward)?;
         compiler.assign(Fixed::End.register(), self.end)?;
+        if end.flows {
+            compiler.assign(Fixed::Flow.register(), self.flow)?;
+        }
         compiler.block(&self.effects)?;
-        self.read_predicates(compiler)
+        if end.reads {
+            self.read_predicates(compiler)?;
+        }
+        Ok(())
     }
 
     /// What is left where nothing has terminated and no event happens.
     pub(super) fn compile_quiet(
         &self,
-        rewards: bool,
+        end: End,
         compiler: &mut Compiler<'_>,
     ) -> Result<(), TooLarge> {
         let mut happens = Label::default();
@@ -121,11 +154,16 @@ impl Ending {
         }
         compiler.jump_where(self.closed, true, &mut happens)?;
         compiler.jump_where(self.end, true, &mut happens)?;
-        if rewards {
+        if end.rewards {
             compiler.assign(Fixed::Reward.register(), self.otherwise)?;
         }
+        if end.flows {
+            compiler.assign(Fixed::Flow.register(), self.flow)?;
+        }
         compiler.block(&self.effects)?;
-        self.read_predicates(compiler)?;
+        if end.reads {
+            self.read_predicates(compiler)?;
+        }
         if happens.is_used() {
             compiler.exit(0);
             compiler.bind(happens);

@@ -11,6 +11,10 @@ pub enum BuildError {
     NoWorld,
     /// This predicate or behaviour is declared only.
     Declared(Name),
+    /// The tree of this robot cannot be run.
+    NoScript(Name),
+    /// There are this many walls under a condition; a world holds 128.
+    TooManyDoors(usize),
     /// The program does not fit the machine.
     TooLarge,
     /// The task has this many atoms; a minterm holds 128.
@@ -28,6 +32,13 @@ impl fmt::Display for BuildError {
         match self {
             Self::NoWorld => f.write_str("there is no world to run in"),
             Self::Declared(name) => write!(f, "`{name}` is declared only, so it cannot be run"),
+            Self::NoScript(name) => write!(f, "the tree of the robot `{name}` cannot be run"),
+            Self::TooManyDoors(n) => {
+                write!(
+                    f,
+                    "a world holds 128 walls under a condition, this one has {n}"
+                )
+            }
             Self::TooLarge => TooLarge.fmt(f),
             Self::TooManyAtoms(n) => write!(f, "a minterm holds 128 atoms, the task has {n}"),
             Self::OpenArena => f.write_str("the arena is not an area"),

@@ -6,7 +6,7 @@
 
 use super::pose::{Pose, rotor};
 use super::scene::Scene;
-use crate::geometry::{Point, along, dot, turned};
+use crate::geometry::{Circle, Point, along, dot, minus, turned};
 use crate::ir::world::{Contact, Drive, DriveKind, Robot};
 use crate::math;
 use crate::random::Random;
@@ -59,7 +59,7 @@ impl Motion {
         }
     }
 
-    /// Moves the robot for one tick; answers whether something was in its way.
+    /// Moves the robot for one tick; answers whether something was in its way. `bodies` are other robots where they stand now.
     ///
     /// `slack` is a length that the robot can go in any direction without touching anything. It is kept up to date,
     /// and saves looking at the walls while it lasts.
@@ -67,6 +67,7 @@ impl Motion {
     pub fn step(
         &self,
         scene: &Scene,
+        bodies: &[Circle],
         command: Command,
         random: &mut Random,
         pose: &mut Pose,
@@ -124,7 +125,7 @@ impl Motion {
             math::hypot(forth, left)
         };
         let step = turned(ahead, [forth, left]);
-        self.go(scene, step, length, pose, slack)
+        self.go(scene, bodies, step, length, pose, slack)
     }
 
     /// Goes a step of this length, as far as contact allows.
@@ -132,6 +133,7 @@ impl Motion {
     fn go(
         &self,
         scene: &Scene,
+        bodies: &[Circle],
         step: Point,
         length: f64,
         pose: &mut Pose,
@@ -140,6 +142,11 @@ impl Motion {
         if length >= *slack {
             let nearest = scene.nearest(pose.position);
             *slack = dot(nearest, nearest).sqrt() - self.radius - SKIN;
+            for body in bodies {
+                let gap = minus(body.center, pose.position);
+                let gap = dot(gap, gap).sqrt() - body.radius - self.radius - SKIN;
+                *slack = slack.min(gap);
+            }
         }
         if length < *slack {
             *slack -= length;
@@ -147,28 +154,52 @@ impl Motion {
             return false;
         }
         *slack = 0.0;
-        if scene.is_free_along(pose.position, step, self.radius) {
+        if self.is_free_along(scene, bodies, pose.position, step) {
             pose.position = along(pose.position, 1.0, step);
             return false;
         }
         if self.contact == Contact::Slide {
-            self.slide(scene, step, pose);
+            self.slide(scene, bodies, step, pose);
         }
         true
     }
 
+    /// Whether the way is free of walls and of other robots; from one that is too near already, any way leads that does
+    /// not go nearer.
+    fn is_free_along(&self, scene: &Scene, bodies: &[Circle], p: Point, step: Point) -> bool {
+        let apart = |body: &Circle| {
+            let reach = body.radius + self.radius;
+            let gap = body.center_gap_square(p, step);
+            gap >= reach * reach || dot(minus(body.center, p), step) <= 0.0
+        };
+        bodies.iter().all(apart) && scene.is_free_along(p, step, self.radius)
+    }
+
+    /// The vector from `p` to what is nearest: a wall or another robot.
+    fn nearest(scene: &Scene, bodies: &[Circle], p: Point) -> Point {
+        let nearer = |one: Point, body: &Circle| {
+            let other = body.nearest(p);
+            if dot(other, other) < dot(one, one) {
+                other
+            } else {
+                one
+            }
+        };
+        bodies.iter().fold(scene.nearest(p), nearer)
+    }
+
     /// Goes along the wall that is in the way; in a corner, along the second one, if that is free.
-    fn slide(&self, scene: &Scene, mut step: Point, pose: &mut Pose) {
+    fn slide(&self, scene: &Scene, bodies: &[Circle], mut step: Point, pose: &mut Pose) {
         for _ in 0..2 {
             // Where the step would hit, the nearest wall is the one in the way.
             let mut reach = 0.0;
             for part in [0.5, 0.25, 0.125, 0.0625] {
                 let tried = [step[0] * (reach + part), step[1] * (reach + part)];
-                if scene.is_free_along(pose.position, tried, self.radius) {
+                if self.is_free_along(scene, bodies, pose.position, tried) {
                     reach += part;
                 }
             }
-            let toward = scene.nearest(along(pose.position, reach, step));
+            let toward = Self::nearest(scene, bodies, along(pose.position, reach, step));
             let square = dot(toward, toward);
             let into = dot(step, toward) / square;
             if into > 0.0 {
@@ -176,7 +207,7 @@ impl Motion {
             }
             let end = scene.pulled_in(along(pose.position, 1.0, step), self.radius);
             let tried = [end[0] - pose.position[0], end[1] - pose.position[1]];
-            if scene.is_free_along(pose.position, tried, self.radius) {
+            if self.is_free_along(scene, bodies, pose.position, tried) {
                 pose.position = along(pose.position, 1.0, tried);
                 return;
             }

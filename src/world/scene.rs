@@ -17,10 +17,43 @@ pub struct Scene {
     circles: Vec<Circle>,
     /// The walls that have an inside.
     solids: Vec<Shape>,
-    /// The parts of each wall.
-    walls: Vec<(Vec<Segment>, Option<Circle>)>,
+    /// The parts of each wall, whether it stands or not.
+    walls: Vec<Parts>,
     /// Whether the arena's boundary never comes between two points of the arena.
     convex: bool,
+}
+
+/// The parts of a wall.
+#[derive(Clone, Debug)]
+struct Parts {
+    segments: Vec<Segment>,
+    circle: Option<Circle>,
+    solid: Option<Shape>,
+    /// Whether it stands now.
+    stands: bool,
+}
+
+impl Parts {
+    fn new(shape: &Shape) -> Self {
+        Self {
+            segments: shape.outline(),
+            circle: shape.rim(),
+            solid: Some(shape.clone()).filter(|shape| !matches!(shape, Shape::Polyline(_))),
+            stands: true,
+        }
+    }
+
+    /// The vector from `p` to its nearest point.
+    fn nearest(&self, p: Point) -> Point {
+        let mut best = Best::default();
+        for segment in &self.segments {
+            best.offer(segment.nearest(p));
+        }
+        if let Some(circle) = &self.circle {
+            best.offer(circle.nearest(p));
+        }
+        best.vector
+    }
 }
 
 /// The arena as the inner loop tests it.
@@ -39,12 +72,8 @@ pub(super) type Sector = Vec<(Point, Point)>;
 impl Scene {
     /// The obstacles of a world.
     pub fn new(world: &World) -> Self {
-        let walls: Vec<_> = world
-            .walls
-            .values()
-            .map(|wall| (wall.shape.outline(), wall.shape.rim()))
-            .collect();
-        Self {
+        let walls = world.walls.values();
+        let mut scene = Self {
             arena: match world.arena {
                 Shape::Rect { min, max } => Arena::Rect(min, max),
                 Shape::Disc { center, radius } => Arena::Disc(Circle { center, radius }),
@@ -52,17 +81,47 @@ impl Scene {
             },
             shape: world.arena.clone(),
             boundary: world.arena.outline(),
-            segments: walls.iter().flat_map(|(s, _)| s).copied().collect(),
-            circles: walls.iter().filter_map(|(_, c)| *c).collect(),
-            solids: world
-                .walls
-                .values()
-                .filter(|wall| !matches!(wall.shape, Shape::Polyline(_)))
-                .map(|wall| wall.shape.clone())
-                .collect(),
-            walls,
+            segments: Vec::new(),
+            circles: Vec::new(),
+            solids: Vec::new(),
+            walls: walls.map(|wall| Parts::new(&wall.shape)).collect(),
             convex: world.arena.is_convex(),
+        };
+        scene.erect();
+        scene
+    }
+
+    /// Collects what stands.
+    fn erect(&mut self) {
+        let standing = || self.walls.iter().filter(|wall| wall.stands);
+        let segments = standing().flat_map(|wall| &wall.segments).copied();
+        let circles = standing().filter_map(|wall| wall.circle);
+        let solids = standing().filter_map(|wall| wall.solid.clone());
+        let (segments, circles) = (segments.collect(), circles.collect());
+        let solids = solids.collect();
+        (self.segments, self.circles, self.solids) = (segments, circles, solids);
+    }
+
+    /// Lets walls stand or not, as `stands` says of each by its number.
+    pub(super) fn set(&mut self, stands: impl Fn(usize) -> Option<bool>) {
+        for (number, wall) in self.walls.iter_mut().enumerate() {
+            wall.stands = stands(number).unwrap_or(wall.stands);
         }
+        self.erect();
+    }
+
+    /// Whether a wall stands.
+    pub(super) fn stands(&self, wall: usize) -> bool {
+        self.walls.get(wall).is_some_and(|wall| wall.stands)
+    }
+
+    /// Whether a disc of this radius at `p` is clear of a wall, which may stand or not.
+    pub(super) fn is_clear_of(&self, wall: usize, p: Point, radius: f64) -> bool {
+        self.walls.get(wall).is_none_or(|wall| {
+            let nearest = wall.nearest(p);
+            dot(nearest, nearest) >= radius * radius
+                && !wall.solid.as_ref().is_some_and(|solid| solid.contains(p))
+        })
     }
 
     /// Whether every point of the arena sees every other: nothing can come between them.
@@ -108,25 +167,21 @@ impl Scene {
         best.vector
     }
 
-    /// The vector from `p` to the nearest point of one wall, and whether no other wall comes between.
+    /// The vector from `p` to the nearest point of one wall, and whether it stands and no other wall comes between.
     pub fn nearest_of(&self, wall: usize, p: Point) -> (Point, bool) {
-        let mut best = Best::default();
-        if let Some((segments, circle)) = self.walls.get(wall) {
-            for segment in segments {
-                best.offer(segment.nearest(p));
-            }
-            if let Some(circle) = circle {
-                best.offer(circle.nearest(p));
-            }
-        }
-        let q = along(p, 1.0, best.vector);
-        let others = self.walls.iter().enumerate().filter(|&(i, _)| i != wall);
-        let hidden = others.clone().any(|(_, (segments, circle))| {
-            segments.iter().any(|segment| segment.meets(p, q))
-                || circle.is_some_and(|circle| circle.meets(p, q))
+        let Some(one) = self.walls.get(wall) else {
+            return (Best::default().vector, false);
+        };
+        let nearest = one.nearest(p);
+        let q = along(p, 1.0, nearest);
+        let others = self.walls.iter().enumerate();
+        let mut others = others.filter(|&(i, other)| i != wall && other.stands);
+        let hidden = others.any(|(_, other)| {
+            other.segments.iter().any(|segment| segment.meets(p, q))
+                || other.circle.is_some_and(|circle| circle.meets(p, q))
         });
         let outside = !self.convex && self.boundary.iter().any(|segment| segment.meets(p, q));
-        (best.vector, !hidden && !outside)
+        (nearest, one.stands && !hidden && !outside)
     }
 
     /// The vector from `p` to the nearest point of a wall or of the arena's boundary within a sector relative to the

@@ -3,7 +3,7 @@
 use super::pose::{Pose, rotor};
 use super::scene::{Scene, Sector};
 use crate::eval::Reading;
-use crate::geometry::{Point, along, dot, minus, turned};
+use crate::geometry::{Circle, Point, along, dot, minus, turned};
 use crate::ir::world::{Sensor, SensorKind};
 use crate::math;
 use std::f64::consts::PI;
@@ -74,16 +74,27 @@ impl Probe {
         }
     }
 
-    /// The reading without noise. Where nothing echoes the distance is the range, towards the middle of the sector.
-    pub(super) fn read(&self, scene: &Scene, pose: &Pose) -> Reading {
+    /// The reading without noise; `bodies` are other robots, which echo as walls do. Where nothing echoes the distance is the range, towards the middle of the sector.
+    pub(super) fn read(&self, scene: &Scene, bodies: &[Circle], pose: &Pose) -> Reading {
         let p = pose.position;
         let (echo, otherwise) = match &self.kind {
             Kind::Scanner { sector, middle } => {
-                (scene.scan(p, pose.ahead, sector, self.range), *middle)
+                let mut echo = scene.scan(p, pose.ahead, sector, self.range);
+                for (body, &(right, left)) in bodies
+                    .iter()
+                    .flat_map(|body| sector.iter().map(move |part| (body, part)))
+                {
+                    let (right, left) = (turned(pose.ahead, right), turned(pose.ahead, left));
+                    let least = echo.map_or(self.range * self.range, |echo| dot(echo, echo));
+                    let nearer = body.nearest_within(p, right, left);
+                    echo = nearer.filter(|v| dot(*v, *v) < least).or(echo);
+                }
+                (echo, *middle)
             }
             Kind::RangeFinder { at } => {
                 let u = turned(pose.ahead, *at);
-                let s = scene.ray(p, u);
+                let met = bodies.iter().map(|body| body.ray(p, u));
+                let s = met.fold(scene.ray(p, u), f64::min);
                 ((s < self.range).then(|| along([0.0; 2], s, u)), *at)
             }
             Kind::Beacon {

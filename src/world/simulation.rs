@@ -2,12 +2,17 @@
 
 use super::body::Body;
 use super::build::Simulator;
+use super::door::Door;
 use super::ending::NOT_QUIET;
 use super::history::History;
 use super::motion::Command;
 use super::pose::Pose;
-use crate::eval::{Fixed, Registers, run, status};
+use super::scene::Scene;
+use super::script::Other;
+use crate::eval::{Fixed, Register, Registers, run, status};
+use crate::geometry::{Circle, Point};
 use crate::ir::Id;
+use crate::ir::expr;
 use crate::ir::law::Behavior;
 use crate::ir::program::{Event, State};
 use crate::ir::tree::Status;
@@ -32,7 +37,7 @@ pub struct Tick {
     pub closed: bool,
     /// The value of the first line of `reward` whose event fired, of `otherwise` if none did.
     pub reward: f64,
-    /// What this tick pays whether or not a transition ends with it; the simulator pays transitions alone.
+    /// What this tick pays whether or not a transition ends with it.
     pub flow: f64,
     /// Whether the episode ended.
     pub end: Option<End>,
@@ -58,6 +63,14 @@ pub struct Simulation<'a> {
     pub(super) history: History,
     pub(super) instances: Vec<Instance>,
     pub(super) terminations: Vec<(Id<Behavior>, Status)>,
+    /// The other robots.
+    pub(super) others: Vec<Other<'a>>,
+    /// The terminations of other robots' behaviours in this tick.
+    elsewhere: Vec<(Id<Behavior>, Status)>,
+    /// The behaviours of which it is asked whether they run, with their registers.
+    watched: Vec<(Id<Behavior>, Register)>,
+    /// The obstacles as they stand now; where no wall may open, nothing is kept here.
+    pub(super) scene: Option<Box<Scene>>,
     pub(super) counts: Vec<u64>,
     pub(super) atoms: u128,
     pub(super) slack: f64,
@@ -72,10 +85,25 @@ impl<'a> Simulation<'a> {
         Self {
             simulator,
             registers: simulator.registers.clone(),
-            body: Body::new(&simulator.around, simulator.events),
+            body: Body::new(&simulator.around, &simulator.probes, simulator.events),
             history: History::new(simulator.history),
             instances: vec![Instance::default(); behaviors],
             terminations: Vec::with_capacity(2 * behaviors),
+            others: simulator
+                .others
+                .iter()
+                .map(|script| Other {
+                    script,
+                    body: Body::new(&simulator.around, &script.probes, 0),
+                    runner: script.runner.clone(),
+                    touching: 0.0,
+                    command: Command::default(),
+                    atoms: 0,
+                })
+                .collect(),
+            elsewhere: Vec::new(),
+            watched: simulator.layout.running(),
+            scene: (!simulator.doors.is_empty()).then(|| Box::new(simulator.around.scene.clone())),
             counts: vec![0; simulator.events],
             atoms: 0,
             slack: 0.0,
@@ -101,7 +129,13 @@ impl<'a> Simulation<'a> {
                 self.registers.set(register, 0.0);
             }
         }
+        for &(behavior, status) in &self.elsewhere {
+            if let Some(register) = layout.ended(behavior, status) {
+                self.registers.set(register, 0.0);
+            }
+        }
         self.terminations.clear();
+        self.elsewhere.clear();
         for &event in &self.body.fired {
             self.registers.set(layout.event(Id::new(event.into())), 0.0);
         }
@@ -111,7 +145,8 @@ impl<'a> Simulation<'a> {
     /// Begins a tick: its `each tick` effects (step 2). The atoms stay those of the tick before.
     #[inline]
     pub fn begin_tick(&mut self) {
-        if !self.terminations.is_empty() || !self.body.fired.is_empty() {
+        let elsewhere = !self.elsewhere.is_empty();
+        if !self.terminations.is_empty() || elsewhere || !self.body.fired.is_empty() {
             self.clear_tick();
         }
         self.now += 1;
@@ -133,25 +168,14 @@ impl<'a> Simulation<'a> {
     /// set to their initial values. A termination ends the instance. A behaviour without a law fails.
     #[inline]
     pub fn act(&mut self, behavior: Id<Behavior>) -> Status {
-        let (Some(routine), Some(instance)) = (
-            self.simulator.compiled.routines.get(behavior.index()),
+        let status = tick_behavior(
+            self.simulator,
+            self.now,
+            behavior,
             self.instances.get_mut(behavior.index()),
-        ) else {
-            return Status::Failure;
-        };
-        let starts = self.now > instance.until;
-        if starts {
-            instance.since = self.now;
-        }
-        instance.until = self.now + 1;
-        if routine.timed {
-            let elapsed = (self.now - instance.since) as f64 * self.simulator.tick;
-            self.registers.set(Fixed::Elapsed.register(), elapsed);
-        }
-        if starts {
-            run(&routine.begin, &mut self.registers, &mut self.body);
-        }
-        let status = status(run(&routine.tick, &mut self.registers, &mut self.body));
+            &mut self.registers,
+            &mut self.body,
+        );
         if status != Status::Running {
             self.terminate(behavior, status);
         }
@@ -174,8 +198,20 @@ impl<'a> Simulation<'a> {
     /// Events, rewards and `end on` read the state before effects.
     #[inline]
     pub fn end_tick(&mut self) -> Tick {
+        if !self.others.is_empty() {
+            self.others_act();
+        }
         self.go();
-        let quiet = self.terminations.is_empty();
+        if !self.others.is_empty() {
+            self.others_go();
+        }
+        for &(behavior, register) in &self.watched {
+            let runs = self.instances.get(behavior.index());
+            let runs = runs.is_some_and(|instance| instance.until == self.now + 1);
+            self.registers.set(register, f64::from(u8::from(runs)));
+        }
+        let unended = self.terminations.is_empty();
+        let quiet = unended && self.elsewhere.is_empty();
         for &(behavior, status) in &self.terminations {
             self.history.record(behavior, status, &self.simulator.atoms);
         }
@@ -183,7 +219,7 @@ impl<'a> Simulation<'a> {
         self.body.atoms = self.history.bits;
         let mut tick = Tick {
             changed: false,
-            terminated: !quiet,
+            terminated: !unended,
             closed: false,
             reward: 0.0,
             flow: 0.0,
@@ -198,6 +234,17 @@ impl<'a> Simulation<'a> {
         } else {
             self.end_in_full(&mut tick);
         }
+        if self.scene.is_some() {
+            self.swing_doors();
+        }
+        if !self.others.is_empty() {
+            self.others_look();
+        }
+        let compiled = &self.simulator.compiled;
+        tick.flow = match compiled.flow {
+            Some(value) => value,
+            None => self.registers.get(Fixed::Flow.register()),
+        };
         tick.changed = (self.atoms ^ self.body.atoms) & self.simulator.atoms.observed != 0;
         self.atoms = self.body.atoms;
         if tick.end.is_none() && self.now >= self.limit {
@@ -235,18 +282,172 @@ impl<'a> Simulation<'a> {
             strafe: read(Fixed::Strafe),
             turn: read(Fixed::Turn),
         };
-        let touching = self.simulator.motion.step(
-            &self.simulator.around.scene,
-            command,
-            &mut self.body.random,
-            &mut self.body.pose,
-            &mut self.slack,
-        );
+        if !self.body.bodies.is_empty() {
+            // What another robot has left of it is not known.
+            self.slack = 0.0;
+        }
+        let (scene, bodies, random, pose) = self.body.moving();
+        let motion = &self.simulator.motion;
+        let touching = motion.step(scene, bodies, command, random, pose, &mut self.slack);
         self.registers
             .set(Fixed::Touching.register(), f64::from(u8::from(touching)));
         if command != Command::default() {
             self.publish_pose();
         }
+    }
+
+    /// Ticks the trees of the other robots (step 3), in the order of their declaration.
+    #[cold]
+    fn others_act(&mut self) {
+        let Self {
+            simulator,
+            registers,
+            instances,
+            others,
+            elsewhere,
+            now,
+            ..
+        } = self;
+        for other in others {
+            other.body.tick();
+            let kept = other.enter(registers);
+            let Other {
+                runner,
+                body,
+                atoms,
+                ..
+            } = other;
+            runner.tick_key(*atoms, |behavior| {
+                let instance = instances.get_mut(behavior.index());
+                let status = tick_behavior(simulator, *now, behavior, instance, registers, body);
+                if status != Status::Running {
+                    if let Some(instance) = instances.get_mut(behavior.index()) {
+                        instance.until = 0;
+                    }
+                    if let Some(register) = simulator.layout.ended(behavior, status) {
+                        registers.set(register, 1.0);
+                    }
+                    elsewhere.push((behavior, status));
+                }
+                status
+            });
+            other.leave(registers, kept);
+        }
+        self.body.moved();
+    }
+
+    /// Moves the other robots by their commands, one after the other.
+    #[cold]
+    fn others_go(&mut self) {
+        for index in 0..self.others.len() {
+            self.meet();
+            let Some(other) = self.others.get_mut(index) else {
+                continue;
+            };
+            let (script, command) = (other.script, other.command);
+            let (scene, bodies, random, pose) = other.body.moving();
+            let motion = &script.motion;
+            let touched = motion.step(scene, bodies, command, random, pose, &mut 0.0);
+            other.touching = f64::from(u8::from(touched));
+        }
+        self.meet();
+        self.publish_others();
+    }
+
+    /// Tells each robot where the others are.
+    pub(super) fn meet(&mut self) {
+        let acting = (self.body.pose.position, self.simulator.radius);
+        let others = self.others.iter();
+        let others = others.map(|other| (other.body.pose.position, other.script.radius));
+        let circles: Vec<Circle> = std::iter::once(acting)
+            .chain(others)
+            .map(|(center, radius)| Circle { center, radius })
+            .collect();
+        let but = |own: usize| {
+            let circles = circles.iter().enumerate();
+            circles.filter(move |(at, _)| *at != own).map(|(_, it)| *it)
+        };
+        self.body.bodies.clear();
+        self.body.bodies.extend(but(0));
+        self.body.moved();
+        for (other, own) in self.others.iter_mut().zip(1..) {
+            other.body.bodies.clear();
+            other.body.bodies.extend(but(own));
+        }
+    }
+
+    /// Tells the code where all robots are.
+    pub(super) fn publish_others(&mut self) {
+        let others = self.others.iter().map(|other| &other.body.pose);
+        let poses = std::iter::once(&self.body.pose).chain(others);
+        for (index, pose) in poses.enumerate() {
+            let id = Id::new(index);
+            let parts = [pose.position[0], pose.position[1], pose.heading];
+            let coordinates = [expr::Pose::X, expr::Pose::Y, expr::Pose::Heading];
+            for (coordinate, part) in coordinates.into_iter().zip(parts) {
+                let register = self.simulator.layout.robot(id, coordinate);
+                self.registers.set(register, part);
+            }
+        }
+    }
+
+    /// Asks what the trees of the other robots ask.
+    pub(super) fn others_look(&mut self) {
+        let Self {
+            registers, others, ..
+        } = self;
+        for other in others {
+            let kept = other.enter(registers);
+            other.body.atoms = 0;
+            run(&other.script.predicates, registers, &mut other.body);
+            other.atoms = other.body.atoms;
+            other.leave(registers, kept);
+        }
+        self.body.moved();
+    }
+
+    /// Lets doors open and close by what holds now, then reads the predicates.
+    #[cold]
+    fn swing_doors(&mut self) {
+        let atoms = self.body.atoms;
+        let wanted = self.wanted_doors();
+        let robots = self.robots();
+        let doors = &self.simulator.doors;
+        if let Some(scene) = &mut self.scene
+            && Door::swing(doors, wanted, scene, &robots)
+        {
+            self.publish_scene();
+        }
+        self.body.atoms = atoms;
+        let predicates = &self.simulator.compiled.predicates;
+        run(predicates, &mut self.registers, &mut self.body);
+    }
+
+    /// Which doors are to stand, a bit each.
+    pub(super) fn wanted_doors(&mut self) -> u128 {
+        self.body.atoms = 0;
+        let doors = &self.simulator.compiled.doors;
+        run(doors, &mut self.registers, &mut self.body);
+        self.body.atoms
+    }
+
+    /// Where all robots are, with their radii.
+    pub(super) fn robots(&self) -> Vec<(Point, f64)> {
+        let others = self.others.iter();
+        let others = others.map(|other| (other.body.pose.position, other.script.radius));
+        std::iter::once((self.body.pose.position, self.simulator.radius))
+            .chain(others)
+            .collect()
+    }
+
+    /// Tells each robot what stands.
+    pub(super) fn publish_scene(&mut self) {
+        let scene = self.scene.as_deref();
+        self.body.set_scene(scene);
+        for other in &mut self.others {
+            other.body.set_scene(scene);
+        }
+        self.slack = 0.0;
     }
 
     /// The minterm: a bit for each atom of the task, see [`Simulator::atoms`].
@@ -291,6 +492,11 @@ impl<'a> Simulation<'a> {
         self.body.pose
     }
 
+    /// Where the other robots are, in the order of their declaration.
+    pub fn others(&self) -> impl Iterator<Item = Pose> + '_ {
+        self.others.iter().map(|other| other.body.pose)
+    }
+
     /// The value of a state variable.
     pub fn state(&self, id: Id<State>) -> f64 {
         self.registers.get(self.simulator.layout.state(id))
@@ -300,4 +506,34 @@ impl<'a> Simulation<'a> {
     pub fn is_touching(&self) -> bool {
         self.registers.get(Fixed::Touching.register()) != 0.0
     }
+}
+
+/// Ticks a behaviour, in the registers and with the senses of its robot. A behaviour without a law fails.
+#[inline(always)]
+fn tick_behavior(
+    simulator: &Simulator,
+    now: u64,
+    behavior: Id<Behavior>,
+    instance: Option<&mut Instance>,
+    registers: &mut Registers,
+    body: &mut Body<'_>,
+) -> Status {
+    let (Some(routine), Some(instance)) =
+        (simulator.compiled.routines.get(behavior.index()), instance)
+    else {
+        return Status::Failure;
+    };
+    let starts = now > instance.until;
+    if starts {
+        instance.since = now;
+    }
+    instance.until = now + 1;
+    if routine.timed {
+        let elapsed = (now - instance.since) as f64 * simulator.tick;
+        registers.set(Fixed::Elapsed.register(), elapsed);
+    }
+    if starts {
+        run(&routine.begin, registers, body);
+    }
+    status(run(&routine.tick, registers, body))
 }

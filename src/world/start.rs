@@ -1,12 +1,15 @@
 //! How an episode starts.
 
 use super::build::any_heading;
+use super::door::Door;
 use super::pose::Pose;
 use super::simulation::{Instance, Simulation};
 use crate::eval::{Code, Compiler, Fixed, Layout, TooLarge, run};
-use crate::ir::Pool;
+use crate::geometry::{Point, dot, minus};
+use crate::ir::expr;
 use crate::ir::law::{Block, Stmt};
-use crate::ir::task::StartLine;
+use crate::ir::task::{Placing, StartLine};
+use crate::ir::{Id, Pool};
 use crate::random::Random;
 
 /// How an episode starts.
@@ -46,6 +49,10 @@ pub(super) enum StartStep {
     Anywhere,
     /// Sets the position or the heading.
     Place(Code),
+    /// Any free pose of another robot, by its place among them.
+    OtherAnywhere(usize),
+    /// Sets the position or the heading of another robot.
+    OtherPlace(usize, Code),
     /// Sets a state.
     Set(Code),
     /// Sets the newest termination.
@@ -58,6 +65,7 @@ impl StartStep {
         pool: &Pool,
         layout: &mut Layout,
         lines: &[StartLine],
+        others: usize,
     ) -> Result<Vec<Self>, TooLarge> {
         let has = |test: fn(&StartLine) -> bool| lines.iter().any(test);
         let placed = has(|line| matches!(line, StartLine::Anywhere))
@@ -69,9 +77,44 @@ impl StartStep {
         } else {
             vec![Self::Anywhere]
         };
+        for other in 0..others {
+            let placed = |wanted: fn(&Placing) -> bool| {
+                lines.iter().any(|line| {
+                    matches!(line, StartLine::Other(id, placing)
+                        if id.index() == other + 1 && wanted(placing))
+                })
+            };
+            let whole = placed(|it| matches!(it, Placing::Anywhere))
+                || placed(|it| matches!(it, Placing::Position(..)))
+                    && placed(|it| matches!(it, Placing::Heading(_)));
+            if !whole {
+                steps.push(Self::OtherAnywhere(other));
+            }
+        }
         for line in lines {
             let mut compiler = Compiler::new(pool, layout, None);
+            if let StartLine::Other(id, placing) = *line {
+                let other = id.index().saturating_sub(1);
+                match placing {
+                    Placing::Anywhere => {
+                        steps.push(Self::OtherAnywhere(other));
+                        continue;
+                    }
+                    Placing::Position(x, y) => {
+                        let [to_x, to_y] = [expr::Pose::X, expr::Pose::Y]
+                            .map(|coordinate| compiler.robot_register(id, coordinate));
+                        compiler.assign_all(&[(to_x, x), (to_y, y)])?;
+                    }
+                    Placing::Heading(heading) => {
+                        let to = compiler.robot_register(id, expr::Pose::Heading);
+                        compiler.assign_all(&[(to, heading)])?;
+                    }
+                }
+                steps.push(Self::OtherPlace(other, compiler.finish()?));
+                continue;
+            }
             let step: fn(Code) -> Self = match *line {
+                StartLine::Other(..) => continue,
                 StartLine::Anywhere => {
                     steps.push(Self::Anywhere);
                     continue;
@@ -112,21 +155,25 @@ impl Simulation<'_> {
         self.now = 0;
         self.limit = start.limit;
         self.slack = 0.0;
+        for (other, stream) in self.others.iter_mut().zip(1..) {
+            // Beyond the streams of all purposes.
+            let stream = start.stream + (stream << 32);
+            other.body.random = Random::new(start.seed, stream, start.episode);
+            other.runner.reset();
+        }
         let mut free = false;
         for _ in 0..TRIES {
             self.run_start(start.lines);
-            if self
-                .simulator
-                .around
-                .scene
-                .is_free(self.body.pose.position, self.simulator.radius)
-            {
+            if self.is_free() {
                 free = true;
                 break;
             }
         }
         if !free {
             self.place_anywhere();
+        }
+        if !self.others.is_empty() {
+            self.others_look();
         }
         self.body.atoms = self.history.bits;
         run(
@@ -143,8 +190,20 @@ impl Simulation<'_> {
             self.registers.set(register, value);
         }
         self.registers.set(Fixed::Touching.register(), 0.0);
+        for &(_, register) in &self.simulator.layout.running() {
+            self.registers.set(register, 0.0);
+        }
         self.history.clear();
         self.body.tick();
+        for other in &mut self.others {
+            other.touching = 0.0;
+            other.body.tick();
+        }
+        if let Some(scene) = &mut self.scene {
+            // Nobody starts where a door may close.
+            **scene = self.simulator.around.scene.clone();
+            self.publish_scene();
+        }
         let Some(steps) = self.simulator.compiled.starts.get(lines) else {
             self.place_anywhere();
             return;
@@ -152,6 +211,19 @@ impl Simulation<'_> {
         for step in steps {
             match step {
                 StartStep::Anywhere => self.place_anywhere(),
+                StartStep::OtherAnywhere(other) => self.place_other_anywhere(*other),
+                StartStep::OtherPlace(other, code) => {
+                    run(code, &mut self.registers, &mut self.body);
+                    let id = Id::new(*other + 1);
+                    let read = |coordinate| {
+                        let register = self.simulator.layout.robot(id, coordinate);
+                        self.registers.get(register)
+                    };
+                    let heading = Some(read(expr::Pose::Heading)).filter(|h| h.is_finite());
+                    let position = [read(expr::Pose::X), read(expr::Pose::Y)];
+                    let pose = Pose::new(position, heading.unwrap_or_default());
+                    self.place_other(*other, pose);
+                }
                 StartStep::Set(code) => {
                     run(code, &mut self.registers, &mut self.body);
                 }
@@ -178,8 +250,51 @@ impl Simulation<'_> {
         }
     }
 
+    /// Whether every robot is free where it stands, of what stands and of all others.
+    fn is_free(&mut self) -> bool {
+        if self.scene.is_some() {
+            let wanted = self.wanted_doors();
+            let doors = &self.simulator.doors;
+            if let Some(scene) = &mut self.scene
+                && Door::swing(doors, wanted, scene, &[])
+            {
+                self.publish_scene();
+            }
+        }
+        let robots = self.robots();
+        let scene = self.body.scene();
+        let free = robots.iter().all(|&(p, radius)| scene.is_free(p, radius));
+        let apart = |(at, &(p, one)): (usize, &(Point, f64))| {
+            robots.iter().skip(at + 1).all(|&(q, other)| {
+                let gap = minus(q, p);
+                dot(gap, gap) >= (one + other) * (one + other)
+            })
+        };
+        free && robots.iter().enumerate().all(apart)
+    }
+
+    fn place_other_anywhere(&mut self, index: usize) {
+        let simulator = self.simulator;
+        if let Some(other) = self.others.get_mut(index) {
+            let random = &mut other.body.random;
+            let position = simulator.anywhere(other.script.radius, random);
+            let pose = Pose::new(position, any_heading(random));
+            self.place_other(index, pose);
+        }
+    }
+
+    /// Puts another robot somewhere.
+    fn place_other(&mut self, index: usize, pose: Pose) {
+        if let Some(other) = self.others.get_mut(index) {
+            other.body.pose = pose;
+        }
+        self.meet();
+        self.publish_others();
+    }
+
     fn place_anywhere(&mut self) {
-        let position = self.simulator.anywhere(&mut self.body.random);
+        let radius = self.simulator.radius;
+        let position = self.simulator.anywhere(radius, &mut self.body.random);
         let heading = any_heading(&mut self.body.random);
         self.place(Pose::new(position, heading));
     }
@@ -189,5 +304,9 @@ impl Simulation<'_> {
         self.body.pose = pose;
         self.slack = 0.0;
         self.publish_pose();
+        if !self.others.is_empty() {
+            self.meet();
+            self.publish_others();
+        }
     }
 }

@@ -56,7 +56,7 @@ fn mistakes_give_exit_code_1_and_a_bad_command_line_2() {
     for usage in [
         &["chek", SMALL][..],
         &["check"],
-        &["run", SMALL],
+        &["run", SMALL, "--ticks"],
         &["run", SMALL, "--tree", "expert", "--episodes", "0"],
         &[
             "run",
@@ -246,16 +246,56 @@ fn a_program_is_one_file_by_whatever_path() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| format!("{}/{name}", folder.path().display());
     fs::create_dir(path("sub")).unwrap();
-    fs::write(path("a.bt"), "use \"b.bt\"\nstate a: bool = true\n").unwrap();
     fs::write(
-        path("b.bt"),
-        "use \"./sub/../a.bt\"\nstate b: bool = true\n",
+        path("a.bt"),
+        "use \"b.bt\"\nuse \"c.bt\"\nstate a: bool = true\n",
     )
     .unwrap();
+    fs::write(
+        path("b.bt"),
+        "use \"./sub/../c.bt\"\nstate b: bool = true\n",
+    )
+    .unwrap();
+    fs::write(path("c.bt"), "state c: bool = true\n").unwrap();
     for name in ["a.bt", "sub/../a.bt", "./b.bt"] {
         let output = btc(&["check", &path(name)]);
         assert_eq!(out(&output), "ok\n", "{name}: {}", err(&output));
     }
+    fs::write(path("c.bt"), "use \"sub/../a.bt\"\n").unwrap();
+    let output = btc(&["check", &path("a.bt")]);
+    assert!(err(&output).contains("E0210"), "{}", err(&output));
+}
+
+#[test]
+fn a_new_project_holds_what_it_claims() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |arguments: &[&str], at: &str| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_btc"));
+        let command = command.args(arguments).current_dir(folder.path().join(at));
+        command.output().unwrap()
+    };
+    let output = run(&["new", "hall"], "");
+    assert!(output.status.success(), "{}", err(&output));
+    for arguments in [
+        &["fmt", "--check", "world.bt", "tests.bt"][..],
+        &["check", "world.bt", "tests.bt"],
+        &["verify", "tests.bt"],
+    ] {
+        let output = run(arguments, "hall");
+        assert!(output.status.success(), "{arguments:?}: {}", err(&output));
+    }
+    assert_eq!(run(&["new", "hall"], "").status.code(), Some(1));
+}
+
+#[test]
+fn a_trace_has_a_line_a_decision_or_a_tick() {
+    let decisions = btc(&["run", SMALL, "--trace", "-"]);
+    let ticks = btc(&["run", SMALL, "--trace", "-", "--ticks"]);
+    let lines = |output: &Output| out(output).lines().count();
+    assert!(lines(&decisions) > 50, "{}", err(&decisions));
+    assert_eq!(lines(&ticks), 5_001, "{}", err(&ticks));
+    let documents = btc(&["run", SMALL, "--trace", "-", "--trace-format", "jsonl"]);
+    assert_eq!(lines(&documents) + 1, lines(&decisions));
 }
 
 #[test]

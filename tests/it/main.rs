@@ -24,6 +24,7 @@ mod program;
 mod reference;
 mod refused;
 mod robust;
+mod run;
 mod snapshot;
 mod svg;
 mod syntax;

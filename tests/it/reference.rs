@@ -58,7 +58,11 @@ fn program(example: &Example, world: &str) -> String {
         "task" => {
             let rest =
                 "choose goto(shed), goto(gate), dock(charger) history last 1 success, failure";
-            let more = "end after 1 h reward { otherwise: -1 }";
+            let reward = match text.contains("reward {") {
+                true => "",
+                false => "reward { otherwise: -1 }",
+            };
+            let more = format!("end after 1 h {reward}");
             format!("{world}\ntask example {{ {rest}\n{text}\n{more} }}")
         }
         "learner" => format!("{world}\nlearn haul {{\n{text}}}"),

@@ -42,12 +42,14 @@ impl<'a> Checker<'a> {
             return Some(Value::Unknown);
         }
         let name = self.instance_name(behavior.params.as_ref(), reference, &scope);
+        let name = self.owned(name);
         if let Some(known) = self.behaviors.get(&name) {
             return known.map(Value::Behavior);
         }
-        // Arguments that change are evaluated at the start and held.
+        // Arguments that change are evaluated at the start and held, but for a `target`, which is read afresh.
         let mut locals = Table::default();
-        for binding in &mut scope {
+        let held = scope.iter_mut().filter(|it| it.ty != Type::Target);
+        for binding in held {
             binding.value = binding.value.clone().map(|id| {
                 if self.program.pool.constant(id).is_some() {
                     return id;

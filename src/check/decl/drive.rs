@@ -3,22 +3,29 @@
 use crate::check::Checker;
 use crate::check::context::Region;
 use crate::check::signature::{Signature, Takes};
-use crate::check::types::Type;
+use crate::check::types::{Type, Typed};
 use crate::diagnostic::Code;
+use crate::ir::expr::{Binary, Expr, Pose, Unary};
 use crate::ir::law::Stmt;
-use crate::ir::world::DriveKind;
+use crate::ir::world::{DriveKind, Robot};
 use crate::source::Span;
 use crate::syntax::ast::{self, Else, Ref, StmtKind};
 
 /// What `drive` commands.
-const COMMANDS: [(&str, Type); 3] = [
+const COMMANDS: [(&str, Type); 4] = [
     ("speed", Type::SPEED),
     ("turn", Type::TURN_RATE),
     ("strafe", Type::SPEED),
+    ("course", Type::ANGLE),
 ];
 
+/// How a differential drive takes a course: it turns by this much a second for each part of a turn that it is off, and
+/// stands while it is off by more than this angle.
+const GAIN: f64 = 4.0;
+const ROUGHLY: f64 = 0.6;
+
 impl<'a> Checker<'a> {
-    /// `drive(speed, turn, strafe)`
+    /// `drive(speed, turn, strafe)`, `drive(course, speed)`
     pub fn drive_stmt(&mut self, call: &'a Ref) -> Option<Stmt> {
         if self.context.region != Region::Control {
             return self
@@ -30,12 +37,12 @@ impl<'a> Checker<'a> {
             owner: "`drive`",
             takes: Takes::Parameters {
                 names: &COMMANDS.map(|(name, _)| name),
-                words: "a speed and a turn rate",
+                words: "a speed and a turn rate, or a course",
             },
         };
         let matched = self.matched(&signature, call.args.as_deref().unwrap_or_default());
         let mut fine = matched.fine;
-        let mut commands = [None, None, None];
+        let mut commands = [None, None, None, None];
         for ((arg, (name, ty)), command) in matched.args().zip(COMMANDS).zip(&mut commands) {
             let Some((arg, value)) = arg else { continue };
             if name == "strafe" && self.has_world && !self.is_holonomic() {
@@ -50,7 +57,10 @@ impl<'a> Checker<'a> {
             }
             *command = Some(self.expect(value, &ty, &format!("`{name}`")));
         }
-        let [speed, turn, strafe] = commands;
+        let [speed, turn, strafe, course] = commands;
+        if let Some(course) = course {
+            return self.drive_on_course(call, [speed, turn, strafe], &course);
+        }
         for (name, command, still) in [
             (
                 "speed",
@@ -80,9 +90,74 @@ impl<'a> Checker<'a> {
         })
     }
 
+    /// `drive(course = direction(A))`: a holonomic drive goes that way at once, a differential one turns into it.
+    fn drive_on_course(
+        &mut self,
+        call: &'a Ref,
+        [speed, turn, strafe]: [Option<Typed>; 3],
+        course: &Typed,
+    ) -> Option<Stmt> {
+        let holonomic = self.is_holonomic();
+        for (name, given) in [("strafe", &strafe), ("turn", &turn)] {
+            if given.is_some() && (name == "strafe" || !holonomic) {
+                let message = format!("a `course` says what `{name}` would say");
+                return self
+                    .error(Code::E0305, call.name.span, message)
+                    .label("give one of the two")
+                    .none();
+            }
+        }
+        let speed = match speed {
+            Some(speed) => speed.scalar()?,
+            None => {
+                let most = self.subject_robot()?.drive.max_speed;
+                self.program.pool.num(most)
+            }
+        };
+        let course = course.scalar()?;
+        let most = self.subject_robot()?.drive.max_turn;
+        let pool = &mut self.program.pool;
+        let heading = pool.leaf(Expr::Pose(Pose::Heading));
+        let off = pool.binary(Binary::Sub, course, heading);
+        let off = pool.unary(Unary::Wrap, off);
+        let zero = pool.num(0.0);
+        if holonomic {
+            let (ahead, aside) = (pool.unary(Unary::Cos, off), pool.unary(Unary::Sin, off));
+            let turn = match turn {
+                Some(turn) => turn.scalar()?,
+                None => zero,
+            };
+            let pool = &mut self.program.pool;
+            return Some(Stmt::Drive {
+                speed: pool.binary(Binary::Mul, speed, ahead),
+                strafe: pool.binary(Binary::Mul, speed, aside),
+                turn,
+            });
+        }
+        let gain = pool.num(GAIN);
+        let (low, high) = (pool.num(-most), pool.num(most));
+        let turn = pool.binary(Binary::Mul, gain, off);
+        let turn = pool.binary(Binary::Max, turn, low);
+        let turn = pool.binary(Binary::Min, turn, high);
+        let size = pool.unary(Unary::Abs, off);
+        let roughly = pool.num(ROUGHLY);
+        let ahead = pool.binary(Binary::Le, size, roughly);
+        Some(Stmt::Drive {
+            speed: pool.select(ahead, speed, zero),
+            strafe: zero,
+            turn,
+        })
+    }
+
     fn is_holonomic(&self) -> bool {
-        let world = self.program.world.as_ref();
-        world.is_some_and(|world| world.robot.drive.kind == DriveKind::Holonomic)
+        let Some(world) = &self.program.world else {
+            return false;
+        };
+        let holonomic = |robot: &Robot| robot.drive.kind == DriveKind::Holonomic;
+        match self.bodies.for_itself {
+            true => world.robots().any(holonomic),
+            false => holonomic(world.robot_of(self.subject)),
+        }
     }
 
     /// Reports every `drive` that a path reaches after another. The place of the last `drive` that some path reaches,

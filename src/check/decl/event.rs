@@ -1,50 +1,69 @@
 //! Events, and the effects that they have.
 
 use crate::check::Checker;
-use crate::check::context::{Context, Region};
+use crate::check::context::{Binding, Context, Region};
+use crate::check::expr::plain_ref;
+use crate::check::members::Member;
 use crate::check::names::Decl;
-use crate::check::types::{Type, Typed};
-use crate::diagnostic::Code;
-use crate::ir::expr::Expr;
+use crate::check::types::{Type, Typed, Value};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::ir::Id;
+use crate::ir::expr::{Expr, ExprId};
 use crate::ir::program::{Effect, Event};
-use crate::ir::{Id, Name};
-use crate::syntax::ast::{self, Ident, Ref, Trigger};
+use crate::syntax::ast::{self, Ident, Params, Ref, Trigger};
 
 /// The id of an event.
 pub type EventId = Id<Event>;
 
 impl<'a> Checker<'a> {
-    /// `event name = expr`
+    /// `event name(params) = expr`
     pub fn event(&mut self, event: &'a ast::Event) {
         let scope = self.unknown_parameters(event.params.as_ref());
         let mut when = None;
         self.body_for_itself(&event.name, Region::Event, scope, |checker| {
-            let role = format!("the event `{}`", event.name.name);
-            when = checker.expect(&event.value, &Type::Bool, &role).scalar();
+            when = checker.event_condition(event);
         });
+        let mut members = vec![(Vec::new(), when)];
         if let Some(params) = &event.params {
-            self.not_yet(params.span, "families of events");
-            return;
+            let clean = self.bodies.clean.get(&event.name.span) == Some(&true);
+            let Some(scopes) = self.combinations(params).filter(|_| clean) else {
+                self.events.insert(&event.name.name, Vec::new());
+                return;
+            };
+            self.context = Context::new(Region::Event);
+            members = self.for_each_member(scopes, |checker, scope| {
+                (scope.to_vec(), checker.event_condition(event))
+            });
         }
-        let never = self.program.pool.bool(false);
-        let id = self.program.events.push(Event {
-            name: Name::word(&event.name.name),
-            when: when.unwrap_or(never),
-        });
-        self.events.insert(&event.name.name, id);
+        let mut family = Vec::new();
+        for (scope, when) in members {
+            let never = self.program.pool.bool(false);
+            let name = self.member_name(&event.name.name, &scope);
+            let when = when.unwrap_or(never);
+            let is = self.program.events.push(Event { name, when });
+            let codes = self.member_codes(&scope).unwrap_or_default();
+            family.push(Member { codes, is });
+        }
+        self.events.insert(&event.name.name, family);
+    }
+
+    fn event_condition(&mut self, event: &'a ast::Event) -> Option<ExprId> {
+        let role = format!("the event `{}`", event.name.name);
+        self.expect(&event.value, &Type::Bool, &role).scalar()
     }
 
     /// Whether an event happens in this tick.
     pub fn event_value(&mut self, event: &'a ast::Event, reference: &'a Ref) -> Option<Typed> {
         let span = reference.span;
         let name = &reference.name.name;
-        if let Some(params) = &event.params {
-            self.bind_arguments(Some(params), false, reference)?;
-            return Some(Typed::unknown(Type::Bool, span));
-        }
-        if self.gives_arguments(reference, "an event") {
-            return None;
-        }
+        let codes = match &event.params {
+            Some(params) => {
+                let scope = self.bind_arguments(Some(params), false, reference)?;
+                self.codes(&scope)
+            }
+            None if self.gives_arguments(reference, "an event") => return None,
+            None => Some(Vec::new()),
+        };
         let region = self.context.region;
         if !region.sees_events() {
             return self
@@ -68,8 +87,20 @@ impl<'a> Checker<'a> {
                 .also(event.name.span, "its definition starts here")
                 .none();
         }
-        match self.events.get(event.name.name.as_str()) {
-            Some(id) => Some(self.leaf(Expr::Event(*id), Type::Bool, span)),
+        match self.events.get(event.name.name.as_str()).cloned() {
+            Some(family) => {
+                let Some(codes) = codes else {
+                    return Some(Typed::unknown(Type::Bool, span));
+                };
+                let mut happens = Vec::new();
+                for Member { codes, is } in family {
+                    let is = vec![self.program.pool.leaf(Expr::Event(is))];
+                    happens.push(Member { codes, is });
+                }
+                let none = self.nothing(&Type::Bool, 1);
+                let happens = self.member_parts(&codes, &happens, &none);
+                Some(Typed::new(Type::Bool, Value::of_parts(&happens), span))
+            }
             None => self
                 .error(
                     Code::E0206,
@@ -95,33 +126,102 @@ impl<'a> Checker<'a> {
         self.context = Context::new(Region::Event);
         match &on.trigger {
             Trigger::Expr(event) => {
-                let when = self.expect(event, &Type::Bool, "what an `on` waits for");
-                self.context = Context::new(Region::Effect);
-                let block = self.block(&on.block);
-                if let (Some(on), Some(block)) = (when.scalar(), block) {
-                    self.program.effects.push(Effect { on, block });
-                }
+                let scopes = match plain_ref(event) {
+                    Some(reference) => self.ranges(reference),
+                    None => Some(vec![Vec::new()]),
+                };
+                let effects = self.for_each_member(scopes.unwrap_or_default(), |checker, _| {
+                    checker.context.region = Region::Event;
+                    let when = checker.expect(event, &Type::Bool, "what an `on` waits for");
+                    checker.effect(when.scalar(), &on.block)
+                });
+                self.program.effects.extend(effects.into_iter().flatten());
             }
-            Trigger::Family { name, params } => {
-                self.family_of_events(name);
-                let scope = self.unknown_parameters(Some(params));
-                self.context = Context::new(Region::Effect);
-                self.context.scope = scope;
-                self.block(&on.block);
-            }
+            Trigger::Family { name, params } => self.on_family(name, params, &on.block),
         }
         self.context.scope.clear();
     }
 
-    /// The family behind `on name(params)`; that families are not built yet is reported where it is declared.
-    fn family_of_events(&mut self, name: &Ident) {
+    /// What is done where a condition holds, in the scope at hand.
+    fn effect(&mut self, on: Option<ExprId>, block: &'a ast::Block) -> Option<Effect> {
+        self.context.region = Region::Effect;
+        let block = self.block(block)?;
+        Some(Effect { on: on?, block })
+    }
+
+    /// `on name(params) { … }`: for each member, with the parameters bound to what the event is about.
+    fn on_family(&mut self, name: &'a Ident, params: &'a Params, block: &'a ast::Block) {
+        let event = self.family_of_events(name);
+        let scope = self.unknown_parameters(Some(params));
+        let fits = event.is_some_and(|event| self.binds_as_declared(event, params, &scope));
+        // Once for itself, so that a mistake is told once.
+        self.context = Context::new(Region::Effect);
+        self.context.scope = scope;
+        let (_, found) = self.captured(|checker| checker.block(block));
+        self.context.scope.clear();
+        let wrong = found.iter().any(Diagnostic::is_error);
+        self.diagnostics.extend(found);
+        if wrong || !fits {
+            return;
+        }
+        let Some(scopes) = self.combinations(params) else {
+            return;
+        };
+        let family = self.events.get(name.name.as_str()).cloned();
+        let family = family.unwrap_or_default();
+        let effects = self.for_each_member(scopes, |checker, scope| {
+            let codes = checker.member_codes(scope)?;
+            let member = family.iter().find(|member| member.codes == codes)?;
+            let on = checker.program.pool.leaf(Expr::Event(member.is));
+            checker.effect(Some(on), block)
+        });
+        self.program.effects.extend(effects.into_iter().flatten());
+    }
+
+    /// Whether what an `on` binds agrees with the parameters of its family; reported if not.
+    fn binds_as_declared(
+        &mut self,
+        event: &'a ast::Event,
+        params: &'a Params,
+        bound: &[Binding<'a>],
+    ) -> bool {
+        let declared = event.params.as_ref().map_or(&[][..], |p| &p.params);
+        let name = &event.name.name;
+        if declared.len() != params.params.len() {
+            let message = format!(
+                "`{name}` has {} parameters, not {}",
+                declared.len(),
+                params.params.len()
+            );
+            self.error(Code::E0305, params.span, message)
+                .label("each of them is bound to what the event is about")
+                .also(event.name.span, "the family is declared here");
+            return false;
+        }
+        let mut fits = true;
+        for ((declared, param), bound) in declared.iter().zip(&params.params).zip(bound) {
+            let wanted = self.type_expr(&declared.ty);
+            if !bound.ty.fits(&wanted) {
+                let message = format!("`{}` of `{name}` is {wanted}", declared.name.name);
+                self.error(Code::E0302, param.ty.span, message)
+                    .this_is(&bound.ty)
+                    .also(declared.span, "declared here");
+                fits = false;
+            }
+        }
+        fits
+    }
+
+    /// The family behind `on name(params)`; reported if there is none.
+    fn family_of_events(&mut self, name: &Ident) -> Option<&'a ast::Event> {
         let found = match self.names.value(&name.name, false) {
-            Some((Decl::Event(event), _)) if event.params.is_some() => return,
+            Some((Decl::Event(event), _)) if event.params.is_some() => return Some(event),
             Some((Decl::Event(_), _)) => "a single event",
             Some((decl, _)) => decl.what(),
             None => {
-                self.undeclared_value(name, "event", |decl| matches!(decl, Decl::Event(_)));
-                return;
+                return self
+                    .undeclared_value(name, "event", |decl| matches!(decl, Decl::Event(_)))
+                    .none();
             }
         };
         self.error(
@@ -129,6 +229,7 @@ impl<'a> Checker<'a> {
             name.span,
             format!("`{}` is not a family of events", name.name),
         )
-        .this_is(found);
+        .this_is(found)
+        .none()
     }
 }

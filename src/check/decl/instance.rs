@@ -3,7 +3,7 @@
 use crate::check::Checker;
 use crate::check::builtin::Function;
 use crate::check::context::Binding;
-use crate::check::types::Value;
+use crate::check::types::{Type, Value};
 use crate::ir::name::{Argument, Given, Name};
 use crate::syntax::ast::{self, ArgKind, ExprKind, Ref};
 use crate::syntax::print;
@@ -21,6 +21,7 @@ impl Checker<'_> {
         let args = reference.args.as_deref().unwrap_or_default();
         let mut positional = args.iter().filter_map(|arg| match &arg.kind {
             ArgKind::Positional(value) => Some(value),
+            ArgKind::Binder { member, .. } => Some(&**member),
             _ => None,
         });
         let arguments = params.iter().zip(scope).map(|(param, binding)| {
@@ -29,7 +30,7 @@ impl Checker<'_> {
                 _ => None,
             });
             let given = positional.next().or(named);
-            let value = given.map(|given| self.argument(given, &binding.value));
+            let value = given.map(|given| self.argument(given, &binding.ty, &binding.value));
             let default = param.default.as_ref().map(print::expr);
             Argument {
                 parameter: param.name.name.clone(),
@@ -40,17 +41,18 @@ impl Checker<'_> {
     }
 
     /// An argument in a name: a target by its own name, a literal in its own spelling.
-    fn argument(&self, given: &ast::Expr, value: &Value) -> Given {
-        let world = self.program.world.as_ref();
-        let named = match value {
-            Value::Place(id) => world.map(|world| &world.places[*id].name),
-            Value::Wall(id) => world.map(|world| &world.walls[*id].name),
-            Value::Sensor(id) => world.map(|world| &world.robot.sensors[*id].name),
-            Value::Behavior(id) => Some(&self.program.behaviors[*id].name),
-            _ => None,
-        };
-        if let Some(named) = named {
-            return Given::Name(named.clone());
+    pub fn argument(&self, given: &ast::Expr, ty: &Type, value: &Value) -> Given {
+        // What a parameter of the body at hand was given has its name already.
+        if let ExprKind::Ref(Ref {
+            name, args: None, ..
+        }) = &given.kind
+            && let Some(bound) = self.context.lookup(&name.name)
+            && let Some(known) = &bound.given
+        {
+            return known.clone();
+        }
+        if let Some(named) = self.given_member(ty, value) {
+            return named;
         }
         match (value, &given.kind) {
             // A parameter of a subtree or a shared expression stands for a number that is not written here.
@@ -79,7 +81,9 @@ impl Checker<'_> {
     pub fn mentions_parameter(&self, given: &ast::Expr) -> bool {
         match &given.kind {
             ExprKind::Ref(reference) => self.context.lookup(&reference.name.name).is_some(),
-            ExprKind::Paren(inner) => self.mentions_parameter(inner),
+            ExprKind::Paren(inner) | ExprKind::Coordinate(inner, _) => {
+                self.mentions_parameter(inner)
+            }
             ExprKind::Unary { operand, .. } => self.mentions_parameter(operand),
             ExprKind::Binary { left, right, .. } => {
                 self.mentions_parameter(left) || self.mentions_parameter(right)

@@ -84,9 +84,20 @@ impl<'a> Checker<'a> {
         locals: &mut Table<Local>,
     ) -> bool {
         let typed = self.declared(ty, value, &name.name);
+        let holds = match &typed.ty {
+            Type::Bool | Type::Quantity(_) | Type::Ratio | Type::Point | Type::Enum(_) => true,
+            Type::Error => true,
+            ty => ty.is_named_target(),
+        };
+        if !holds {
+            let message = format!("a local cannot hold {}", typed.ty);
+            self.error(Code::E0302, typed.span, message).label(
+                "numbers, truth values, points, enums, places, walls, robots and sensors can be held",
+            );
+        }
         let mut ids = Vec::new();
         let mut leaves = Vec::new();
-        for initial in typed.value.parts() {
+        for initial in self.held_parts(&typed.value) {
             let name = Name::word(&name.name);
             let id = locals.push(Local { name, initial });
             ids.push(id);
@@ -94,9 +105,13 @@ impl<'a> Checker<'a> {
         }
         let binding = Binding {
             name,
+            value: match typed.value {
+                Value::Unknown => Value::Unknown,
+                _ => self.held(&typed.ty, &leaves),
+            },
             ty: typed.ty,
-            value: Value::of_parts(&leaves),
             locals: Some(ids),
+            given: None,
         };
         self.bind(binding, "local", 0);
         !leaves.is_empty()

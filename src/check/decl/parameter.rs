@@ -103,7 +103,10 @@ impl<'a> Checker<'a> {
             };
             fine &= value.ty != Type::Error;
             let ty = if ty == Type::Error { value.ty } else { ty };
-            bindings.push(Binding::new(&param.name, ty, value.value));
+            bindings.push(Binding {
+                given: given.map(|given| self.argument(given, &ty, &value.value)),
+                ..Binding::new(&param.name, ty, value.value)
+            });
         }
         fine.then_some(bindings)
     }

@@ -79,6 +79,7 @@ impl<'a> Checker<'a> {
             return None;
         }
         let name = self.instance_name(predicate.params.as_ref(), reference, &scope);
+        let name = self.owned(name);
         if let Some(known) = self.predicates.get(&name) {
             return *known;
         }

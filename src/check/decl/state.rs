@@ -1,74 +1,131 @@
 //! State variables and enums.
 
 use crate::check::Checker;
-use crate::check::context::{Context, Region};
+use crate::check::context::{Binding, Context, Region};
+use crate::check::members::Member;
 use crate::check::names::TypeDecl;
 use crate::check::types::{Type, Typed, Value};
-use crate::diagnostic::Code;
-use crate::ir::expr::Expr;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::ir::expr::{Expr, ExprId};
 use crate::ir::name::Coordinate;
 use crate::ir::program::{State, ValueKind};
 use crate::ir::{Id, Name};
 use crate::syntax::ast::{self, Ref};
 
-/// The variables behind a declared state: one, or two for a point.
+/// A type, and the variables of this type that a reference may mean, each with the condition that it does.
+type Meant = (Type, Vec<(ExprId, Vec<Id<State>>)>);
+
+/// The variables behind a declared state: of each member of a family, one, or two for a point. A single state is a family
+/// of one.
 #[derive(Clone, Debug)]
 pub struct StateSlot {
     /// The declared type.
     ty: Type,
     /// The variables.
-    ids: Vec<Id<State>>,
+    members: Vec<Member<Vec<Id<State>>>>,
 }
 
 impl<'a> Checker<'a> {
-    /// `state name: type = constant`
+    /// `state name(params): type = constant`
     pub fn state(&mut self, state: &'a ast::State) {
         self.context = Context::new(Region::World);
-        self.context.scope = self.unknown_parameters(state.params.as_ref());
-        let value = self.declared(state.ty.as_ref(), &state.value, &state.name.name);
-        self.context.scope.clear();
-        if let Some(params) = &state.params {
-            self.not_yet(params.span, "families of state variables");
+        let Some(params) = &state.params else {
+            if let Some((ty, ids)) = self.state_member(state, &[]) {
+                let member = Member {
+                    codes: Vec::new(),
+                    is: ids,
+                };
+                let members = vec![member];
+                let slot = StateSlot { ty, members };
+                self.states.insert(&state.name.name, slot);
+            }
             return;
+        };
+        // Once for itself, so that a mistake is told once.
+        self.context.scope = self.unknown_parameters(Some(params));
+        for param in &params.params {
+            self.reads(param.name.span);
         }
+        let (_, found) = self.captured(|checker| {
+            checker.declared(state.ty.as_ref(), &state.value, &state.name.name)
+        });
+        self.context.scope.clear();
+        let wrong = found.iter().any(Diagnostic::is_error);
+        self.diagnostics.extend(found);
+        let Some(members) = self.combinations(params).filter(|_| !wrong) else {
+            // What is done with it has mistakes of its own to tell.
+            if let Some(written) = &state.ty {
+                let (ty, members) = (self.type_expr(written), Vec::new());
+                let slot = StateSlot { ty, members };
+                self.states.insert(&state.name.name, slot);
+            }
+            return;
+        };
+        let members = self.for_each_member(members, |checker, scope| {
+            let codes = checker.member_codes(scope)?;
+            let (ty, is) = checker.state_member(state, scope)?;
+            Some((ty, Member { codes, is }))
+        });
+        let Some(members) = members.into_iter().collect::<Option<Vec<_>>>() else {
+            return;
+        };
+        let (types, members): (Vec<Type>, Vec<_>) = members.into_iter().unzip();
+        let ty = match (types.first(), &state.ty) {
+            (Some(ty), _) => ty.clone(),
+            (None, Some(written)) => self.type_expr(written),
+            (None, None) => return,
+        };
+        let slot = StateSlot { ty, members };
+        self.states.insert(&state.name.name, slot);
+    }
+
+    /// The variables of one member of a family of states, its parameters bound in `scope`.
+    fn state_member(
+        &mut self,
+        state: &'a ast::State,
+        scope: &[Binding<'a>],
+    ) -> Option<(Type, Vec<Id<State>>)> {
+        let value = self.declared(state.ty.as_ref(), &state.value, &state.name.name);
         let kind = match &value.ty {
-            Type::Error => return,
+            Type::Error => return None,
             Type::Bool => ValueKind::Bool,
             Type::Enum(name) => ValueKind::Enum(self.variants(name)),
             Type::Point | Type::Quantity(_) | Type::Ratio => ValueKind::Quantity,
+            ty if ty.is_named_target() => ValueKind::Enum(self.target_names(ty)),
             other => {
-                self.error(
-                    Code::E0302,
-                    value.span,
-                    format!("a state cannot hold {other}"),
-                )
-                .label("numbers, truth values, points and enums can be held");
-                return;
+                return self
+                    .error(
+                        Code::E0302,
+                        value.span,
+                        format!("a state cannot hold {other}"),
+                    )
+                    .label("numbers, truth values, points, enums, places, walls and robots can be held")
+                    .none();
             }
         };
-        let name = Name::word(&state.name.name);
+        if value.value == Value::Unknown {
+            return None;
+        }
+        let name = self.member_name(&state.name.name, scope);
         let parts = match value.value {
             Value::Scalar(id) => vec![(name, id)],
             Value::Point(x, y) => vec![
                 (name.coordinate(Coordinate::X), x),
                 (name.coordinate(Coordinate::Y), y),
             ],
-            _ => return,
+            ref target => vec![(name, self.code(target)?)],
         };
         let mut ids = Vec::new();
         for (name, initial) in parts {
             let role = "the first value of a state";
-            if self.constant_part(initial, value.span, role).is_none() {
-                return;
-            }
+            self.constant_part(initial, value.span, role)?;
             ids.push(self.program.states.push(State {
                 name,
                 kind: kind.clone(),
                 initial,
             }));
         }
-        let slot = StateSlot { ty: value.ty, ids };
-        self.states.insert(&state.name.name, slot);
+        Some((value.ty, ids))
     }
 
     /// `enum name { … }`: names are collected already; an empty one is a mistake.
@@ -83,7 +140,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    fn variants(&self, name: &str) -> Vec<Name> {
+    /// The variants of the enum of that name.
+    pub fn variants(&self, name: &str) -> Vec<Name> {
         match self.names.types.get(name) {
             Some(TypeDecl::Enum(decl)) => {
                 decl.variants.iter().map(|v| Name::word(&v.name)).collect()
@@ -105,29 +163,63 @@ impl<'a> Checker<'a> {
                 .label("this changes as the program runs")
                 .none();
         }
-        if let Some(params) = &state.params {
-            self.bind_arguments(Some(params), false, reference)?;
-            let ty = state.ty.as_ref();
-            let ty = ty.map_or(Type::Error, |ty| self.type_expr(ty));
-            return Some(Typed::unknown(ty, span));
-        }
-        if self.gives_arguments(reference, "a state variable") {
-            return None;
-        }
-        let slot = self.states.get(state.name.name.as_str())?;
-        let pool = &mut self.program.pool;
-        let leaves: Vec<_> = slot
-            .ids
-            .iter()
-            .map(|id| pool.leaf(Expr::State(*id)))
+        let (slot, codes) = self.state_slot(state, reference)?;
+        let Some(codes) = codes else {
+            return Some(Typed::unknown(slot.ty, span));
+        };
+        let count = slot.members.first().map_or(1, |member| member.is.len());
+        let none = self.nothing(&slot.ty, count);
+        let leaf = |checker: &mut Self, ids: &[Id<State>]| {
+            let pool = &mut checker.program.pool;
+            let leaves = ids.iter().map(|id| pool.leaf(Expr::State(*id)));
+            leaves.collect::<Vec<_>>()
+        };
+        let members: Vec<_> = slot
+            .members
+            .into_iter()
+            .map(|member| Member {
+                is: leaf(self, &member.is),
+                codes: member.codes,
+            })
             .collect();
-        Some(Typed::new(slot.ty.clone(), Value::of_parts(&leaves), span))
+        let parts = self.member_parts(&codes, &members, &none);
+        let value = self.held(&slot.ty, &parts);
+        Some(Typed::new(slot.ty, value, span))
     }
 
-    /// The variables behind the state of that name.
-    pub fn state_variables(&self, name: &str) -> Vec<Id<State>> {
-        self.states
-            .get(name)
-            .map_or_else(Vec::new, |slot| slot.ids.clone())
+    /// The variables behind a state with the codes of the arguments that a reference gives; no codes where an argument is
+    /// known by its type only.
+    fn state_slot(
+        &mut self,
+        state: &'a ast::State,
+        reference: &'a Ref,
+    ) -> Option<(StateSlot, Option<Vec<ExprId>>)> {
+        let codes = match &state.params {
+            Some(params) => {
+                let scope = self.bind_arguments(Some(params), false, reference)?;
+                self.codes(&scope)
+            }
+            None if self.gives_arguments(reference, "a state variable") => return None,
+            None => Some(Vec::new()),
+        };
+        let slot = self.states.get(state.name.name.as_str())?.clone();
+        Some((slot, codes))
+    }
+
+    /// The type of a state, and the variables that a reference may mean, each with the condition that it does; no
+    /// variables where an argument is known by its type only.
+    pub fn state_variables(&mut self, state: &'a ast::State, reference: &'a Ref) -> Option<Meant> {
+        let (slot, codes) = self.state_slot(state, reference)?;
+        let Some(codes) = codes else {
+            return Some((slot.ty, Vec::new()));
+        };
+        let mut variables = Vec::new();
+        for member in slot.members {
+            let is = self.is_member(&codes, &member.codes);
+            if self.program.pool.constant(is) != Some(0.0) {
+                variables.push((is, member.is));
+            }
+        }
+        Some((slot.ty, variables))
     }
 }

@@ -5,18 +5,23 @@ use crate::check::context::{Binding, Region};
 use crate::check::names::{Decl, is_built_in};
 use crate::check::types::units::Dim;
 use crate::check::types::{Type, Value};
-use crate::diagnostic::{Code, suggest};
-use crate::ir::expr::{Binary, Expr, Local, Temp};
+use crate::diagnostic::{Code, Diagnostic, suggest};
+use crate::ir::Pool;
+use crate::ir::expr::{Binary, Expr, ExprId, Local, Temp};
 use crate::ir::law::{Block, Stmt};
 use crate::ir::program::State;
 use crate::ir::{Id, Name};
 use crate::syntax::ast::{self, AssignOp, Else, Ref, StmtKind};
 
 /// What an assignment can set.
+#[derive(Clone, Copy)]
 enum Slot {
     State(Id<State>),
     Local(Id<Local>),
 }
+
+/// A type, the variables of this type that an assignment may mean with the condition that it does, and what is bound before.
+type Assignable = (Type, Vec<(ExprId, Vec<Slot>)>, Vec<Stmt>);
 
 impl<'a> Checker<'a> {
     /// A block with a scope of its own; `None` if something in it is not known.
@@ -42,22 +47,37 @@ impl<'a> Checker<'a> {
                 name,
                 domain,
                 block,
-            } => {
-                let ty = self.named_type(domain);
-                let known = ty != Type::Error && self.has_members(&ty, domain);
-                self.context.scope.push(Binding::unknown(name, ty));
-                self.block(block);
-                self.context.scope.pop();
-                if known {
-                    self.not_yet(domain.span, "loops over kinds");
-                }
-                None
-            }
+            } => self.for_stmt(name, domain, block),
             StmtKind::Branch(branch) => self.branch(branch).map(|stmt| vec![stmt]),
             StmtKind::Assign { target, op, value } => self.assign(target, *op, value),
             StmtKind::Call(call) => self.call_stmt(call).map(|stmt| vec![stmt]),
             StmtKind::Error => None,
         }
+    }
+
+    /// `for b in bush { … }`: the block once for each member.
+    fn for_stmt(
+        &mut self,
+        name: &'a ast::Ident,
+        domain: &'a ast::Ident,
+        block: &'a ast::Block,
+    ) -> Option<Vec<Stmt>> {
+        let ty = self.named_type(domain);
+        let members = self.members_of(&ty, domain.span, &domain.name);
+        // Once for itself, so that a mistake is told once.
+        self.context.scope.push(Binding::unknown(name, ty.clone()));
+        let (_, found) = self.captured(|checker| checker.block(block));
+        self.context.scope.pop();
+        let wrong = found.iter().any(Diagnostic::is_error);
+        self.diagnostics.extend(found);
+        if wrong {
+            return None;
+        }
+        let bound = |member| vec![Binding::new(name, ty.clone(), member)];
+        let scopes = members?.into_iter().map(bound).collect();
+        let blocks = self.for_each_member(scopes, |checker, _| checker.block(block));
+        let blocks = blocks.into_iter().collect::<Option<Vec<_>>>()?;
+        Some(blocks.into_iter().flat_map(|Block(stmts)| stmts).collect())
     }
 
     /// A `let` keeps the value it has when it is reached; a constant or a target needs no variable.
@@ -97,7 +117,7 @@ impl<'a> Checker<'a> {
         op: ast::Spanned<AssignOp>,
         value: &'a ast::Expr,
     ) -> Option<Vec<Stmt>> {
-        let Some((ty, slots)) = self.assignable(target) else {
+        let Some((ty, mut slots, mut stmts)) = self.assignable(target) else {
             self.expr(value);
             return None;
         };
@@ -129,34 +149,52 @@ impl<'a> Checker<'a> {
                 typed
             }
         };
-        let parts = value.value.parts();
-        if parts.is_empty() {
+        let parts = self.held_parts(&value.value);
+        if parts.is_empty() || slots.is_empty() {
             return None;
         }
+        // What is set everywhere needs no branch.
+        let everywhere = |pool: &Pool, is| pool.constant(is) == Some(1.0);
+        if let [(is, slots)] = slots.as_slice()
+            && everywhere(&self.program.pool, *is)
+        {
+            stmts.extend(self.set(slots, op.node, &parts));
+            return Some(stmts);
+        }
+        for (is, slots) in slots.drain(..) {
+            let set = self.set(&slots, op.node, &parts);
+            stmts.push(Stmt::If(is, Block(set), Block::default()));
+        }
+        Some(stmts)
+    }
+
+    /// The statements that set variables to these numbers.
+    fn set(&mut self, slots: &[Slot], op: AssignOp, parts: &[ExprId]) -> Vec<Stmt> {
         let mut stmts = Vec::new();
-        for (slot, part) in slots.into_iter().zip(parts) {
+        for (slot, &part) in slots.iter().zip(parts) {
             let pool = &mut self.program.pool;
-            let now = match slot {
+            let now = match *slot {
                 Slot::State(id) => pool.leaf(Expr::State(id)),
                 Slot::Local(id) => pool.leaf(Expr::Local(id)),
             };
-            let part = match op.node {
+            let part = match op {
                 AssignOp::Set => part,
                 AssignOp::Add => pool.binary(Binary::Add, now, part),
                 AssignOp::Sub => pool.binary(Binary::Sub, now, part),
                 AssignOp::Mul => pool.binary(Binary::Mul, now, part),
                 AssignOp::Div => pool.binary(Binary::Div, now, part),
             };
-            stmts.push(match slot {
+            stmts.push(match *slot {
                 Slot::State(id) => Stmt::SetState(id, part),
                 Slot::Local(id) => Stmt::SetLocal(id, part),
             });
         }
-        Some(stmts)
+        stmts
     }
 
-    /// The variables behind the left side of an assignment.
-    fn assignable(&mut self, target: &'a Ref) -> Option<(Type, Vec<Slot>)> {
+    /// The type of the left side of an assignment, the variables that it may mean, each with the condition that it does,
+    /// and what has to be bound before they are set. No variables where an argument is known by its type only.
+    fn assignable(&mut self, target: &'a Ref) -> Option<Assignable> {
         let name = target.name.name.as_str();
         let cannot = format!("`{name}` cannot be set");
         if target.args.is_none()
@@ -170,11 +208,13 @@ impl<'a> Checker<'a> {
                     .help("what changes is a `local` of the behaviour")
                     .none();
             };
-            return Some((binding.ty, locals.into_iter().map(Slot::Local).collect()));
+            let always = self.program.pool.bool(true);
+            let slots = locals.into_iter().map(Slot::Local).collect();
+            return Some((binding.ty, vec![(always, slots)], Vec::new()));
         }
         match self.names.value(name, self.context.library) {
             Some((Decl::State(state), _)) => {
-                let typed = self.state_value(state, target)?;
+                let (ty, variables) = self.state_variables(state, target)?;
                 if !matches!(self.context.region, Region::Effect | Region::EachTick) {
                     return self
                         .error(
@@ -186,8 +226,23 @@ impl<'a> Checker<'a> {
                         .help("let it succeed, and set the state `on` that event")
                         .none();
                 }
-                let slots = self.state_variables(name).into_iter().map(Slot::State);
-                Some((typed.ty, slots.collect()))
+                let slots = |ids: Vec<_>| ids.into_iter().map(Slot::State).collect();
+                if let [_] = variables.as_slice() {
+                    let variables = variables.into_iter();
+                    let variables = variables.map(|(is, ids)| (is, slots(ids)));
+                    return Some((ty, variables.collect(), Vec::new()));
+                }
+                // Which one is meant is decided before the first is set.
+                let mut bound = Vec::new();
+                let mut meant = Vec::new();
+                for (is, ids) in variables {
+                    let temp = self.program.temps.push(Temp {
+                        name: Name::word(name),
+                    });
+                    bound.push(Stmt::Let(temp, is));
+                    meant.push((self.program.pool.leaf(Expr::Temp(temp)), slots(ids)));
+                }
+                Some((ty, meant, bound))
             }
             Some((decl, _)) => self
                 .error(Code::E0310, target.span, cannot)

@@ -15,6 +15,7 @@ impl<'a> Checker<'a> {
         use Constant as C;
         let (name, region) = (constant.name(), self.context.region);
         match constant {
+            C::Nowhere => return Some(Typed::new(Type::Nowhere, Value::Nowhere, span)),
             C::Anywhere => return Some(Typed::new(Type::Anywhere, Value::Anywhere, span)),
             C::Visits | C::Progress if region != Region::Schedule => {
                 let why = "known to the schedules of a learner only";
@@ -32,7 +33,7 @@ impl<'a> Checker<'a> {
             let label = "known to a robot in its world";
             return self.no_world(span, &format!("`{name}`"), label).none();
         }
-        let drive = self.program.world.as_ref().map(|world| &world.robot.drive);
+        let drive = self.subject_robot().map(|robot| &robot.drive);
         let (ty, number) = match constant {
             C::Heading => return Some(self.leaf(Expr::Pose(Pose::Heading), Type::ANGLE, span)),
             C::Touching => return Some(self.leaf(Expr::Touching, Type::Bool, span)),
@@ -77,7 +78,10 @@ impl<'a> Checker<'a> {
             F::Distance | F::Bearing | F::Direction | F::Visible | F::Inside | F::Facing => {
                 self.reading(function, reference)
             }
-            F::Success | F::Failure | F::Done | F::Failed => self.ended(function, reference),
+            F::Pose => self.position_of(reference),
+            F::Success | F::Failure | F::Running | F::Done | F::Failed => {
+                self.ended(function, reference)
+            }
             F::Uniform | F::Normal | F::Chance | F::OneOf => self.random(function, reference),
             F::Clamp => self.clamp(reference),
             F::Tune => self.tune(reference),

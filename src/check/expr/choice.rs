@@ -3,6 +3,7 @@
 use crate::check::Checker;
 use crate::check::context::Binding;
 use crate::check::types::{Type, Typed, Value};
+use crate::diagnostic::Code;
 use crate::source::Span;
 use crate::syntax::ast::{self, Expr, Otherwise};
 
@@ -19,7 +20,7 @@ impl<'a> Checker<'a> {
         if then.ty == Type::Error || otherwise.ty == Type::Error {
             return None;
         }
-        if !otherwise.ty.fits(&then.ty) {
+        let Some(ty) = then.ty.join(&otherwise.ty) else {
             let units = then.ty.dim().filter(|_| otherwise.ty.dim().is_some());
             let what = if units.is_some() { "unit" } else { "type" };
             let message = format!("both sides of a choice are of one {what}");
@@ -31,8 +32,7 @@ impl<'a> Checker<'a> {
                 Some(expr) => draft.unit_for(expr, then.ty.dim()).none(),
                 None => draft.none(),
             };
-        }
-        let ty = then.ty.clone();
+        };
         self.select(&condition, &then, &otherwise, ty, span)
     }
 
@@ -54,12 +54,17 @@ impl<'a> Checker<'a> {
             (Some(_), Value::Unknown, _) | (Some(_), _, Value::Unknown) | (None, ..) => {
                 Value::Unknown
             }
-            (Some(c), a, b) => match pool.constant(c) {
-                Some(holds) => if holds != 0.0 { a } else { b }.clone(),
-                None if a == b => a.clone(),
+            (Some(c), a, b) => match self.either(c, a, b) {
+                Some(chosen) => chosen,
                 None => {
-                    let what = "targets that are chosen while the program runs";
-                    return self.not_yet(span, what).none();
+                    return self
+                        .error(
+                            Code::E0303,
+                            span,
+                            format!("{} is chosen before the program runs", then.ty),
+                        )
+                        .label("this choice is made while it runs")
+                        .none();
                 }
             },
         };

@@ -3,19 +3,22 @@
 use crate::check::Checker;
 use crate::check::builtin::Function;
 use crate::check::context::Region;
+use crate::check::signature::{Signature, Takes};
 use crate::check::types::{Type, Typed, Value};
-use crate::ir::expr::Expr;
+use crate::diagnostic::Code;
+use crate::ir::Id;
+use crate::ir::expr::Expr as Pooled;
 use crate::ir::task::StartLine;
 use crate::ir::tree::Status;
-use crate::syntax::ast::Ref;
+use crate::ir::world::Robot;
+use crate::syntax::ast::{Expr, Ref};
 
 impl<'a> Checker<'a> {
-    /// `success(b)`, `failure(b)`: whether the behaviour ended so in this tick; in a `history` line, that end.
+    /// `success(b)`, `failure(b)`, `running(b)`: whether the behaviour ended so in this tick, or runs, perhaps one of another
+    /// robot; in a `history` line, that end.
     pub fn ended(&mut self, function: Function, reference: &'a Ref) -> Option<Typed> {
         let span = reference.span;
-        let &[value] = self.positional(reference, 1, 1)?.as_slice() else {
-            return None;
-        };
+        let (value, robot) = self.one_by(reference)?;
         let region = self.context.region;
         if matches!(function, Function::Done | Function::Failed) {
             return self.out_of_scope(
@@ -24,17 +27,27 @@ impl<'a> Checker<'a> {
                 "the history window is asked in the guards of trees",
             );
         }
-        if !region.sees_events() && !matches!(region, Region::StartHistory | Region::Let) {
+        // What runs is known from the tick before.
+        let runs = function == Function::Running && region == Region::EachTick;
+        if !region.sees_events() && !runs && !matches!(region, Region::StartHistory | Region::Let) {
             return self.out_of_scope(
                 function.name(),
                 reference.name.span,
                 "only events, effects and rewards see a behaviour end",
             );
         }
+        if function == Function::Running && region == Region::StartHistory {
+            let why = "a history holds what has ended";
+            return self.out_of_scope(function.name(), reference.name.span, why);
+        }
         self.kept_in_history(function, reference);
-        let behavior = self.expect(value, &Type::Behavior, "what ends");
+        let robot = robot.unwrap_or(self.subject);
+        let behavior = self.as_robot(robot, |checker| {
+            checker.expect(value, &Type::Behavior, "what ends")
+        });
         let status = match function {
             Function::Failure => Status::Failure,
+            Function::Running => Status::Running,
             _ => Status::Success,
         };
         if behavior.ty == Type::Error {
@@ -50,6 +63,47 @@ impl<'a> Checker<'a> {
         let Value::Behavior(id) = behavior.value else {
             return Some(Typed::unknown(Type::Bool, span));
         };
-        Some(self.leaf(Expr::Ended(id, status), Type::Bool, span))
+        Some(self.leaf(Pooled::Ended(id, status), Type::Bool, span))
+    }
+
+    /// The one argument of a call that may say of which robot it is: `success(goto(A), by = raider)`.
+    pub fn one_by(&mut self, reference: &'a Ref) -> Option<(&'a Expr, Option<Id<Robot>>)> {
+        let name = &reference.name.name;
+        let signature = Signature {
+            owner: &format!("`{name}`"),
+            takes: Takes::Parameters {
+                names: &["of", "by"],
+                words: "one argument, and the robot as `by = …`",
+            },
+        };
+        let args = reference.args.as_deref().unwrap_or_default();
+        let matched = self.matched(&signature, args);
+        let mut values = matched.values();
+        let (of, by) = (values.next().flatten(), values.next().flatten());
+        if !matched.fine {
+            return None;
+        }
+        let Some(of) = of else {
+            return self
+                .error(
+                    Code::E0305,
+                    reference.span,
+                    format!("`{name}` takes one argument, not 0"),
+                )
+                .label("too few")
+                .none();
+        };
+        let Some(by) = by else {
+            return Some((of, None));
+        };
+        let robot = self.expect(by, &Type::Robot, "`by`");
+        match robot.value {
+            Value::Robot(id) => Some((of, Some(id))),
+            Value::Chosen(..) => self
+                .error(Code::E0303, by.span, "`by` names one robot")
+                .label("this is chosen while the program runs")
+                .none(),
+            _ => None,
+        }
     }
 }

@@ -114,8 +114,12 @@ impl<'a> Checker<'a> {
         }
         let equality = matches!(op.node, BinaryOp::Eq | BinaryOp::Ne);
         let words = matches!(a.ty, Type::Bool | Type::Enum(_)) && a.ty == b.ty;
+        let named = |ty: &Type| ty.is_named_target() || *ty == Type::Nowhere;
+        let targets = named(&a.ty) && named(&b.ty) && a.ty.join(&b.ty).is_some();
         let operands = if equality && words {
             Some((a, b))
+        } else if equality && targets {
+            Some((self.told_by_code(a), self.told_by_code(b)))
         } else if a.ty.dim().is_some() && b.ty.dim().is_some() {
             self.same_dimension(op, (left, a), (right, b))
         } else {
@@ -136,6 +140,12 @@ impl<'a> Checker<'a> {
             _ => (Binary::Le, b, a),
         };
         self.lift_binary(op, Type::Bool, &a, &b, span)
+    }
+
+    /// A target as the number that says which one it is.
+    fn told_by_code(&mut self, target: Typed) -> Typed {
+        let code = self.code(&target.value);
+        Typed::new(Type::NUMBER, code, target.span)
     }
 
     /// `base ^ exponent`: with a unit, the exponent has to be a whole constant.
@@ -221,8 +231,11 @@ impl<'a> Checker<'a> {
                 "the values of an enum have no order",
                 "only `==` and `!=` compare them",
             ),
+            Type::Place(_) | Type::Wall(_) | Type::Robot | Type::Sensor | Type::Nowhere => {
+                ("targets have no order", "only `==` and `!=` compare them")
+            }
             _ => (
-                "only numbers, truth values and enums are compared",
+                "only numbers, truth values, enums and targets are compared",
                 "these are none of them",
             ),
         };

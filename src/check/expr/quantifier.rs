@@ -3,31 +3,20 @@
 use crate::check::Checker;
 use crate::check::builtin::Function;
 use crate::check::context::Binding;
-use crate::check::types::{Type, Typed};
-use crate::diagnostic::Code;
-use crate::syntax::ast::{ArgKind, Ident, Ref};
+use crate::check::types::{Type, Typed, Value};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::ir::expr::{Binary, Echo, ExprId};
+use crate::syntax::ast::{ArgKind, Expr, Ref};
 
 impl<'a> Checker<'a> {
-    /// Whether a type has members that something can range over; reported if not.
-    pub fn has_members(&mut self, ty: &Type, domain: &Ident) -> bool {
-        let has = matches!(ty, Type::Place(_) | Type::Wall(_) | Type::Enum(_));
-        if !has {
-            self.error(
-                Code::E0302,
-                domain.span,
-                format!("`{}` has no members to range over", domain.name),
-            )
-            .label("a kind of places or walls, or an enum, is needed");
-        }
-        has
-    }
-
     /// `any(b in bush: …)` and its relatives.
     pub fn quantified(&mut self, function: Function, reference: &'a Ref) -> Option<Typed> {
         let span = reference.span;
         let binder = match reference.args.as_deref() {
             Some([arg]) => match &arg.kind {
-                ArgKind::Binder { name, domain, body } => Some((name, domain, body)),
+                ArgKind::Binder {
+                    name, domain, body, ..
+                } => Some((name, domain, body)),
                 _ => None,
             },
             _ => None,
@@ -42,31 +31,114 @@ impl<'a> Checker<'a> {
                 .label(format!("write `{}(x in KIND: …)`", reference.name.name))
                 .none();
         };
-        let ty = self.named_type(domain);
-        if ty == Type::Error || !self.has_members(&ty, domain) {
-            return None;
+        let of = self.named_type(domain);
+        let members = self.members_of(&of, domain.span, &domain.name)?;
+        if function == Function::Nearest {
+            if !of.is_target() {
+                let message = format!("nothing is near to {of}");
+                return self
+                    .error(Code::E0302, domain.span, message)
+                    .label("a kind of places or walls, or `robot`, is needed")
+                    .none();
+            }
+            if !self.has_world {
+                let label = "read by a robot in its world";
+                return self
+                    .no_world(reference.name.span, "`nearest`", label)
+                    .none();
+            }
         }
-        self.context.scope.push(Binding::unknown(name, ty.clone()));
-        if let Some(body) = body {
-            let role = format!("what `{}` says of each", reference.name.name);
-            self.expect(body, &Type::Bool, &role);
-        } else if matches!(function, Function::Any | Function::All) {
-            self.error(
-                Code::E0305,
-                domain.span,
-                format!("`{}` says nothing of its members", reference.name.name),
-            )
-            .label("a condition is missing after this: `: condition`");
-            self.context.scope.pop();
-            return None;
+        if body.is_none() && matches!(function, Function::Any | Function::All) {
+            return self
+                .error(
+                    Code::E0305,
+                    domain.span,
+                    format!("`{}` says nothing of its members", reference.name.name),
+                )
+                .label("a condition is missing after this: `: condition`")
+                .none();
         }
-        self.context.scope.pop();
-        self.not_yet(reference.name.span, "`any`, `all`, `count` and `nearest`");
         let ty = match function {
             Function::Count => Type::NUMBER,
-            Function::Nearest => ty,
+            Function::Nearest => of.clone(),
             _ => Type::Bool,
         };
-        Some(Typed::unknown(ty, span))
+        let role = format!("what `{}` says of each", reference.name.name);
+        // Once for itself, so that a mistake is told once.
+        let unknown = Binding::unknown(name, of.clone());
+        let (_, found) = self.captured(|checker| checker.says(unknown, body.as_ref(), &role));
+        let wrong = found.iter().any(Diagnostic::is_error);
+        self.diagnostics.extend(found);
+        if wrong {
+            return Some(Typed::unknown(ty, span));
+        }
+        let bound = |member: &Value| vec![Binding::new(name, of.clone(), member.clone())];
+        let bindings = members.iter().map(bound).collect();
+        let says = self.for_each_member(bindings, |checker, _| match body {
+            Some(body) => checker.expect(body, &Type::Bool, &role).scalar(),
+            None => Some(checker.program.pool.bool(true)),
+        });
+        let Some(says) = says.into_iter().collect::<Option<Vec<ExprId>>>() else {
+            return Some(Typed::unknown(ty, span));
+        };
+        let pool = &mut self.program.pool;
+        let value = match function {
+            Function::Any => {
+                let no = pool.bool(false);
+                let any = says
+                    .into_iter()
+                    .rev()
+                    .fold(no, |any, one| pool.or(one, any));
+                Some(Value::Scalar(any))
+            }
+            Function::All => {
+                let yes = pool.bool(true);
+                let all = says
+                    .into_iter()
+                    .rev()
+                    .fold(yes, |all, one| pool.and(one, all));
+                Some(Value::Scalar(all))
+            }
+            Function::Count => {
+                let (zero, one) = (pool.num(0.0), pool.num(1.0));
+                let sum = says.into_iter().fold(zero, |sum, says| {
+                    let counts = pool.select(says, one, zero);
+                    match pool.constant(sum) {
+                        Some(0.0) => counts,
+                        _ => pool.binary(Binary::Add, sum, counts),
+                    }
+                });
+                Some(Value::Scalar(sum))
+            }
+            _ => self.nearest(&members, &says),
+        };
+        Some(Typed::new(ty, value, span))
+    }
+
+    /// What is said of a member, checked with the member bound.
+    fn says(&mut self, member: Binding<'a>, body: Option<&'a Expr>, role: &str) {
+        self.context.scope.push(member);
+        if let Some(body) = body {
+            self.expect(body, &Type::Bool, role);
+        }
+        self.context.scope.pop();
+    }
+
+    /// The nearest of the members for which something holds; `nowhere` if it holds for none.
+    fn nearest(&mut self, members: &[Value], says: &[ExprId]) -> Option<Value> {
+        let far = self.program.pool.num(f64::INFINITY);
+        let (mut nearest, mut least) = (Value::Nowhere, far);
+        for (member, &says) in members.iter().zip(says) {
+            let distance = self.echo(member, Echo::Distance)?;
+            let pool = &mut self.program.pool;
+            let distance = pool.select(says, distance, far);
+            let closer = match least == far {
+                true => says,
+                false => pool.binary(Binary::Lt, distance, least),
+            };
+            least = pool.select(closer, distance, least);
+            nearest = self.either(closer, member, &nearest)?;
+        }
+        Some(nearest)
     }
 }

@@ -4,14 +4,19 @@ use crate::check::Checker;
 use crate::check::builtin::Function;
 use crate::check::types::{Type, Typed, Value};
 use crate::diagnostic::Code;
-use crate::geometry::Shape;
+use crate::geometry::{Point, Segment, Shape};
+use crate::ir::Pool;
 use crate::ir::expr::{Binary, Echo, Expr, ExprId, Pose, Unary};
-use crate::syntax::ast::Ref;
+use crate::source::Span;
+use crate::syntax::ast::{self, Ref};
 
 impl<'a> Checker<'a> {
     /// `distance(t)`, `bearing(t)`, `direction(t)`, `visible(t)`, `inside(p)`, `facing(p)`.
     pub fn reading(&mut self, function: Function, reference: &'a Ref) -> Option<Typed> {
         let span = reference.span;
+        if function == Function::Inside {
+            return self.inside_place(reference);
+        }
         let most = if function == Function::Distance { 2 } else { 1 };
         let values = self.positional(reference, 1, most)?;
         if !self.has_world {
@@ -21,27 +26,7 @@ impl<'a> Checker<'a> {
         }
         let mut targets = Vec::new();
         for value in values {
-            let target = self.expr(value);
-            if target.ty == Type::Error {
-                return None;
-            }
-            let of_place = matches!(function, Function::Inside | Function::Facing);
-            if !target.ty.is_target() || (of_place && !matches!(target.ty, Type::Place(_))) {
-                let wanted = if of_place {
-                    "a place"
-                } else {
-                    "a place, a wall, a point or a sensor"
-                };
-                return self
-                    .error(
-                        Code::E0302,
-                        target.span,
-                        format!("`{}` is read of {wanted}", reference.name.name),
-                    )
-                    .this_is(&target.ty)
-                    .none();
-            }
-            targets.push(target);
+            targets.push(self.target(function, reference, value)?);
         }
         let ty = match function {
             Function::Distance => Type::LENGTH,
@@ -56,44 +41,159 @@ impl<'a> Checker<'a> {
         Some(Typed::new(ty, id, span))
     }
 
+    /// An argument of a reading, if it can be read so.
+    fn target(
+        &mut self,
+        function: Function,
+        reference: &'a Ref,
+        value: &'a ast::Expr,
+    ) -> Option<Typed> {
+        let target = self.expr(value);
+        if target.ty == Type::Error {
+            return None;
+        }
+        let of_place = matches!(function, Function::Inside | Function::Facing);
+        let is_place = matches!(target.ty, Type::Place(_) | Type::Nowhere | Type::Target)
+            && matches!(
+                target.value,
+                Value::Place(_) | Value::Chosen(..) | Value::Nowhere | Value::Unknown
+            );
+        if !target.ty.is_target() || (of_place && !is_place) {
+            let wanted = if of_place {
+                "a place"
+            } else {
+                "a place, a wall, a robot, a point or a sensor"
+            };
+            return self
+                .error(
+                    Code::E0302,
+                    target.span,
+                    format!("`{}` is read of {wanted}", reference.name.name),
+                )
+                .this_is(&target.ty)
+                .none();
+        }
+        Some(target)
+    }
+
+    /// `inside(place)`, `inside(place, by = robot)`
+    fn inside_place(&mut self, reference: &'a Ref) -> Option<Typed> {
+        let (value, by) = self.one_by(reference)?;
+        if !self.has_world {
+            let what = format!("`{}`", reference.name.name);
+            let label = "read by a robot in its world";
+            return self.no_world(reference.name.span, &what, label).none();
+        }
+        let target = self.target(Function::Inside, reference, value)?;
+        let robot = Value::Robot(by.unwrap_or(self.subject));
+        let own = by.is_none_or(|by| by == self.subject);
+        let inside = self.of_each(&target.value, &mut |checker, place| {
+            if own {
+                return checker.inside(place);
+            }
+            let Value::Place(id) = place else {
+                return Some(checker.program.pool.bool(false));
+            };
+            let point = checker.point_of(&robot)?;
+            let shape = checker.program.world.as_ref()?.places[*id].shape.clone();
+            checker.contains(&shape, point)
+        });
+        Some(Typed::new(Type::Bool, inside, reference.span))
+    }
+
+    /// Whether a shape holds a point: for a polygon, by the number of edges that a ray to the right of it meets.
+    fn contains(&mut self, shape: &Shape, (x, y): (ExprId, ExprId)) -> Option<ExprId> {
+        let pool = &mut self.program.pool;
+        Some(match shape {
+            Shape::Disc { center, radius } => {
+                let (cx, cy) = (pool.num(center[0]), pool.num(center[1]));
+                let dx = pool.binary(Binary::Sub, cx, x);
+                let dy = pool.binary(Binary::Sub, cy, y);
+                let distance = pool.binary(Binary::Hypot, dx, dy);
+                let radius = pool.num(*radius);
+                pool.binary(Binary::Le, distance, radius)
+            }
+            Shape::Rect { min, max } => {
+                let mut inside = pool.bool(true);
+                for (low, at, high) in [(min[0], x, max[0]), (min[1], y, max[1])] {
+                    let (low, high) = (pool.num(low), pool.num(high));
+                    let above = pool.binary(Binary::Le, low, at);
+                    let below = pool.binary(Binary::Le, at, high);
+                    let within = pool.and(above, below);
+                    inside = pool.and(inside, within);
+                }
+                inside
+            }
+            Shape::Polygon(_) => {
+                let mut odd = pool.bool(false);
+                for edge in shape.outline() {
+                    let ([ax, ay], [ux, uy]) = (edge.start, edge.along);
+                    let (start, end) = (pool.num(ay), pool.num(ay + uy));
+                    let over_start = pool.binary(Binary::Lt, y, start);
+                    let over_end = pool.binary(Binary::Lt, y, end);
+                    let spans = pool.binary(Binary::Ne, over_start, over_end);
+                    let (ax, slope) = (pool.num(ax), pool.num(ux / uy));
+                    let rise = pool.binary(Binary::Sub, y, start);
+                    let run = pool.binary(Binary::Mul, rise, slope);
+                    let meets = pool.binary(Binary::Add, ax, run);
+                    let right = pool.binary(Binary::Lt, x, meets);
+                    let crossed = pool.and(spans, right);
+                    odd = pool.binary(Binary::Ne, odd, crossed);
+                }
+                odd
+            }
+            Shape::Polyline(_) => pool.bool(false),
+        })
+    }
+
     fn read_one(&mut self, function: Function, target: &Typed) -> Option<ExprId> {
-        if matches!(target.value, Value::Robot) {
-            return self.not_yet(target.span, "readings of robots").none();
-        }
-        let wall = matches!(target.value, Value::Wall(_) | Value::NearestWall);
-        if function == Function::Visible && wall {
-            let what = "readings of walls in sight";
-            return self.not_yet(target.span, what).none();
-        }
-        match function {
-            Function::Distance => self.echo(target, Echo::Distance),
-            Function::Direction => self.echo(target, Echo::Direction),
+        let span = target.span;
+        self.of_each(&target.value, &mut |checker, target| match function {
+            Function::Distance => checker.echo(target, Echo::Distance),
+            Function::Direction => checker.echo(target, Echo::Direction),
             Function::Bearing => {
-                let direction = self.echo(target, Echo::Direction)?;
-                let pool = &mut self.program.pool;
+                if *target == Value::Nowhere {
+                    return Some(checker.program.pool.num(0.0));
+                }
+                let direction = checker.echo(target, Echo::Direction)?;
+                let pool = &mut checker.program.pool;
                 let heading = pool.leaf(Expr::Pose(Pose::Heading));
                 let bearing = pool.binary(Binary::Sub, direction, heading);
                 Some(pool.unary(Unary::Wrap, bearing))
             }
-            Function::Visible => match target.value {
-                Value::Sensor(id) => Some(self.program.pool.leaf(Expr::Sensor(id, Echo::Seen))),
-                _ => {
-                    let (x, y) = self.point_of(target)?;
-                    Some(self.program.pool.leaf(Expr::Visible(x, y)))
-                }
-            },
-            Function::Inside => self.inside(target),
-            _ => self.facing(target),
-        }
+            Function::Visible => checker.seen(target),
+            Function::Inside => checker.inside(target),
+            _ => checker.facing(target, span),
+        })
     }
 
-    /// Distance or direction from the robot's centre.
-    fn echo(&mut self, target: &Typed, echo: Echo) -> Option<ExprId> {
-        match target.value {
-            Value::Wall(id) => return Some(self.program.pool.leaf(Expr::Wall(id, echo))),
-            Value::NearestWall => return Some(self.program.pool.leaf(Expr::NearestWall(echo))),
-            Value::Sensor(id) => return Some(self.program.pool.leaf(Expr::Sensor(id, echo))),
-            _ => {}
+    /// Whether nothing is in between.
+    fn seen(&mut self, target: &Value) -> Option<ExprId> {
+        let seen = match target {
+            Value::Sensor(id) => Expr::Sensor(*id, Echo::Seen),
+            Value::Wall(id) => Expr::Wall(*id, Echo::Seen),
+            Value::NearestWall => Expr::Bool(true),
+            Value::Nowhere => Expr::Bool(false),
+            _ => {
+                let (x, y) = self.point_of(target)?;
+                Expr::Visible(x, y)
+            }
+        };
+        Some(self.program.pool.leaf(seen))
+    }
+
+    /// Distance or direction from the robot's centre. What is nowhere is infinitely far, straight ahead.
+    pub fn echo(&mut self, target: &Value, echo: Echo) -> Option<ExprId> {
+        let leaf = match (target, echo) {
+            (Value::Wall(id), _) => Some(Expr::Wall(*id, echo)),
+            (Value::NearestWall, _) => Some(Expr::NearestWall(echo)),
+            (Value::Sensor(id), _) => Some(Expr::Sensor(*id, echo)),
+            (Value::Nowhere, Echo::Distance) => Some(Expr::Num(f64::INFINITY)),
+            (Value::Nowhere, _) => Some(Expr::Pose(Pose::Heading)),
+            _ => None,
+        };
+        if let Some(leaf) = leaf {
+            return Some(self.program.pool.leaf(leaf));
         }
         let (dx, dy) = self.offset(target)?;
         let pool = &mut self.program.pool;
@@ -104,7 +204,7 @@ impl<'a> Checker<'a> {
     }
 
     /// The vector from the robot's centre to a place or a point.
-    fn offset(&mut self, target: &Typed) -> Option<(ExprId, ExprId)> {
+    fn offset(&mut self, target: &Value) -> Option<(ExprId, ExprId)> {
         let (x, y) = self.point_of(target)?;
         let pool = &mut self.program.pool;
         let here = (
@@ -118,34 +218,154 @@ impl<'a> Checker<'a> {
     }
 
     /// The point that a place or a point is measured to.
-    fn point_of(&mut self, target: &Typed) -> Option<(ExprId, ExprId)> {
-        match target.value {
-            Value::Point(x, y) => Some((x, y)),
+    pub fn point_of(&mut self, target: &Value) -> Option<(ExprId, ExprId)> {
+        match target {
+            Value::Point(x, y) => Some((*x, *y)),
             Value::Place(id) => {
-                let [x, y] = self.program.world.as_ref()?.places[id].shape.center();
+                let [x, y] = self.program.world.as_ref()?.places[*id].shape.center();
                 Some((self.program.pool.num(x), self.program.pool.num(y)))
+            }
+            Value::Robot(id) => {
+                let (x, y) = match *id == self.subject {
+                    true => (Expr::Pose(Pose::X), Expr::Pose(Pose::Y)),
+                    false => (Expr::Robot(*id, Pose::X), Expr::Robot(*id, Pose::Y)),
+                };
+                Some((self.program.pool.leaf(x), self.program.pool.leaf(y)))
             }
             _ => None,
         }
     }
 
-    fn distance_between(&mut self, from: &Typed, to: &Typed) -> Option<ExprId> {
-        for end in [from, to] {
-            if !matches!(end.ty, Type::Place(_) | Type::Point) {
-                let what = "distances between walls, robots and sensors";
-                return self.not_yet(end.span, what).none();
-            }
+    /// `pose(robot)`: where a robot is.
+    pub fn position_of(&mut self, reference: &'a Ref) -> Option<Typed> {
+        let &[value] = self.positional(reference, 1, 1)?.as_slice() else {
+            return None;
+        };
+        let robot = self.expect(value, &Type::Robot, "`pose` is read of a robot: it");
+        if robot.value == Value::Unknown {
+            return Some(Typed::unknown(Type::Point, reference.span));
         }
-        let ((ax, ay), (bx, by)) = (self.point_of(from)?, self.point_of(to)?);
-        let pool = &mut self.program.pool;
-        let dx = pool.binary(Binary::Sub, bx, ax);
-        let dy = pool.binary(Binary::Sub, by, ay);
-        Some(pool.binary(Binary::Hypot, dx, dy))
+        let coordinate = |checker: &mut Self, of: fn((ExprId, ExprId)) -> ExprId| {
+            checker.of_each(&robot.value, &mut |checker, robot| {
+                if *robot == Value::Nowhere {
+                    return Some(checker.program.pool.num(f64::INFINITY));
+                }
+                checker.point_of(robot).map(of)
+            })
+        };
+        let x = coordinate(self, |(x, _)| x)?;
+        let y = coordinate(self, |(_, y)| y)?;
+        Some(Typed::new(Type::Point, Value::Point(x, y), reference.span))
     }
 
-    fn inside(&mut self, target: &Typed) -> Option<ExprId> {
-        let Value::Place(id) = target.value else {
-            return None;
+    /// `distance(a, b)`: a wall is measured to its nearest point, everything else to its centre.
+    fn distance_between(&mut self, from: &Typed, to: &Typed) -> Option<ExprId> {
+        for end in [from, to] {
+            let read_by_the_robot =
+                end.ty == Type::Sensor || matches!(end.value, Value::NearestWall);
+            if read_by_the_robot {
+                return self
+                    .error(
+                        Code::E0302,
+                        end.span,
+                        "distances are between places, points and walls that have a name",
+                    )
+                    .label("this is known from where the robot stands only")
+                    .none();
+            }
+        }
+        self.of_each(&from.value, &mut |checker, from| {
+            checker.of_each(&to.value, &mut |checker, to| checker.distance_of(from, to))
+        })
+    }
+
+    fn distance_of(&mut self, from: &Value, to: &Value) -> Option<ExprId> {
+        match (from, to) {
+            (Value::Nowhere | Value::NearestWall, _) | (_, Value::Nowhere | Value::NearestWall) => {
+                Some(self.program.pool.num(f64::INFINITY))
+            }
+            (Value::Wall(a), Value::Wall(b)) => {
+                let walls = &self.program.world.as_ref()?.walls;
+                let gap = gap(&walls[*a].shape, &walls[*b].shape);
+                Some(self.program.pool.num(gap))
+            }
+            (Value::Wall(wall), point) | (point, Value::Wall(wall)) => {
+                let point = self.point_of(point)?;
+                let shape = self.program.world.as_ref()?.walls[*wall].shape.clone();
+                self.distance_to_shape(point, &shape)
+            }
+            _ => {
+                let ((ax, ay), (bx, by)) = (self.point_of(from)?, self.point_of(to)?);
+                let pool = &mut self.program.pool;
+                let dx = pool.binary(Binary::Sub, bx, ax);
+                let dy = pool.binary(Binary::Sub, by, ay);
+                Some(pool.binary(Binary::Hypot, dx, dy))
+            }
+        }
+    }
+
+    /// The distance of a point to the nearest point of a shape's outline.
+    fn distance_to_shape(&mut self, (x, y): (ExprId, ExprId), shape: &Shape) -> Option<ExprId> {
+        let pool = &mut self.program.pool;
+        let mut least = None;
+        let mut offer = |pool: &mut Pool, distance| {
+            least = Some(match least {
+                Some(least) => pool.binary(Binary::Min, least, distance),
+                None => distance,
+            });
+        };
+        for segment in shape.outline() {
+            let ([ax, ay], [bx, by]) = (segment.start, segment.end());
+            let (ux, uy) = (bx - ax, by - ay);
+            // The nearest point is a share of the way from the start to the end.
+            let (sx, sy) = (pool.num(ax), pool.num(ay));
+            let (dx, dy) = (
+                pool.binary(Binary::Sub, x, sx),
+                pool.binary(Binary::Sub, y, sy),
+            );
+            let length = ux * ux + uy * uy;
+            let (px, py) = (pool.num(ux / length), pool.num(uy / length));
+            let (px, py) = (
+                pool.binary(Binary::Mul, dx, px),
+                pool.binary(Binary::Mul, dy, py),
+            );
+            let share = pool.binary(Binary::Add, px, py);
+            let (zero, one) = (pool.num(0.0), pool.num(1.0));
+            let share = pool.binary(Binary::Max, share, zero);
+            let share = pool.binary(Binary::Min, share, one);
+            let (ux, uy) = (pool.num(ux), pool.num(uy));
+            let (gx, gy) = (
+                pool.binary(Binary::Mul, share, ux),
+                pool.binary(Binary::Mul, share, uy),
+            );
+            let (gx, gy) = (
+                pool.binary(Binary::Sub, dx, gx),
+                pool.binary(Binary::Sub, dy, gy),
+            );
+            let distance = pool.binary(Binary::Hypot, gx, gy);
+            offer(pool, distance);
+        }
+        if let Some(circle) = shape.rim() {
+            let [cx, cy] = circle.center;
+            let (cx, cy) = (pool.num(cx), pool.num(cy));
+            let (dx, dy) = (
+                pool.binary(Binary::Sub, x, cx),
+                pool.binary(Binary::Sub, y, cy),
+            );
+            let centre = pool.binary(Binary::Hypot, dx, dy);
+            let radius = pool.num(circle.radius);
+            let distance = pool.binary(Binary::Sub, centre, radius);
+            let distance = pool.unary(Unary::Abs, distance);
+            offer(pool, distance);
+        }
+        least
+    }
+
+    fn inside(&mut self, target: &Value) -> Option<ExprId> {
+        let id = match target {
+            Value::Place(id) => *id,
+            Value::Nowhere => return Some(self.program.pool.bool(false)),
+            _ => return None,
         };
         let shape = self.program.world.as_ref()?.places[id].shape.clone();
         match shape {
@@ -179,9 +399,11 @@ impl<'a> Checker<'a> {
         }
     }
 
-    fn facing(&mut self, target: &Typed) -> Option<ExprId> {
-        let Value::Place(id) = target.value else {
-            return None;
+    fn facing(&mut self, target: &Value, span: Span) -> Option<ExprId> {
+        let id = match target {
+            Value::Place(id) => *id,
+            Value::Nowhere => return Some(self.program.pool.leaf(Expr::Pose(Pose::Heading))),
+            _ => return None,
         };
         let place = &self.program.world.as_ref()?.places[id];
         let (name, facing) = (place.name.clone(), place.facing);
@@ -190,7 +412,7 @@ impl<'a> Checker<'a> {
             None => self
                 .error(
                     Code::E0405,
-                    target.span,
+                    span,
                     format!("the place `{name}` faces nowhere"),
                 )
                 .label("it has no `facing`")
@@ -198,4 +420,39 @@ impl<'a> Checker<'a> {
                 .none(),
         }
     }
+}
+
+/// The distance between the outlines of two shapes; 0 where they meet.
+fn gap(a: &Shape, b: &Shape) -> f64 {
+    let (first, second) = (a.outline(), b.outline());
+    let crossing = |s: &Segment, t: &Segment| s.meets(t.start, t.end());
+    if first.iter().any(|s| second.iter().any(|t| crossing(s, t))) {
+        return 0.0;
+    }
+    let length = |[x, y]: Point| crate::math::hypot(x, y);
+    let mut least = f64::INFINITY;
+    for (one, other) in [(a, b), (b, a)] {
+        let ends = one.outline().into_iter().flat_map(|s| [s.start, s.end()]);
+        for end in ends {
+            for segment in other.outline() {
+                least = least.min(length(segment.nearest(end)));
+            }
+            if let Some(rim) = other.rim() {
+                least = least.min(length(rim.nearest(end)));
+            }
+        }
+        if let Some(rim) = one.rim() {
+            for segment in other.outline() {
+                least = least.min((length(segment.nearest(rim.center)) - rim.radius).max(0.0));
+            }
+            if let Some(other) = other.rim() {
+                let centres = length([
+                    other.center[0] - rim.center[0],
+                    other.center[1] - rim.center[1],
+                ]);
+                least = least.min((centres - rim.radius - other.radius).max(0.0));
+            }
+        }
+    }
+    least
 }

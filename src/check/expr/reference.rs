@@ -5,8 +5,9 @@ use crate::check::builtin;
 use crate::check::names::Decl;
 use crate::check::types::{Type, Typed, Value};
 use crate::diagnostic::{Code, suggest};
-use crate::ir::Name;
 use crate::ir::expr::Expr;
+use crate::ir::world::{Robot, World};
+use crate::ir::{Id, Name};
 use crate::source::Span;
 use crate::syntax::ast::Ref;
 
@@ -24,13 +25,39 @@ impl<'a> Checker<'a> {
                 return self.built_in_value(value, span);
             }
         }
-        if let Some(called) = builtin::BuiltIn::named(name) {
+        let own = self.names.value(name, self.context.library).is_some();
+        if let Some(called) = builtin::BuiltIn::named(name)
+            && !(own && called.gives_way())
+        {
             return self.built_in_call(called, reference);
+        }
+        if reference.args.is_none()
+            && let Some(sensor) = self.sensor_of_subject(name)
+        {
+            return Some(Typed::new(Type::Sensor, sensor, span));
         }
         match self.names.value(name, self.context.library) {
             Some((decl, library)) => self.declared_reference(decl, library, reference),
             None => self.unknown_reference(reference),
         }
+    }
+
+    /// The sensor of that name of the robot at hand, where that is not the acting one. In a body that is checked for itself
+    /// it may be any robot's.
+    fn sensor_of_subject(&self, name: &str) -> Option<Value> {
+        let world = self.program.world.as_ref()?;
+        let of = |robot: &Robot| robot.sensors.find(|sensor| sensor.name.is(name));
+        if self.subject != World::acting() {
+            return of(world.robot_of(self.subject)).map(Value::Sensor);
+        }
+        let unread = self.names.value(name, self.context.library).is_none();
+        let unknown = unread && self.bodies.for_itself;
+        let known = unknown
+            && world
+                .others
+                .values()
+                .any(|other| of(&other.robot).is_some());
+        known.then_some(Value::Unknown)
     }
 
     fn unknown_reference(&mut self, reference: &Ref) -> Option<Typed> {
@@ -102,11 +129,29 @@ impl<'a> Checker<'a> {
                 (Type::Wall(kind), id.map(Value::Wall))
             }
             Decl::Sensor(_) => {
+                let acting = self.subject == World::acting() || self.bodies.for_itself;
+                if !acting {
+                    let robot = self.subject_robot().map(|robot| robot.name.clone());
+                    let robot = robot.unwrap_or_default();
+                    let sensor = &reference.name.name;
+                    return self
+                        .error(
+                            Code::E0406,
+                            span,
+                            format!("the robot `{robot}` has no sensor `{sensor}`"),
+                        )
+                        .label("read here")
+                        .none();
+                }
                 let sensors = world.map(|world| &world.robot.sensors);
                 let id = sensors.and_then(|all| all.find(|sensor| sensor.name == name));
                 (Type::Sensor, id.map(Value::Sensor))
             }
-            Decl::Robot(_) => (Type::Robot, Some(Value::Robot)),
+            Decl::Robot(_) => {
+                let mut robots = world.into_iter().flat_map(World::robots);
+                let at = robots.position(|robot| robot.name == name);
+                (Type::Robot, at.map(|at| Value::Robot(Id::new(at))))
+            }
             _ => {
                 return self
                     .error(

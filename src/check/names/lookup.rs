@@ -11,7 +11,20 @@ use crate::ir::{Id, Name};
 use crate::syntax::ast::{Expr, ExprKind, Ident, Ref};
 
 /// The behaviours of the library.
-const LIBRARY: [&str; 5] = ["goto", "dock", "follow_wall", "wander", "idle"];
+const LIBRARY: [&str; 12] = [
+    "goto",
+    "approach",
+    "chase",
+    "follow",
+    "flee",
+    "patrol",
+    "turn_to",
+    "dock",
+    "follow_wall",
+    "wander",
+    "idle",
+    "wait",
+];
 
 impl<'a> Checker<'a> {
     /// What a reference of the user names, if `is` accepts it, with whether it is of the library; anything else is

@@ -4,7 +4,7 @@ use crate::check::Checker;
 use crate::check::context::{Context, Region};
 use crate::check::names::learned_name;
 use crate::check::types::Type;
-use crate::diagnostic::Code;
+use crate::diagnostic::{Applicability, Code};
 use crate::ir::expr::{Binary, Expr, ExprId};
 use crate::ir::law::Behavior;
 use crate::ir::task::{Discount, Learner, Method, Objective};
@@ -342,9 +342,26 @@ impl<'a> Checker<'a> {
                 .out_of_range(value.span, "a discount goes from 0 to 1", label)
                 .none();
         }
-        let Some(tail) = tail.filter(|tail| !is_decision(tail)) else {
-            return Some(Discount::PerDecision(factor));
+        let Some(tail) = tail else {
+            return self
+                .error(
+                    Code::E0501,
+                    value.span,
+                    "a discount says what it is counted by",
+                )
+                .label("by decisions, or by time?")
+                .fix(
+                    "count it by decisions",
+                    value.span.after(),
+                    " per decision",
+                    Applicability::Unsafe,
+                )
+                .help("or by time: `per 1 s`")
+                .none();
         };
+        if is_decision(tail) {
+            return Some(Discount::PerDecision(factor));
+        }
         let seconds = self.constant(tail, &Type::TIME, "the time of a discount")?;
         if seconds > 0.0 {
             return Some(Discount::PerTime(factor, seconds));

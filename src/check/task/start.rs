@@ -5,7 +5,8 @@ use crate::check::context::{Context, Region};
 use crate::check::names::{Decl, START_WORDS};
 use crate::check::types::{Type, Value};
 use crate::diagnostic::{Code, suggest};
-use crate::ir::task::{History, StartLine};
+use crate::ir::expr::ExprId;
+use crate::ir::task::{History, Placing, StartLine};
 use crate::syntax::ast;
 
 impl<'a> Checker<'a> {
@@ -14,23 +15,33 @@ impl<'a> Checker<'a> {
         self.context = Context::new(Region::Start);
         self.kept = history;
         let mut lines: Vec<StartLine> = Vec::new();
-        let mut set: Vec<&ast::Ident> = Vec::new();
+        let mut set: Vec<(&ast::Ident, Option<StartLine>)> = Vec::new();
         for line in &start.lines {
-            let built = self.start_line(line);
             let name = &line.target.name;
-            match set.iter().find(|first| first.name == name.name) {
-                Some(first) => self
-                    .error(
+            let scopes = self.ranges(&line.target).unwrap_or_default();
+            let built = self.for_each_member(scopes, |checker, _| checker.start_line(line));
+            let built: Vec<StartLine> = built.into_iter().flatten().flatten().collect();
+            let first = set
+                .iter()
+                .find(|(first, known)| match (known, built.first()) {
+                    (Some(known), Some(_)) => built.iter().any(|new| known.replaced_by(new)),
+                    _ => first.name == name.name && line.target.args.is_none(),
+                });
+            match first {
+                Some((first, _)) => {
+                    let first = first.span;
+                    self.error(
                         Code::E0503,
                         name.span,
                         format!("`{}` is set twice", name.name),
                     )
                     .label("this line would undo the first")
-                    .also(first.span, "first set here")
-                    .emit(),
-                None => set.push(name),
+                    .also(first, "first set here");
+                }
+                None if built.is_empty() => set.push((name, None)),
+                None => set.extend(built.iter().map(|line| (name, Some(line.clone())))),
             }
-            lines.extend(built.into_iter().flatten());
+            lines.extend(built);
         }
         self.kept = None;
         lines
@@ -39,15 +50,19 @@ impl<'a> Checker<'a> {
     fn start_line(&mut self, line: &'a ast::StartLine) -> Option<Vec<StartLine>> {
         self.context.region = Region::Start;
         let value = &line.value;
-        match line.target.name.name.as_str() {
+        let word = line.target.name.name.as_str();
+        if matches!(word, "pose" | "position" | "heading") && line.target.args.is_some() {
+            return self.other_line(line);
+        }
+        match word {
             "pose" => {
-                let value = self.expr(value);
-                if !value.ty.fits(&Type::Anywhere) {
-                    self.error(Code::E0302, value.span, "`pose` is `anywhere`")
-                        .this_is(&value.ty)
-                        .help("a pose of your own: `position = (1 m, 2 m)`, `heading = 90 deg`");
-                }
-                Some(vec![StartLine::Anywhere])
+                let placings = self.pose(value)?;
+                let own = |placing| match placing {
+                    Placing::Anywhere => StartLine::Anywhere,
+                    Placing::Position(x, y) => StartLine::Position(x, y),
+                    Placing::Heading(angle) => StartLine::Heading(angle),
+                };
+                Some(placings.into_iter().map(own).collect())
             }
             "position" => match self.expect(value, &Type::Point, "`position`").value {
                 Value::Point(x, y) => Some(vec![StartLine::Position(x, y)]),
@@ -77,6 +92,80 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// `pose(robot) = …` and its like.
+    fn other_line(&mut self, line: &'a ast::StartLine) -> Option<Vec<StartLine>> {
+        let target = &line.target;
+        let &[whose] = self.positional(target, 1, 1)?.as_slice() else {
+            return None;
+        };
+        let robot = self.expect(whose, &Type::Robot, "what stands there");
+        let value = &line.value;
+        let word = target.name.name.as_str();
+        let placings = match word {
+            "pose" => self.pose(value)?,
+            "position" => match self.expect(value, &Type::Point, "`position`").value {
+                Value::Point(x, y) => vec![Placing::Position(x, y)],
+                _ => return None,
+            },
+            _ => {
+                let angle = self.expect(value, &Type::ANGLE, "`heading`");
+                vec![Placing::Heading(angle.scalar()?)]
+            }
+        };
+        let Value::Robot(id) = robot.value else {
+            return None;
+        };
+        let line = |placing| match (id == self.subject, placing) {
+            (false, placing) => StartLine::Other(id, placing),
+            (true, Placing::Anywhere) => StartLine::Anywhere,
+            (true, Placing::Position(x, y)) => StartLine::Position(x, y),
+            (true, Placing::Heading(angle)) => StartLine::Heading(angle),
+        };
+        Some(placings.into_iter().map(line).collect())
+    }
+
+    /// What a `pose` is set to: `anywhere`, a point, or a place, whose centre and `facing` it is then.
+    fn pose(&mut self, value: &'a ast::Expr) -> Option<Vec<Placing>> {
+        let value = self.expr(value);
+        match (&value.ty, &value.value) {
+            (_, Value::Anywhere) => Some(vec![Placing::Anywhere]),
+            (_, Value::Point(x, y)) => Some(vec![Placing::Position(*x, *y)]),
+            (_, Value::Place(id)) => {
+                let (x, y) = self.point_of(&value.value)?;
+                let facing = self.program.world.as_ref()?.places[*id].facing;
+                let heading = facing.map(|angle| self.program.pool.num(angle));
+                let heading = heading.map(Placing::Heading);
+                Some(
+                    [Placing::Position(x, y)]
+                        .into_iter()
+                        .chain(heading)
+                        .collect(),
+                )
+            }
+            (Type::Place(_), Value::Chosen(..)) => {
+                let coordinate = |checker: &mut Self, of: fn((ExprId, ExprId)) -> ExprId| {
+                    checker.of_each(&value.value, &mut |checker, place| match place {
+                        Value::Place(_) => checker.point_of(place).map(of),
+                        _ => Some(checker.program.pool.num(f64::INFINITY)),
+                    })
+                };
+                let x = coordinate(self, |(x, _)| x)?;
+                let y = coordinate(self, |(_, y)| y)?;
+                Some(vec![Placing::Position(x, y)])
+            }
+            (Type::Error, _) => None,
+            (ty, _) => self
+                .error(
+                    Code::E0302,
+                    value.span,
+                    "`pose` is `anywhere`, a point or a place",
+                )
+                .this_is(ty)
+                .help("a pose of your own: `position = (1 m, 2 m)`, `heading = 90 deg`")
+                .none(),
+        }
+    }
+
     fn state_line(&mut self, line: &'a ast::StartLine) -> Option<Vec<StartLine>> {
         let name = line.target.name.name.as_str();
         let state = match self.names.value(name, false) {
@@ -97,17 +186,26 @@ impl<'a> Checker<'a> {
                 return self.undeclared(&line.target.name, "state", likely).none();
             }
         };
-        let ty = self.state_value(state, &line.target)?.ty;
+        let (ty, variables) = self.state_variables(state, &line.target)?;
         let value = self.expect(&line.value, &ty, &format!("`{name}`"));
-        let parts = value.value.parts();
+        let parts = self.held_parts(&value.value);
         if parts.is_empty() {
             return None;
         }
-        let states = self.state_variables(name).into_iter();
+        let [(_, ids)] = variables.as_slice() else {
+            return self
+                .error(
+                    Code::E0303,
+                    line.target.span,
+                    format!("which `{name}` is set has to be a constant"),
+                )
+                .label("this is known only as the episode starts")
+                .none();
+        };
+        let ids = ids.iter();
         Some(
-            states
-                .zip(parts)
-                .map(|(id, part)| StartLine::State(id, part))
+            ids.zip(parts)
+                .map(|(id, part)| StartLine::State(*id, part))
                 .collect(),
         )
     }

@@ -126,7 +126,17 @@ impl<'a> Checker<'a> {
             Decl::Event(decl) => Some(decl),
             _ => None,
         })?;
-        self.events.get(decl.name.name.as_str()).copied()
+        let codes = match &decl.params {
+            Some(params) => {
+                let scope = self.bind_arguments(Some(params), false, reference)?;
+                self.member_codes(&scope)?
+            }
+            None if self.gives_arguments(reference, "an event") => return None,
+            None => Vec::new(),
+        };
+        let family = self.events.get(decl.name.name.as_str())?;
+        let member = family.iter().find(|member| member.codes == codes)?;
+        Some(member.is)
     }
 }
 

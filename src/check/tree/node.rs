@@ -197,7 +197,7 @@ impl<'a> Checker<'a> {
     }
 
     /// A behaviour, a subtree, or a condition.
-    fn leaf_node(&mut self, expr: &'a Expr) -> Option<Node> {
+    pub fn leaf_node(&mut self, expr: &'a Expr) -> Option<Node> {
         let condition = |checker: &mut Self| checker.guard(expr).map(Node::Condition);
         let Some(reference) = plain_ref(expr) else {
             return condition(self);

@@ -23,6 +23,7 @@ const BUILT_IN: &[(&str, Type)] = &[
     ("wall", Type::Wall(None)),
     ("robot", Type::Robot),
     ("sensor", Type::Sensor),
+    ("target", Type::Target),
 ];
 
 impl<'a> Checker<'a> {

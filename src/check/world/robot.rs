@@ -2,16 +2,17 @@
 
 use crate::check::Checker;
 use crate::check::builtin::Function;
-use crate::check::names::Decl;
+use crate::check::context::{Context, Region};
+use crate::check::expr::plain_ref;
 use crate::check::types::Type;
 use crate::diagnostic::Code;
-use crate::ir::Name;
 use crate::ir::table::Table;
-use crate::ir::world::{Contact, Drive, DriveKind, Robot};
+use crate::ir::world::{Contact, Drive, DriveKind, Robot, Scripted};
+use crate::ir::{Id, Name};
 use crate::syntax::ast::{self, Expr, ExprKind, Ref, RobotEntry, RobotEntryKind, WorldEntryKind};
 
 impl<'a> Checker<'a> {
-    /// The robot that learns; others are checked, and not built yet.
+    /// The robot that learns, and those that run trees of their own.
     pub fn robots(&mut self, world: &'a ast::World) {
         let mut acting: Option<&'a ast::Ident> = None;
         for entry in &world.entries {
@@ -23,13 +24,13 @@ impl<'a> Checker<'a> {
                 _ => None,
             });
             if let Some(runs) = runs {
-                let kept = self.program.world.as_ref().map(|world| world.robot.clone());
-                self.robot(name, entries);
-                if let (Some(world), Some(kept)) = (&mut self.program.world, kept) {
-                    world.robot = kept;
+                if let Some(robot) = self.robot(name, entries)
+                    && let Some(world) = &mut self.program.world
+                {
+                    let script = None;
+                    world.others.push(Scripted { robot, script });
+                    self.scripts.push((name, &runs.value));
                 }
-                self.runs(&runs.value);
-                self.not_yet(runs.name.span, "robots that run a tree of their own");
                 continue;
             }
             if let Some(first) = acting {
@@ -39,7 +40,11 @@ impl<'a> Checker<'a> {
                 continue;
             }
             acting = Some(name);
-            self.robot(name, entries);
+            if let Some(robot) = self.robot(name, entries)
+                && let Some(world) = &mut self.program.world
+            {
+                world.robot = robot;
+            }
         }
         if acting.is_none() {
             self.missing(
@@ -52,17 +57,30 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// `runs = tree`
-    fn runs(&mut self, value: &'a Expr) {
-        let ExprKind::Ref(reference) = &value.kind else {
-            self.not_named(value, "a tree", "tree NAME = …");
-            return;
-        };
-        let tree = |decl| matches!(decl, Decl::Tree(_)).then_some(());
-        self.declared_as(reference, "a tree", tree);
+    /// What the other robots run, once all trees are known.
+    pub fn scripts(&mut self) {
+        for (index, (name, runs)) in self.scripts.clone().into_iter().enumerate() {
+            let robot = Id::new(index + 1);
+            if plain_ref(runs).is_none() {
+                self.not_named(runs, "a tree", "tree NAME = …");
+                continue;
+            }
+            self.asked.clear();
+            self.context = Context::new(Region::Tree);
+            let script = self.as_robot(robot, |checker| checker.leaf_node(runs));
+            if let Some((span, _)) = self.asked.first().copied() {
+                let message = format!("the robot `{}` keeps no history", name.name);
+                self.error(Code::E0607, span, message)
+                    .label("this could never hold")
+                    .help("only the robot that learns keeps one");
+            }
+            if let Some(world) = &mut self.program.world {
+                world.others[Id::new(index)].script = script;
+            }
+        }
     }
 
-    fn robot(&mut self, name: &'a ast::Ident, entries: &'a [RobotEntry]) {
+    fn robot(&mut self, name: &'a ast::Ident, entries: &'a [RobotEntry]) -> Option<Robot> {
         let fields = entries.iter().filter_map(|entry| match &entry.kind {
             RobotEntryKind::Field(field) => Some(field),
             _ => None,
@@ -98,17 +116,14 @@ impl<'a> Checker<'a> {
                 _ => self.choice_of(&field.value, "`contact`", &["stop", "slide"]),
             }
         }
-        if let Some(world) = &mut self.program.world {
-            world.robot = robot;
-        }
         for entry in entries {
-            if let RobotEntryKind::Sensor { name, value } = &entry.kind {
-                let sensor = self.sensor(name, value);
-                if let (Some(sensor), Some(world)) = (sensor, &mut self.program.world) {
-                    world.robot.sensors.push(sensor);
-                }
+            if let RobotEntryKind::Sensor { name, value } = &entry.kind
+                && let Some(sensor) = self.sensor(name, value)
+            {
+                robot.sensors.push(sensor);
             }
         }
+        Some(robot)
     }
 
     /// `body = disc(radius)`

@@ -2,21 +2,23 @@
 
 use crate::driver::load::Loaded;
 use crate::driver::target;
-use crate::ir::task::{Learner, Task};
+use crate::ir::task::{Learner, Task, Written};
 use crate::source::Span;
 use crate::syntax::ast::{self, Aspect, AspectKind, ItemKind};
 
 /// The places of a learner and its task. What cannot be found stands at the task's name, or at the end of the file.
 pub(super) struct Places<'a> {
     task: Option<&'a ast::Task>,
+    written: &'a Written,
     /// The name of the learner's task, where the learner stands.
     pub learner: Span,
 }
 
 impl<'a> Places<'a> {
-    pub(super) fn of(loaded: &'a Loaded, learner: &Learner, task: &Task) -> Self {
+    pub(super) fn of(loaded: &'a Loaded, learner: &Learner, task: &'a Task) -> Self {
         let mut found = Self {
             task: None,
+            written: &task.written,
             learner: target::end_of_file(loaded),
         };
         for item in loaded.asts().flat_map(|file| &file.items) {
@@ -44,6 +46,7 @@ impl<'a> Places<'a> {
 
     /// A behaviour of `choose`, by its place there.
     pub(super) fn choice(&self, at: usize) -> Span {
+        let at = self.written.choose.get(at).copied().unwrap_or(at);
         self.find(|aspect| match &aspect.kind {
             AspectKind::Choose(choices) => choices.get(at).map(|choice| choice.span),
             _ => None,
@@ -52,8 +55,9 @@ impl<'a> Places<'a> {
 
     /// A line of `reward`, by its place there: its event.
     pub(super) fn reward(&self, at: usize) -> Span {
+        let at = self.written.reward.get(at).copied().unwrap_or(at);
         self.find(|aspect| match &aspect.kind {
-            AspectKind::Reward { lines, .. } => lines.get(at).map(|line| line.event.span),
+            AspectKind::Reward { lines, .. } => lines.get(at).map(|line| line.paid.span()),
             _ => None,
         })
     }
@@ -71,6 +75,7 @@ impl<'a> Places<'a> {
 
     /// A line of `end on`, by its place among them.
     pub(super) fn end(&self, at: usize) -> Span {
+        let at = self.written.end_on.get(at).copied().unwrap_or(at);
         let aspects = self.task.map(|task| task.aspects.as_slice());
         let ends = aspects.unwrap_or_default().iter();
         let mut ends = ends.filter_map(|aspect| match &aspect.kind {

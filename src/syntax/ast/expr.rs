@@ -27,6 +27,8 @@ pub enum ExprKind {
     Point(Box<Expr>, Box<Expr>),
     /// `(e)`
     Paren(Box<Expr>),
+    /// `e.x`, `e.y`
+    Coordinate(Box<Expr>, Axis),
     /// `-e`, `not e`
     Unary {
         /// The operator.
@@ -45,6 +47,15 @@ pub enum ExprKind {
     },
     /// Not understood, and reported.
     Error,
+}
+
+/// A coordinate of a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axis {
+    /// The first.
+    X,
+    /// The second.
+    Y,
 }
 
 /// A number with its unit, in its own spelling.
@@ -115,6 +126,8 @@ pub enum ArgKind {
         domain: Ident,
         /// What is said of each.
         body: Option<Expr>,
+        /// The name that binds, as an expression: what each call of a family is given.
+        member: Box<Expr>,
     },
 }
 

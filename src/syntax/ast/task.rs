@@ -45,7 +45,7 @@ pub enum AspectKind {
     EndAfter(Expr),
     /// `reward { … }`
     Reward {
-        /// `on event: value`
+        /// `on event: value`, `per time: value`
         lines: Vec<RewardLine>,
         /// `otherwise: value`
         otherwise: Option<Expr>,
@@ -83,15 +83,39 @@ pub struct StartLine {
     pub span: Span,
 }
 
-/// `on event: value`
+/// `on event: value`, `per time: value`, `while condition, per time: value`
 #[derive(Clone, Debug, PartialEq)]
 pub struct RewardLine {
-    /// The event.
-    pub event: Expr,
-    /// Its reward.
+    /// When it is paid.
+    pub paid: Paid,
+    /// How much is paid.
     pub value: Expr,
     /// The line.
     pub span: Span,
+}
+
+/// When a reward is paid.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Paid {
+    /// `on event`: as the event happens.
+    On(Expr),
+    /// `while condition, per time`: for the time that passes.
+    Per {
+        /// What has to hold meanwhile.
+        during: Option<Expr>,
+        /// The time that the value is for.
+        time: Expr,
+    },
+}
+
+impl Paid {
+    /// Where the event or the time stands.
+    pub fn span(&self) -> Span {
+        match self {
+            Paid::On(event) => event.span,
+            Paid::Per { time, .. } => time.span,
+        }
+    }
 }
 
 /// `learn name for task { … }`

@@ -3,7 +3,7 @@
 use super::Builder;
 use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::source::Span;
-use crate::syntax::ast::{Arg, ArgKind, ExprKind, Ident, Ref};
+use crate::syntax::ast::{Arg, ArgKind, Expr, ExprKind, Ident, Ref};
 use crate::syntax::diagnose::no_such_unit;
 use crate::syntax::grammar::{Node, Parts, Rule};
 use crate::syntax::tokens::Kind;
@@ -127,7 +127,21 @@ impl<'i> Builder<'i> {
         parts.has(Rule::kw_in);
         let domain = self.take_name(&mut parts);
         let body = parts.has(Rule::colon).then(|| self.take_expr(&mut parts));
-        ArgKind::Binder { name, domain, body }
+        let span = name.span;
+        let member = Box::new(Expr {
+            kind: ExprKind::Ref(Ref {
+                name: name.clone(),
+                args: None,
+                span,
+            }),
+            span,
+        });
+        ArgKind::Binder {
+            name,
+            domain,
+            body,
+            member,
+        }
     }
 
     fn named(&mut self, node: Node<'i>) -> ArgKind {

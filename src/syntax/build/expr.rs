@@ -3,7 +3,7 @@
 use super::Builder;
 use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::source::Span;
-use crate::syntax::ast::{BinaryOp, Expr, ExprKind, Spanned, UnaryOp};
+use crate::syntax::ast::{Axis, BinaryOp, Expr, ExprKind, Spanned, UnaryOp};
 use crate::syntax::diagnose::unclosed_quote;
 use crate::syntax::grammar::{Node, Parts, Rule};
 
@@ -194,7 +194,17 @@ impl<'i> Builder<'i> {
 
     fn power(&mut self, node: Node<'i>) -> Expr {
         let mut parts = Parts::of(node);
-        let left = self.take_expr(&mut parts);
+        let mut left = self.take_expr(&mut parts);
+        if let Some(node) = parts.maybe(Rule::coordinate) {
+            let axis = match node.as_str() {
+                ".x" => Axis::X,
+                _ => Axis::Y,
+            };
+            left = Expr {
+                span: left.span.to(self.span(&node)),
+                kind: ExprKind::Coordinate(Box::new(left), axis),
+            };
+        }
         let Some(sign) = parts.maybe(Rule::power_op) else {
             return left;
         };

@@ -3,7 +3,9 @@
 use super::Builder;
 use crate::diagnostic::Code;
 use crate::source::Span;
-use crate::syntax::ast::{Aspect, AspectKind, Expr, Outcome, RewardLine, Start, StartLine, Task};
+use crate::syntax::ast::{
+    Aspect, AspectKind, Expr, Outcome, Paid, RewardLine, Start, StartLine, Task,
+};
 use crate::syntax::grammar::{Node, Parts, Rule};
 
 impl<'i> Builder<'i> {
@@ -107,13 +109,26 @@ impl<'i> Builder<'i> {
             let Some(node) = node else { return };
             let rule = node.as_rule();
             let mut parts = Parts::of(node);
-            parts.next();
-            if rule == Rule::otherwise {
-                otherwise = Some(builder.take_reward(&mut parts));
-            } else {
-                let event = builder.take_expr(&mut parts);
-                let value = builder.take_reward(&mut parts);
-                lines.push(RewardLine { event, value, span });
+            let paid = match rule {
+                Rule::otherwise => None,
+                Rule::price_line => {
+                    let during = parts.has(Rule::kw_while);
+                    let during = during.then(|| builder.take_expr(&mut parts));
+                    parts.has(Rule::comma);
+                    parts.has(Rule::kw_per);
+                    let time = builder.take_expr(&mut parts);
+                    Some(Paid::Per { during, time })
+                }
+                _ => {
+                    parts.has(Rule::kw_on);
+                    Some(Paid::On(builder.take_expr(&mut parts)))
+                }
+            };
+            parts.has(Rule::kw_otherwise);
+            let value = builder.take_reward(&mut parts);
+            match paid {
+                Some(paid) => lines.push(RewardLine { paid, value, span }),
+                None => otherwise = Some(value),
             }
         });
         AspectKind::Reward { lines, otherwise }

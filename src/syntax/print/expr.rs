@@ -6,7 +6,8 @@ use super::levels::Level;
 use super::names::{ident, type_expr};
 use crate::spelling::quoted;
 use crate::syntax::ast::{
-    BinaryOp, Binding, Choice, Expr, ExprKind, Literal, Otherwise, TypeExpr, UnaryOp, Unit, Yield,
+    Axis, BinaryOp, Binding, Choice, Expr, ExprKind, Literal, Otherwise, TypeExpr, UnaryOp, Unit,
+    Yield,
 };
 use crate::syntax::print::columns::Align;
 use crate::syntax::words::UNITS;
@@ -19,6 +20,13 @@ impl Printer<'_> {
             ExprKind::Ref(call) => return self.call(call),
             ExprKind::If(choice) => self.choice(choice),
             ExprKind::Point(x, y) => row!["(", self.expr(x), ", ", self.expr(y), ")"].flat(),
+            ExprKind::Coordinate(point, axis) => {
+                let axis = match axis {
+                    Axis::X => ".x",
+                    Axis::Y => ".y",
+                };
+                row![self.expr(point), axis]
+            }
             ExprKind::Paren(inner) => row!["(", self.expr(inner), ")"],
             ExprKind::Unary { op, operand } => {
                 let blank = if op.node == UnaryOp::Not { " " } else { "" };

@@ -46,7 +46,9 @@ impl Printer<'_> {
             ArgKind::Positional(value) => self.expr(value),
             ArgKind::Named(name, value) => row![ident(name), " = ", self.expr(value)],
             ArgKind::Range(low, high) => row![self.expr(low), " .. ", self.expr(high)],
-            ArgKind::Binder { name, domain, body } => {
+            ArgKind::Binder {
+                name, domain, body, ..
+            } => {
                 let head = row![ident(name), " in ", ident(domain)];
                 match body {
                     Some(body) => row![head, ": ", self.expr(body)],

@@ -7,7 +7,8 @@ use super::names::ident;
 use crate::source::Span;
 use crate::spelling::quoted;
 use crate::syntax::ast::{
-    Aspect, AspectKind, Expr, Learn, LearnEntry, Outcome, RewardLine, Setting, Spanned, Start, Task,
+    Aspect, AspectKind, Expr, Learn, LearnEntry, Outcome, Paid, RewardLine, Setting, Spanned,
+    Start, Task,
 };
 use crate::syntax::words::ASPECTS;
 
@@ -99,7 +100,16 @@ impl Printer<'_> {
         let mut entries: Vec<Entry<'a>> = lines
             .iter()
             .map(|line| {
-                let head = row!["on ", self.expr(&line.event).flat()];
+                let head = match &line.paid {
+                    Paid::On(event) => row!["on ", self.expr(event).flat()],
+                    Paid::Per { during, time } => {
+                        let per = row!["per ", self.expr(time).flat()];
+                        match during {
+                            Some(during) => row!["while ", self.expr(during).flat(), ", ", per],
+                            None => per,
+                        }
+                    }
+                };
                 entry(line.span, head, &line.value)
             })
             .collect();

@@ -4,6 +4,7 @@ use super::trees::subjects;
 use super::written;
 use btc::emit::form::TreeForm;
 use btc::ir::Program;
+use btc::ir::tree::{Atom, Node};
 use roxmltree::{Document, Node as Element};
 use std::collections::BTreeMap;
 
@@ -33,12 +34,29 @@ pub(super) fn only<'a, 'i>(document: &'a Document<'i>, name: &str) -> Element<'a
     first
 }
 
+/// Whether a leaf is of a robot that runs a script: no tree of the program has it.
+fn is_of_another_robot(program: &Program, leaf: &Node) -> bool {
+    let mut found = false;
+    leaf.visit_behaviors(&mut |id| found |= program.behaviors[id].name.robot().is_some());
+    leaf.visit_atoms(&mut |atom| {
+        let name = match atom {
+            Atom::Predicate(id) => &program.predicates[id].name,
+            Atom::Done(id) | Atom::Failed(id) => &program.behaviors[id].name,
+        };
+        found |= name.robot().is_some();
+    });
+    found
+}
+
 /// How conditions (by atom) and behaviours are written in files of their own.
 pub(super) fn leaves(program: &Program) -> BTreeMap<Leaf, (bool, usize)> {
     let (asked, done) = subjects(program);
     let mut leaves = BTreeMap::new();
     for (acts, nodes) in [(false, asked), (true, done)] {
         for (i, node) in nodes.iter().enumerate() {
+            if is_of_another_robot(program, node) {
+                continue;
+            }
             let text = written(program, node, TreeForm::BtCpp).unwrap();
             let document = Document::parse(&text).unwrap();
             let root = inside(only(&document, "BehaviorTree"));

@@ -384,10 +384,12 @@ fn invent(seed: u64) -> (Program, Law) {
         walls: [Wall {
             name: Name::default(),
             shape: Shape::Polyline(vec![]),
+            when: None,
         }]
         .into_iter()
         .collect(),
         places: Table::default(),
+        others: Table::default(),
         robot: Robot {
             name: Name::default(),
             radius: 0.1,

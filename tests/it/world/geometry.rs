@@ -75,6 +75,7 @@ pub(crate) fn twin(random: &mut Random, contact: Contact) -> Twin {
         walls.push(Wall {
             name: Name::default(),
             shape,
+            when: None,
         });
     }
     let arena = match random.below(4) {
@@ -99,6 +100,7 @@ pub(crate) fn twin(random: &mut Random, contact: Contact) -> Twin {
             arena,
             walls,
             places: Table::default(),
+            others: Table::default(),
             robot: Robot {
                 name: Name::default(),
                 radius: 0.15,
@@ -366,6 +368,7 @@ fn a_solid_rectangle_and_its_polygon_are_one() {
             min: [1.0, 1.0],
             max: [2.0, 3.0],
         },
+        when: None,
     }]
     .into_iter()
     .collect();

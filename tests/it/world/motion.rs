@@ -41,7 +41,7 @@ fn drive(seed: u64, contact: Contact) -> Result<(), TestCaseError> {
             };
         }
         let before = pose;
-        let touched = motion.step(&scene, command, random, &mut pose, &mut slack);
+        let touched = motion.step(&scene, &[], command, random, &mut pose, &mut slack);
         prop_assert!(pose.heading >= -PI && pose.heading < PI);
         let length = btc::math::hypot(pose.ahead[0], pose.ahead[1]);
         prop_assert!((length - 1.0).abs() < 1e-12);
@@ -98,7 +98,14 @@ fn step(twin: &Twin, command: Command, pose: &mut Pose) -> bool {
     let scene = Scene::new(&twin.world);
     let motion = Motion::new(&twin.world.robot, twin.world.tick);
     let mut slack = 0.0;
-    motion.step(&scene, command, &mut Random::new(0, 0, 0), pose, &mut slack)
+    motion.step(
+        &scene,
+        &[],
+        command,
+        &mut Random::new(0, 0, 0),
+        pose,
+        &mut slack,
+    )
 }
 
 #[test]

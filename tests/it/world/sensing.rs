@@ -18,6 +18,7 @@ fn read(heading: f64, sensor: SensorKind, source: fn(Echo) -> Expr) -> (f64, f64
     world.walls.push(Wall {
         name: "wall".into(),
         shape: Shape::Polyline(vec![[2.5, 1.0], [2.5, 2.5]]),
+        when: None,
     });
     let ahead = &mut world.robot.sensors[Id::new(0)];
     ahead.kind = sensor;

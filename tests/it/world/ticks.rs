@@ -370,6 +370,7 @@ fn what_cannot_run_is_refused_when_it_is_built() {
                     center: [1.0, 2.0],
                     radius: 0.3,
                 },
+                when: None,
             };
             p.world.as_mut().unwrap().walls.push(wall);
         }),

@@ -1,0 +1,28 @@
+//! `btc new`
+
+use super::{Failure, files};
+use crate::driver::new::{FILES, welcome};
+use clap::Args;
+use std::path::Path;
+
+#[derive(Debug, Args)]
+pub(super) struct Arguments {
+    /// The name of the project, and of its folder.
+    name: String,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let name = &arguments.name;
+    let folder = Path::new(name);
+    if folder.exists() {
+        return Err(files::complain(&format!("{name}: this is there already")));
+    }
+    for (path, text) in FILES {
+        let path = folder.join(path);
+        if let Some(parent) = path.parent() {
+            files::make_folder(parent)?;
+        }
+        files::write(&path, text)?;
+    }
+    files::print(&welcome(name))
+}

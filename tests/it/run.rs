@@ -1,0 +1,75 @@
+//! Programs at work: a file each in `tests/cases/run`, what its only tree meets and does, and that it can be learned.
+
+use crate::program;
+use btc::driver::Text;
+use btc::driver::format::format;
+use btc::driver::load::Loaded;
+use btc::driver::run::Subject;
+use btc::driver::trace::{self, Step};
+use btc::{LearnOptions, Program, Shape};
+use std::path::Path;
+
+/// How many lines of a trace are kept.
+const LINES: usize = 24;
+
+fn loaded(path: &Path) -> Loaded {
+    let loaded = program::named(path.file_name().unwrap().to_str().unwrap(), path);
+    assert_eq!(program::shown(&loaded), "", "{}", path.display());
+    loaded
+}
+
+fn cases(test: impl Fn(&Path)) {
+    let mut settings = insta::Settings::clone_current();
+    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots"));
+    settings.set_prepend_module_to_snapshot(false);
+    settings.set_omit_expression(true);
+    settings.remove_input_file();
+    settings.bind(|| insta::glob!("..", "cases/run/*.bt", test));
+}
+
+#[test]
+fn traces_show_what_programs_mean() {
+    cases(|path| {
+        let loaded = loaded(path);
+        let subject = Subject::only_tree(&loaded).unwrap();
+        let trace = trace::trace(&loaded, &subject, 1, 1, Step::Decision).unwrap();
+        let lines: Vec<String> = trace.csv().lines().take(LINES).map(str::to_owned).collect();
+        insta::assert_snapshot!("run", lines.join("\n"));
+        let in_json = trace.json_lines();
+        for line in in_json.lines() {
+            serde_json::from_str::<serde_json::Value>(line).unwrap();
+        }
+        assert_eq!(in_json.lines().count() + 1, trace.csv().lines().count());
+    });
+}
+
+/// Every program with a learner can be learned, and what is learned is a program.
+#[test]
+fn programs_are_learned_from() {
+    cases(|path| {
+        if loaded(path).program.learners.is_empty() {
+            return;
+        }
+        let options = LearnOptions {
+            episodes: Some(60),
+            roll_outs: 20,
+            tests: 20,
+            shape: Shape::Exact,
+            ..LearnOptions::default()
+        };
+        let program = Program::from_file(path).unwrap();
+        let learned = program.learn(&options).unwrap();
+        assert!(learned.tree().size().nodes > 0, "{}", path.display());
+    });
+}
+
+/// Cases are laid out as the formatter does it.
+#[test]
+fn cases_are_laid_out() {
+    cases(|path| {
+        let text = std::fs::read_to_string(path).unwrap();
+        let (name, bytes) = ("case.bt", text.as_bytes());
+        let laid_out = format(Text { name, bytes }).expect("it parses");
+        assert_eq!(text, laid_out, "{}", path.display());
+    });
+}
