@@ -295,7 +295,7 @@ impl<'a> Checker<'a> {
         });
         let Some(otherwise) = otherwise else { return };
         let message = format!("this is paid per decision, and `{name}` may succeed at once");
-        self.warning(Code::W0509, otherwise.span, message)
+        self.warning(Code::W0515, otherwise.span, message)
             .label("a tick of that costs as much as a long drive")
             .help("let time have a price of its own: `per 1 s: -0.01`");
     }

@@ -153,7 +153,7 @@ codes! {
     W0506 "an end that training hardly met",
     W0507 "learned from too little",
     W0508 "a failure that is repeated",
-    W0509 "a cost per decision and a behaviour without duration",
+    W0515 "a cost per decision and a behaviour without duration",
 }
 
 impl Code {
