@@ -38,7 +38,7 @@ impl<'a> Checker<'a> {
         let mut commands = [None, None, None];
         for ((arg, (name, ty)), command) in matched.args().zip(COMMANDS).zip(&mut commands) {
             let Some((arg, value)) = arg else { continue };
-            if name == "strafe" && self.has_world && !self.is_holonomic() {
+            if name == "strafe" && self.drive_known && !self.is_holonomic() {
                 self.error(
                     Code::E0305,
                     arg.span,

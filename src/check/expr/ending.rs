@@ -3,6 +3,7 @@
 use crate::check::Checker;
 use crate::check::builtin::Function;
 use crate::check::context::Region;
+use crate::check::lint::Asked;
 use crate::check::types::{Type, Typed, Value};
 use crate::ir::expr::Expr;
 use crate::ir::task::StartLine;
@@ -39,6 +40,15 @@ impl<'a> Checker<'a> {
         };
         if behavior.ty == Type::Error {
             return None;
+        }
+        if let Value::Behavior(behavior) = behavior.value
+            && !self.context.library
+        {
+            self.endings.insert(Asked {
+                span,
+                behavior,
+                failure: status == Status::Failure,
+            });
         }
         if region == Region::StartHistory {
             let code = match behavior.value {
