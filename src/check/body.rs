@@ -20,8 +20,6 @@ pub struct Bodies<'a> {
     pub clean: BTreeMap<Span, bool>,
     /// The bodies that are being checked within one another, to find circles.
     pub open: Vec<Open<'a>>,
-    /// Whether the body at hand is being checked for itself.
-    pub for_itself: bool,
     /// How many bodies have been unrolled so far.
     unrolled: usize,
     /// Whether it was reported that definitions grow too large.
@@ -32,6 +30,16 @@ impl Bodies<'_> {
     /// Whether the body that starts at this place is being checked.
     pub fn is_open(&self, at: Span) -> bool {
         self.open.iter().any(|open| open.at == at)
+    }
+
+    /// Whether the body at hand is checked for itself.
+    pub fn for_itself(&self) -> bool {
+        self.open.last().is_some_and(|open| !open.unrolls)
+    }
+
+    /// Whether the body at hand is checked under arguments.
+    pub fn is_unrolling(&self) -> bool {
+        self.open.last().is_some_and(|open| open.unrolls)
     }
 }
 
@@ -44,6 +52,8 @@ pub struct Open<'a> {
     pub name: &'a str,
     /// Whether it is of the library.
     pub library: bool,
+    /// Whether it is checked under arguments, not for itself.
+    pub unrolls: bool,
 }
 
 impl<'a> Checker<'a> {
@@ -65,9 +75,13 @@ impl<'a> Checker<'a> {
             library: false,
             scope,
         };
-        let outer = std::mem::replace(&mut self.bodies.for_itself, true);
-        let ((), found) = self.within(body.span, &body.name, context, pass);
-        self.bodies.for_itself = outer;
+        let open = Open {
+            at: body.span,
+            name: &body.name,
+            library: false,
+            unrolls: false,
+        };
+        let ((), found) = self.within(open, context, pass);
         let clean = !found.iter().any(Diagnostic::is_error);
         self.bodies.clean.insert(body.span, clean);
         self.diagnostics.extend(found);
@@ -109,9 +123,13 @@ impl<'a> Checker<'a> {
             library,
             scope,
         };
-        let outer = std::mem::replace(&mut self.bodies.for_itself, false);
-        let (result, found) = self.within(body, name, context, pass);
-        self.bodies.for_itself = outer;
+        let open = Open {
+            at: body,
+            name,
+            library,
+            unrolls: true,
+        };
+        let (result, found) = self.within(open, context, pass);
         let mut seen: Vec<(Code, String)> = Vec::new();
         for inner in found.into_iter().filter(Diagnostic::is_error) {
             let what = (inner.code, inner.message.clone());
@@ -126,15 +144,13 @@ impl<'a> Checker<'a> {
     /// Runs a pass over a body in its own context. What it reports is handed back.
     fn within<T>(
         &mut self,
-        at: Span,
-        name: &'a str,
+        open: Open<'a>,
         context: Context<'a>,
         pass: impl FnOnce(&mut Self) -> T,
     ) -> (T, Vec<Diagnostic>) {
-        let library = context.library;
         let outer = std::mem::replace(&mut self.context, context);
         let given = self.given.take();
-        self.bodies.open.push(Open { at, name, library });
+        self.bodies.open.push(open);
         let result = self.captured(pass);
         self.bodies.open.pop();
         self.given = given;

@@ -6,17 +6,21 @@ use super::decl::behavior::BehaviorId;
 use super::decl::event::EventId;
 use super::decl::predicate::PredicateId;
 use super::decl::state::StateSlot;
+use super::lint::Asked;
 use super::members::{Kinds, Member};
 use super::names::Names;
+use super::report;
 use super::tune::Tunes;
 use super::{Checked, Input};
 use crate::diagnostic::{self, Diagnostic};
+use crate::geometry::Point;
 use crate::ir::task::History;
 use crate::ir::world::{Robot, World};
 use crate::ir::{Id, Name, Program};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, Ident, ItemKind, Outcome};
-use std::collections::BTreeMap;
+use std::cell::Cell;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The state that all passes share.
 pub struct Checker<'a> {
@@ -36,6 +40,10 @@ pub struct Checker<'a> {
     pub kept: Option<History>,
     /// Where the tree at hand asks the history window.
     pub asked: Vec<(Span, Outcome)>,
+    /// Where the program asks whether a behaviour has ended.
+    pub endings: BTreeSet<Asked>,
+    /// Where episodes start, as far as that is constant.
+    pub positions: Vec<(Span, Point)>,
     /// The parameter that the expression at hand is given to, with what it is a parameter of.
     pub given: Option<(&'a str, &'a str)>,
     /// The numbers that may be tuned.
@@ -60,7 +68,16 @@ pub struct Checker<'a> {
     pub tick: Option<f64>,
     /// Whether there is a world, right or wrong.
     pub has_world: bool,
+    /// Whether the drive of the robot is known.
+    pub drive_known: bool,
+    /// Whether it was reported that the library is not used.
+    pub library_missed: bool,
+    /// How many names may still be looked at for one that was likely meant.
+    pub guesses: Cell<usize>,
 }
+
+/// How many names are looked at for one that was likely meant, in all.
+const GUESSES: usize = 200_000;
 
 impl<'a> Checker<'a> {
     /// Collects the names of the files; nothing is checked yet.
@@ -75,6 +92,8 @@ impl<'a> Checker<'a> {
             depth: 0,
             kept: None,
             asked: Vec::new(),
+            endings: BTreeSet::new(),
+            positions: Vec::new(),
             given: None,
             tunes: Tunes::default(),
             bound: BTreeMap::new(),
@@ -87,6 +106,9 @@ impl<'a> Checker<'a> {
             scripts: Vec::new(),
             tick: None,
             has_world: false,
+            drive_known: false,
+            library_missed: false,
+            guesses: Cell::new(GUESSES),
         }
     }
 
@@ -97,23 +119,27 @@ impl<'a> Checker<'a> {
         self.worlds(items());
         for item in items() {
             match &item.kind {
-                ItemKind::State(state) => self.state(state),
+                ItemKind::State(state) if self.names.counts(&state.name) => self.state(state),
                 ItemKind::Enum(decl) => self.enumeration(decl),
                 _ => {}
             }
         }
         for item in items() {
             match &item.kind {
-                ItemKind::Let(shared) => self.shared(shared),
-                ItemKind::Behavior(behavior) => self.behavior(behavior),
+                ItemKind::Let(shared) if self.names.counts(&shared.name) => self.shared(shared),
+                ItemKind::Behavior(behavior) if self.names.counts(&behavior.name) => {
+                    self.behavior(behavior);
+                }
                 _ => {}
             }
         }
         for item in items() {
             match &item.kind {
                 ItemKind::World(world) => self.conditions_of_walls(world),
-                ItemKind::Predicate(predicate) => self.predicate(predicate),
-                ItemKind::Event(event) => self.event(event),
+                ItemKind::Predicate(predicate) if self.names.counts(&predicate.name) => {
+                    self.predicate(predicate);
+                }
+                ItemKind::Event(event) if self.names.counts(&event.name) => self.event(event),
                 _ => {}
             }
         }
@@ -125,7 +151,9 @@ impl<'a> Checker<'a> {
             }
         }
         for item in items() {
-            if let ItemKind::Task(task) = &item.kind {
+            if let ItemKind::Task(task) = &item.kind
+                && self.names.tasks.get(task.name.name.as_str()) == Some(&task)
+            {
                 self.task(task);
             }
         }
@@ -146,12 +174,13 @@ impl<'a> Checker<'a> {
             }
         }
         self.tunables(items());
-        self.unread_names();
+        self.whole_program(files);
     }
 
     /// The program with every mistake and warning, in the order of the text.
     pub fn checked(mut self) -> Checked {
         diagnostic::sort(&mut self.diagnostics);
+        report::merge(&mut self.diagnostics);
         Checked {
             program: self.program,
             tunes: self.tunes.sites(),

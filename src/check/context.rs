@@ -2,7 +2,7 @@
 
 use super::Checker;
 use super::types::{Type, Value};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::Code;
 use crate::ir::Id;
 use crate::ir::expr::Local;
 use crate::ir::name::Given;
@@ -192,11 +192,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Warns of names that are bound and never read; a program with errors has other troubles.
+    /// Warns of names that are bound and never read.
     pub fn unread_names(&mut self) {
-        if self.diagnostics.iter().any(Diagnostic::is_error) {
-            return;
-        }
         for (span, Bound { name, what, read }) in std::mem::take(&mut self.bound) {
             if read || name.starts_with('_') {
                 continue;

@@ -6,6 +6,7 @@ mod choice;
 mod draw;
 mod ending;
 mod expect;
+mod finite;
 mod literal;
 mod operator;
 mod quantifier;
@@ -31,6 +32,7 @@ impl<'a> Checker<'a> {
             self.meaning(expr)
         };
         self.depth -= 1;
+        let typed = typed.filter(|typed| self.is_finite(typed, expr));
         typed.map_or(Typed::error(expr.span), |typed| Typed {
             span: expr.span,
             ..typed

@@ -11,6 +11,7 @@ mod checker;
 mod context;
 mod decl;
 mod expr;
+mod lint;
 mod members;
 mod names;
 mod report;

@@ -8,8 +8,10 @@ mod collect;
 mod lookup;
 
 use super::builtin;
+use crate::diagnostic::suggest;
+use crate::source::Span;
 use crate::syntax::ast::{self, Ident};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A declaration in the value space.
 #[derive(Clone, Copy, Debug)]
@@ -117,6 +119,12 @@ pub struct Names<'a> {
     pub tasks: BTreeMap<&'a str, &'a ast::Task>,
     /// The learners, by the name of what they learn.
     pub learners: BTreeMap<&'a str, &'a ast::Learn>,
+    /// The names of declarations that were not understood.
+    lost: BTreeSet<String>,
+    /// Whether a world was not understood.
+    pub lost_world: bool,
+    /// Where a `use` could be put into the main file.
+    pub top: Option<Span>,
 }
 
 /// The words besides states that a `start` sets.
@@ -128,8 +136,12 @@ pub fn learned_name(learn: &ast::Learn) -> &str {
 }
 
 impl<'a> Names<'a> {
-    /// The declaration of a value's name, as seen from the library or from the user's files.
+    /// The declaration of a value's name, as seen from the library or from the user's files; none where it may not be
+    /// understood.
     pub fn value(&self, name: &str, from_library: bool) -> Option<(Decl<'a>, bool)> {
+        if self.is_lost(name) {
+            return None;
+        }
         let user = self.user.get(name).map(|&decl| (decl, false));
         let library = self.library.get(name).map(|&decl| (decl, true));
         if from_library {
@@ -137,6 +149,27 @@ impl<'a> Names<'a> {
         } else {
             user.or(library)
         }
+    }
+
+    /// Whether a declaration of this name was not understood: what uses it is not to blame.
+    pub fn is_lost(&self, name: &str) -> bool {
+        self.lost.contains(name)
+    }
+
+    /// Notes that what is called so, or was to be, was not understood.
+    pub fn lose(&mut self, name: &str) {
+        self.lost.insert(name.to_owned());
+    }
+
+    /// Whether a name is nearly that of a declaration that was not understood.
+    pub fn is_nearly_lost(&self, name: &str) -> bool {
+        suggest::nearest(name, self.lost.iter().map(String::as_str)).is_some()
+    }
+
+    /// Whether this is the declaration of its name that counts: the first one.
+    pub fn counts(&self, name: &Ident) -> bool {
+        let first = self.user.get(name.name.as_str());
+        first.is_none_or(|first| first.ident().span == name.span)
     }
 
     /// The names of the value space that `wanted` accepts, the user's first.

@@ -2,9 +2,10 @@
 
 use super::Checker;
 use super::types::Typed;
-use crate::diagnostic::{Applicability, Code, Diagnostic, suggest};
+use crate::diagnostic::{Applicability, Code, Diagnostic, Label, suggest};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, Ident};
+use std::collections::BTreeMap;
 use std::fmt::Display;
 
 /// A diagnostic under construction; it is reported when it is dropped.
@@ -29,6 +30,14 @@ impl<'d> Draft<'d> {
     ) -> Self {
         Self {
             diagnostic: Some(Diagnostic::new(code, span, message)),
+            reported,
+        }
+    }
+
+    /// Nothing: whatever is added to it is dropped.
+    pub fn silent(reported: &'d mut Vec<Diagnostic>) -> Self {
+        Self {
+            diagnostic: None,
             reported,
         }
     }
@@ -138,6 +147,10 @@ impl<'a> Checker<'a> {
         };
         let message = format!("{owner} has no {what} `{}`", name.name);
         let likely = suggest::nearest(&name.name, known.iter().copied());
+        // That one is not missing as well.
+        if let Some(likely) = likely {
+            self.names.lose(likely);
+        }
         self.error(code, name.span, message)
             .label(label)
             .likely(name, likely)
@@ -150,8 +163,12 @@ impl<'a> Checker<'a> {
             .also(first, "first given here");
     }
 
-    /// Reports a part that `owner` lacks.
+    /// Reports a part that `owner` lacks, unless it may stand in what was not understood.
     pub fn missing(&mut self, code: Code, span: Span, owner: &str, missing: &str, example: &str) {
+        let word = missing.split(' ').next().unwrap_or(missing);
+        if self.names.is_lost(word) {
+            return;
+        }
         self.error(code, span, format!("{owner} has no `{missing}`"))
             .label(format!("`{missing}` is missing"))
             .help(format!("for example: `{example}`"));
@@ -188,6 +205,64 @@ impl<'a> Checker<'a> {
         let message = format!("{what} needs a world, and there is none");
         self.error(Code::E0407, span, message).label(label)
     }
+}
+
+/// How many further places of one mistake are shown.
+const SHOWN: usize = 3;
+
+/// Makes one diagnostic of those that say the same of one thing in several places: a name that nothing declares, a
+/// sensor or a world that is missing, entries of one list that are of the wrong kind.
+pub fn merge(sorted: &mut Vec<Diagnostic>) {
+    let mut first: BTreeMap<(Code, String), usize> = BTreeMap::new();
+    let mut merged: Vec<Diagnostic> = Vec::new();
+    let mut further: BTreeMap<usize, Vec<Span>> = BTreeMap::new();
+    for found in sorted.drain(..) {
+        let about = match found.code {
+            Code::E0202 | Code::E0406 => found.message.clone(),
+            Code::E0407 => String::new(),
+            Code::E0203
+                if merged
+                    .last()
+                    .is_some_and(|last| last.message == found.message) =>
+            {
+                found.message.clone()
+            }
+            Code::E0203 => {
+                // Only what stands side by side is of one list.
+                let message = found.message.clone();
+                first.insert((found.code, message), merged.len());
+                merged.push(found);
+                continue;
+            }
+            _ => {
+                merged.push(found);
+                continue;
+            }
+        };
+        match first.get(&(found.code, about.clone())) {
+            Some(at) => further.entry(*at).or_default().push(found.span()),
+            None => {
+                first.insert((found.code, about), merged.len());
+                merged.push(found);
+            }
+        }
+    }
+    for (at, places) in further {
+        let Some(found) = merged.get_mut(at) else {
+            continue;
+        };
+        let labels = places.iter().take(SHOWN).map(|span| Label {
+            span: *span,
+            message: "and here".to_owned(),
+        });
+        found.labels.extend(labels);
+        match places.len().saturating_sub(SHOWN) {
+            0 => {}
+            1 => found.notes.push("and in one more place".to_owned()),
+            more => found.notes.push(format!("and in {more} more places")),
+        }
+    }
+    *sorted = merged;
 }
 
 /// Names in a sentence: `a`, `b` and `c`.

@@ -2,6 +2,7 @@
 
 pub mod history;
 mod learner;
+mod schedule;
 mod start;
 
 use super::Checker;

@@ -74,6 +74,9 @@ impl<'a> Checker<'a> {
     /// `done(b)` and `failed(b)` ask a window that the task has to keep; one message for each outcome.
     fn asks_kept_history(&mut self, task: Id<Task>) {
         let history = self.program.tasks[task].history;
+        if self.names.is_lost("history") {
+            return;
+        }
         for (kept, asks, outcome) in [
             (history.success, Outcome::Success, "success"),
             (history.failure, Outcome::Failure, "failure"),

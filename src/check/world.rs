@@ -15,6 +15,10 @@ use crate::ir::table::Table;
 use crate::ir::world::{Place, Wall, World};
 use crate::syntax::ast::{self, Expr, Item, ItemKind, WorldEntryKind};
 use robot::no_robot;
+use std::ops::RangeInclusive;
+
+/// How long a tick may take, in seconds.
+const TICK: RangeInclusive<f64> = 1e-6..=3600.0;
 
 impl<'a> Checker<'a> {
     /// The one world of a program.
@@ -37,7 +41,26 @@ impl<'a> Checker<'a> {
             self.has_world = true;
             self.context = Context::new(Region::World);
             self.world(world);
+        } else if self.names.lost_world {
+            self.has_world = true;
+            self.stand_in(Name::default(), None);
         }
+    }
+
+    /// A world with nothing in it yet; its tick may not be known.
+    fn stand_in(&mut self, name: Name, arena: Option<Shape>) {
+        self.program.world = Some(World {
+            name,
+            tick: self.tick.unwrap_or(0.1),
+            arena: arena.unwrap_or(Shape::Disc {
+                center: [0.0; 2],
+                radius: 1.0,
+            }),
+            walls: Table::default(),
+            places: Table::default(),
+            robot: no_robot(),
+            others: Table::default(),
+        });
     }
 
     /// The tick comes first, since everything may be counted in it; places may be referred to by sensors, so the robot
@@ -58,18 +81,7 @@ impl<'a> Checker<'a> {
         }
         self.tick = tick.and_then(|field| self.tick(&field.value));
         let arena = arena.and_then(|field| self.arena(&field.value));
-        self.program.world = Some(World {
-            name: Name::word(&world.name.name),
-            tick: self.tick.unwrap_or(0.1),
-            arena: arena.clone().unwrap_or(Shape::Disc {
-                center: [0.0; 2],
-                radius: 1.0,
-            }),
-            walls: Table::default(),
-            places: Table::default(),
-            robot: no_robot(),
-            others: Table::default(),
-        });
+        self.stand_in(Name::word(&world.name.name), arena.clone());
         for entry in &world.entries {
             match &entry.kind {
                 WorldEntryKind::Place {
@@ -101,15 +113,23 @@ impl<'a> Checker<'a> {
     /// The length of a tick in seconds.
     fn tick(&mut self, value: &'a Expr) -> Option<f64> {
         let tick = self.constant(value, &Type::TIME, "the length of a tick")?;
-        if tick > 0.0 {
+        if TICK.contains(&tick) {
             return Some(tick);
         }
-        self.out_of_range(
-            value.span,
-            "a tick takes time",
-            "the world would stand still",
-        )
-        .none()
+        let (message, label) = if tick <= 0.0 {
+            ("a tick takes time", "the world would stand still")
+        } else if tick < 1.0 {
+            (
+                "a tick takes a microsecond or more",
+                "no episode would get anywhere",
+            )
+        } else {
+            (
+                "a tick takes an hour or less",
+                "the robot would not act in time",
+            )
+        };
+        self.out_of_range(value.span, message, label).none()
     }
 
     fn arena(&mut self, value: &'a Expr) -> Option<Shape> {

@@ -1,51 +1,185 @@
 //! `btc check`
 
-use super::report::{Format, Reporter};
+use super::report::Reporter;
 use super::{Failure, files};
-use crate::diagnostic::{Diagnostic, render};
+use crate::diagnostic::{Applicability, Code, Diagnostic, render};
+use crate::driver::load::Loaded;
 use crate::driver::{check, load};
 use crate::facade::disk::Disk;
-use clap::Args;
+use crate::source::{Sources, Span};
+use clap::{Args, ValueEnum};
+use std::path::{Path, PathBuf};
+
+/// How often fixes are applied to one file: one may bring another to light.
+const ROUNDS: usize = 10;
 
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
-    /// The programs to check; `-` is standard input.
+    /// The programs to check, or folders of them; `-` is standard input.
     #[arg(required = true, value_name = "FILE")]
     files: Vec<String>,
-    /// How to write diagnostics: for a person on standard error, or as JSON lines on standard output.
+    /// How to write diagnostics: for a person on standard error, or in another form on standard output.
     #[arg(long, value_name = "FORM", default_value = "human")]
-    format: Format,
+    format: Form,
     /// Warnings are errors.
     #[arg(long)]
     deny_warnings: bool,
+    /// Apply the fixes that keep or restore what was meant.
+    #[arg(long)]
+    fix: bool,
+    /// What standard input is called, which is also where its `use`s are looked for.
+    #[arg(long, value_name = "PATH")]
+    stdin_file_path: Option<String>,
+}
+
+/// How diagnostics are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Form {
+    /// For a person, with the lines of the program.
+    Human,
+    /// One line each: `file:line:column: message`.
+    Short,
+    /// One JSON object each, a line.
+    Json,
+    /// Workflow commands, as GitHub shows them.
+    Github,
+    /// A SARIF log.
+    Sarif,
+}
+
+/// What was found in one program.
+struct Found {
+    name: String,
+    sources: Sources,
+    diagnostics: Vec<Diagnostic>,
 }
 
 pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {
-    let mut fine = true;
+    let mut all: Vec<Found> = Vec::new();
     for path in &arguments.files {
-        let Ok(files::File { name, bytes }) = files::read(path) else {
-            fine = false;
-            continue;
-        };
-        let mut loaded = load::load(&name, bytes, &mut Disk);
-        loaded.diagnostics.extend(check::worlds(&loaded));
-        let wrong = |d: &Diagnostic| d.is_error() || arguments.deny_warnings;
-        let clean = !loaded.diagnostics.iter().any(wrong);
-        fine &= clean;
-        match arguments.format {
-            Format::Json => {
-                files::print(&render::json(&loaded.sources, &loaded.diagnostics))?;
-            }
-            Format::Human => {
-                say.all(&loaded.sources, &loaded.diagnostics);
-                say.count(&loaded.diagnostics);
-                if clean && arguments.files.len() == 1 {
+        for path in programs(path) {
+            all.push(found(arguments, &path)?);
+        }
+    }
+    let wrong = |found: &Diagnostic| found.is_error() || arguments.deny_warnings;
+    let clean = |found: &Found| !found.diagnostics.iter().any(wrong);
+    match arguments.format {
+        Form::Sarif => {
+            let parts = all.iter();
+            let parts = parts.map(|found| (&found.sources, found.diagnostics.as_slice()));
+            files::print(&render::sarif(parts))?;
+        }
+        Form::Human => {
+            for found in &all {
+                say.all(&found.sources, &found.diagnostics);
+                if clean(found) && all.len() == 1 {
+                    say.count(&found.diagnostics);
                     files::print("ok\n")?;
-                } else if clean {
-                    files::print(&format!("{name}: ok\n"))?;
+                } else if clean(found) {
+                    files::print(&format!("{}: ok\n", render::visible(&found.name)))?;
                 }
+            }
+            if all.len() > 1 || !all.iter().all(clean) {
+                say.count(all.iter().flat_map(|found| &found.diagnostics));
+            }
+        }
+        Form::Short | Form::Json | Form::Github => {
+            let render = match arguments.format {
+                Form::Short => render::short,
+                Form::Github => render::github,
+                _ => render::json,
+            };
+            for found in &all {
+                files::print(&render(&found.sources, &found.diagnostics))?;
             }
         }
     }
-    if fine { Ok(()) } else { Err(Failure::Input) }
+    if all.iter().all(clean) {
+        Ok(())
+    } else {
+        Err(Failure::Input)
+    }
+}
+
+/// The programs under a path: itself, or those in a folder and in its folders, in the order of their names. What begins
+/// with a dot is left out.
+fn programs(path: &str) -> Vec<String> {
+    fn walk(folder: &Path, programs: &mut Vec<String>) {
+        let entries = std::fs::read_dir(folder).into_iter().flatten();
+        let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+        paths.sort();
+        for path in paths {
+            let hidden = path
+                .file_name()
+                .is_some_and(|name| name.to_string_lossy().starts_with('.'));
+            if hidden || path.is_symlink() {
+                continue;
+            }
+            if path.is_dir() {
+                walk(&path, programs);
+            } else if path.extension().is_some_and(|extension| extension == "bt") {
+                programs.push(path.to_string_lossy().into_owned());
+            }
+        }
+    }
+    let mut programs = Vec::new();
+    if path != files::STDIN && Path::new(path).is_dir() {
+        walk(Path::new(path), &mut programs);
+        return programs;
+    }
+    vec![path.to_owned()]
+}
+
+/// What is found in the program at a path, after its fixes if they are to be applied.
+fn found(arguments: &Arguments, path: &str) -> Result<Found, Failure> {
+    let (name, bytes) = match files::bytes(path) {
+        Ok(bytes) => {
+            let called = arguments.stdin_file_path.as_deref();
+            let called = called.filter(|_| path == files::STDIN);
+            (called.unwrap_or(files::shown(path)).to_owned(), bytes)
+        }
+        Err(why) => {
+            let message = format!("{path}: {why}");
+            let mut unread = Diagnostic::new(Code::E0208, Span::default(), message);
+            unread.labels.clear();
+            return Ok(Found {
+                name: path.to_owned(),
+                sources: Sources::default(),
+                diagnostics: vec![unread],
+            });
+        }
+    };
+    let mut loaded = load::load(&name, bytes, &mut Disk);
+    if arguments.fix && path != files::STDIN {
+        for _ in 0..ROUNDS {
+            let Some(text) = fixed(&loaded) else { break };
+            files::write(Path::new(path), &text)?;
+            loaded = load::load(&name, text.into(), &mut Disk);
+        }
+    }
+    loaded.diagnostics.extend(check::worlds(&loaded));
+    Ok(Found {
+        name,
+        sources: loaded.sources,
+        diagnostics: loaded.diagnostics,
+    })
+}
+
+/// The main file with the fixes that may be applied unseen; `None` if there are none.
+fn fixed(loaded: &Loaded) -> Option<String> {
+    let mut edits: Vec<(Span, String)> = Vec::new();
+    let fixes = loaded.diagnostics.iter().flat_map(|found| &found.fixes);
+    for fix in fixes.filter(|fix| fix.applicability == Applicability::Safe) {
+        let fits = |(span, _): &(Span, String)| {
+            span.file == loaded.main
+                && edits
+                    .iter()
+                    .all(|(other, _)| span.end < other.start || other.end < span.start)
+        };
+        if fix.edits.iter().all(fits) {
+            edits.extend(fix.edits.iter().cloned());
+        }
+    }
+    let mut texts = loaded.texts(&edits);
+    Some(texts.remove(&loaded.main)?.text)
 }

@@ -31,16 +31,31 @@ impl File {
 
 /// Reads a file, or standard input.
 pub(super) fn read(path: &str) -> Result<File, Failure> {
-    let (name, place, bytes) = if path == STDIN {
-        let mut bytes = Vec::new();
-        let read = io::stdin().read_to_end(&mut bytes);
-        ("<stdin>", "standard input", read.map(|_| bytes))
-    } else {
-        (path, path, std::fs::read(path))
-    };
-    let bytes = bytes.map_err(|error| complain(&format!("{place}: {error}")))?;
-    let name = name.to_owned();
+    let bytes = bytes(path).map_err(|error| {
+        let place = if path == STDIN {
+            "standard input"
+        } else {
+            path
+        };
+        complain(&format!("{place}: {error}"))
+    })?;
+    let name = shown(path).to_owned();
     Ok(File { name, bytes })
+}
+
+/// What a file is called in diagnostics.
+pub(super) fn shown(path: &str) -> &str {
+    if path == STDIN { "<stdin>" } else { path }
+}
+
+/// The bytes of a file, or of standard input.
+pub(super) fn bytes(path: &str) -> io::Result<Vec<u8>> {
+    if path != STDIN {
+        return std::fs::read(path);
+    }
+    let mut bytes = Vec::new();
+    io::stdin().read_to_end(&mut bytes)?;
+    Ok(bytes)
 }
 
 /// Reads a file, if one is named.

@@ -45,7 +45,10 @@ impl Reporter {
             Color::Always => true,
             Color::Never => false,
             Color::Auto => {
-                std::env::var_os("NO_COLOR").is_none() && std::io::stderr().is_terminal()
+                let set = |name| std::env::var_os(name).filter(|value| !value.is_empty());
+                set("NO_COLOR").is_none()
+                    && set("TERM").is_none_or(|term| term != "dumb")
+                    && std::io::stderr().is_terminal()
             }
         };
         Self { color }
@@ -64,9 +67,14 @@ impl Reporter {
     }
 
     /// The number of errors and warnings.
-    pub(super) fn count(&self, diagnostics: &[Diagnostic]) {
-        let errors = diagnostics.iter().filter(|d| d.is_error()).count();
-        let warnings = diagnostics.len() - errors;
+    pub(super) fn count<'d>(&self, diagnostics: impl IntoIterator<Item = &'d Diagnostic>) {
+        let (mut errors, mut warnings) = (0, 0);
+        for found in diagnostics {
+            match found.is_error() {
+                true => errors += 1,
+                false => warnings += 1,
+            }
+        }
         let counted = |n: usize, what: &str| match n {
             0 => None,
             1 => Some(format!("1 {what}")),

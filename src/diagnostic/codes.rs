@@ -68,7 +68,9 @@ codes! {
     E0126 "a value by `if` needs an `else`",
     E0127 "the wrong mark before a value",
     E0128 "a parameter without a type",
+    E0129 "a comment of another language",
     E0130 "a file that is not text",
+    E0131 "a letter that a name cannot have",
 
     E0201 "declared twice",
     E0202 "not declared",
@@ -120,6 +122,7 @@ codes! {
     E0608 "a proof with terms",
     E0609 "a tree that is not equal to its policy",
     E0610 "a table that does not fit",
+    E0611 "an end that never comes",
 
 
     E0801 "a keyword of a PLA that does not fit",
@@ -143,7 +146,11 @@ codes! {
     E0822 "a time that the robot's library cannot keep",
 
     W0201 "a name that nothing reads",
+    W0202 "a state that is set and never read",
     W0301 "a plain number for a ratio",
+    W0302 "a region that is never reached",
+
+    W0401 "a part of the world that does nothing",
 
     W0501 "a setting without effect",
     W0502 "a behaviour that never succeeded",
@@ -153,7 +160,16 @@ codes! {
     W0506 "an end that training hardly met",
     W0507 "learned from too little",
     W0508 "a failure that is repeated",
+    W0509 "a reward that is never paid",
+    W0510 "rewards that are all 0",
+    W0511 "an end that is neither good nor bad",
+    W0512 "a time that no episode lasts",
+    W0513 "predicates that say the same",
+    W0514 "a requirement that is not observed",
     W0515 "a cost per decision and a behaviour without duration",
+
+    W0601 "a condition that always or never holds",
+    W0602 "a node that is never reached",
 }
 
 impl Code {

@@ -2,6 +2,12 @@
 
 mod human;
 mod json;
+mod sarif;
+mod short;
+mod visible;
 
 pub use human::human;
 pub use json::json;
+pub use sarif::sarif;
+pub use short::{github, short};
+pub use visible::visible;

@@ -10,9 +10,14 @@ pub fn nearest<'a, I>(name: &str, candidates: I) -> Option<&'a str>
 where
     I: IntoIterator<Item = &'a str>,
 {
+    let own = name.chars().count();
     let near = |candidate: &'a str| {
-        let length = name.chars().count().max(candidate.chars().count());
+        let other = candidate.chars().count();
+        let length = own.max(other);
         let allowed = 2 * (length / 3).clamp(1, 3);
+        if 2 * own.abs_diff(other) > allowed {
+            return None;
+        }
         let distance = half_edits(name, candidate);
         let near = distance <= allowed && distance < 2 * length && candidate != name;
         near.then_some((distance, candidate))

@@ -122,15 +122,9 @@ pub fn load(name: &str, text: Vec<u8>, reader: &mut dyn Reader) -> Loaded {
     let mut diagnostics = loader.diagnostics;
     // A missing file may declare what seems undeclared.
     let elsewhere = |found: &Diagnostic| matches!(found.code, Code::E0202 | Code::E0407);
-    // A setting that seems missing may stand behind an unclosed brace.
-    let unclosed: Vec<FileId> = diagnostics
-        .iter()
-        .filter(|found| found.code == Code::E0102)
-        .map(|found| found.span().file)
-        .collect();
-    let unread = |found: &Diagnostic| {
-        matches!(found.code, Code::E0402 | Code::E0502) && unclosed.contains(&found.span().file)
-    };
+    // What is found where a text was not understood follows from that, and so may a setting that seems missing there.
+    let understood: Vec<&ast::File> = loader.parsed.iter().map(|parsed| &parsed.ast).collect();
+    let unread = |found: &Diagnostic| follows(&understood, found);
     let found = checked.diagnostics.into_iter();
     diagnostics
         .extend(found.filter(|found| !(loader.incomplete && elsewhere(found) || unread(found))));
@@ -151,6 +145,23 @@ pub fn load(name: &str, text: Vec<u8>, reader: &mut dyn Reader) -> Loaded {
         diagnostics,
         used: loader.parsed,
     }
+}
+
+/// Whether a mistake stands where a text was not understood, or misses something in an item with such a text.
+fn follows(asts: &[&ast::File], found: &Diagnostic) -> bool {
+    let at = found.span();
+    let Some(ast) = asts.iter().find(|ast| ast.span.file == at.file) else {
+        return false;
+    };
+    let touches =
+        |one: Span, other: Span| one.start < other.end && other.start < one.end.max(one.start + 1);
+    let places = &ast.lost.places;
+    if places.iter().any(|place| touches(at, *place)) {
+        return true;
+    }
+    let misses = matches!(found.code, Code::E0402 | Code::E0502);
+    let item = ast.items.iter().find(|item| touches(at, item.span));
+    misses && item.is_some_and(|item| places.iter().any(|place| touches(*place, item.span)))
 }
 
 /// Whether what trees are made of has the same ids in both programs.
@@ -194,7 +205,7 @@ struct Loader<'r> {
     tables: Vec<(FileId, Span)>,
     diagnostics: Vec<Diagnostic>,
     depth: usize,
-    /// Whether a program that is used cannot be read.
+    /// Whether a program that is used cannot be read, or something without a name was not understood.
     incomplete: bool,
 }
 
@@ -210,6 +221,7 @@ impl Loader<'_> {
         if !broken {
             self.diagnostics.extend(mistakes);
         }
+        self.incomplete |= ast.lost.unnamed;
         self.depth += 1;
         for item in &ast.items {
             if let ItemKind::Use(used) = &item.kind {
@@ -244,6 +256,14 @@ impl Loader<'_> {
             return;
         }
         if self.known.contains(&resolved) && !table {
+            return;
+        }
+        if matches!(resolved.rsplit('/').next(), Some("" | "." | "..")) {
+            self.incomplete = true;
+            let message = format!("`{path}` is a folder, not a file");
+            let diagnostic = Diagnostic::new(Code::E0208, span, message)
+                .label("a file is named by its path, such as \"world.bt\"");
+            self.diagnostics.push(diagnostic);
             return;
         }
         match self.reader.read(&resolved) {

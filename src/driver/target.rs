@@ -8,24 +8,54 @@ use crate::ir::task::{Learner, Task};
 use crate::ir::tree::Tree;
 use crate::ir::{Id, Program};
 use crate::source::Span;
-use crate::syntax::ast::{Item, ItemKind};
+use crate::syntax::ast::{AspectKind, Item, ItemKind, LearnEntry, Start};
 
 /// The end of the main file: where something is missing.
 pub fn end_of_file(loaded: &Loaded) -> Span {
-    Span {
-        start: loaded.ast.span.end,
-        ..loaded.ast.span
-    }
+    let file = loaded.ast.span.file;
+    let text = loaded.sources.get(file).map_or("", |source| &source.text);
+    let end = text.trim_end().len();
+    Span::new(file, end, end)
 }
 
-/// The name of the world in the main file, or the file's end.
+/// The name of the world, or the end of the main file.
 pub fn world_span(loaded: &Loaded) -> Span {
     let world = |item: &Item| match &item.kind {
         ItemKind::World(world) => Some(world.name.span),
         _ => None,
     };
-    let found = loaded.ast.items.iter().find_map(world);
+    let found = loaded.asts().flat_map(|ast| &ast.items).find_map(world);
     found.unwrap_or_else(|| end_of_file(loaded))
+}
+
+/// Where the program says at which position episodes start.
+pub fn positions(loaded: &Loaded) -> Vec<Span> {
+    let mut found = Vec::new();
+    let mut lines = |start: &Start| {
+        let lines = start.lines.iter();
+        let positions = lines.filter(|line| line.target.name.name == "position");
+        found.extend(positions.map(|line| line.value.span));
+    };
+    for item in loaded.asts().flat_map(|ast| &ast.items) {
+        match &item.kind {
+            ItemKind::Task(task) => {
+                for aspect in &task.aspects {
+                    if let AspectKind::Start(start) = &aspect.kind {
+                        lines(start);
+                    }
+                }
+            }
+            ItemKind::Learn(learn) => {
+                for entry in &learn.entries {
+                    if let LearnEntry::Start(start) = entry {
+                        lines(start);
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+    found
 }
 
 /// The tree of that name.

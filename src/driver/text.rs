@@ -21,8 +21,16 @@ pub(super) fn decode(sources: &mut Sources, text: Text) -> (FileId, Option<Diagn
             let lossy = String::from_utf8_lossy(text.bytes);
             let file = sources.add(Source::new(text.name, lossy));
             let span = Span::new(file, at, at + '\u{fffd}'.len_utf8());
-            let diagnostic = Diagnostic::new(Code::E0130, span, "the file is not text (UTF-8)")
-                .label("this byte is not part of a character");
+            let marked =
+                text.bytes.starts_with(&[0xff, 0xfe]) || text.bytes.starts_with(&[0xfe, 0xff]);
+            let diagnostic = if marked {
+                Diagnostic::new(Code::E0130, span, "the file is in UTF-16, not in UTF-8")
+                    .label("this mark at its beginning says so")
+                    .help("save it as UTF-8")
+            } else {
+                Diagnostic::new(Code::E0130, span, "the file is not text (UTF-8)")
+                    .label("this byte is not part of a character")
+            };
             (file, Some(diagnostic))
         }
     }

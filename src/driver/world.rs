@@ -9,12 +9,12 @@ use crate::world::BuildError;
 
 /// A world that cannot be built.
 pub(super) fn unbuilt(loaded: &Loaded, error: &BuildError) -> Diagnostic {
-    Diagnostic::new(
-        Code::E0409,
-        target::world_span(loaded),
-        format!("the world cannot be built: {error}"),
-    )
-    .label("this world")
+    let message = format!("the world cannot be built: {error}");
+    // Of one place to start at it is clear which one is meant.
+    if let (BuildError::StartBlocked(_), [at]) = (error, target::positions(loaded).as_slice()) {
+        return Diagnostic::new(Code::E0409, *at, message).label("no room here");
+    }
+    Diagnostic::new(Code::E0409, target::world_span(loaded), message).label("this world")
 }
 
 /// A tree or a policy that cannot be played.

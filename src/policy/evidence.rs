@@ -74,8 +74,8 @@ pub fn read(text: &str, program: &Program, policy: &mut Policy) -> Result<(), Ta
         };
         *slot = Some(Value {
             visits: visits.number("a count")?,
-            q: q.number("a number")?,
-            squares: squares.number("a number")?,
+            q: q.finite()?,
+            squares: squares.finite()?,
         });
     }
     Ok(())

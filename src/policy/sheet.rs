@@ -35,11 +35,22 @@ impl Cell {
 
     /// The cell as a number of this kind.
     pub(super) fn number<T: FromStr>(&self, expected: &'static str) -> Result<T, TableError> {
-        self.text.parse().map_err(|_| {
-            self.error(TableErrorKind::UnknownValue {
-                found: self.text.clone(),
-                expected,
-            })
+        self.text.parse().map_err(|_| self.unknown(expected))
+    }
+
+    /// The cell as a number that is neither undefined nor infinite.
+    pub(super) fn finite(&self) -> Result<f64, TableError> {
+        const EXPECTED: &str = "a finite number";
+        let number: f64 = self.number(EXPECTED)?;
+        Some(number)
+            .filter(|number| number.is_finite())
+            .ok_or_else(|| self.unknown(EXPECTED))
+    }
+
+    fn unknown(&self, expected: &'static str) -> TableError {
+        self.error(TableErrorKind::UnknownValue {
+            found: self.text.clone(),
+            expected,
         })
     }
 }

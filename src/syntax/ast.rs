@@ -21,6 +21,7 @@ pub use expr::{
     Arg, ArgKind, Axis, BinaryOp, Choice, Expr, ExprKind, Literal, Otherwise, Ref, UnaryOp, Unit,
     UnitFactor, Yield,
 };
+use std::fmt;
 pub use task::{
     Aspect, AspectKind, Learn, LearnEntry, Link, Outcome, Paid, RewardLine, Setting, Start,
     StartLine, Task,
@@ -69,7 +70,7 @@ pub enum CommentKind {
 }
 
 /// A whole file.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Default, PartialEq)]
 pub struct File {
     /// The items, in their order.
     pub items: Vec<Item>,
@@ -77,6 +78,33 @@ pub struct File {
     pub comments: Vec<Comment>,
     /// The whole text.
     pub span: Span,
+    /// What mistakes have taken from it.
+    pub lost: Lost,
+}
+
+/// Without what mistakes have taken: a tree that is shown has none.
+impl fmt::Debug for File {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut shown = f.debug_struct("File");
+        shown.field("items", &self.items);
+        shown.field("comments", &self.comments);
+        shown.field("span", &self.span).finish()
+    }
+}
+
+/// What mistakes have taken from a file, so that what depends on it is not blamed.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Lost {
+    /// Whether there was any mistake.
+    pub any: bool,
+    /// The names that declarations seem to declare which were not understood.
+    pub names: Vec<String>,
+    /// Whether a `use` was not understood, or a declaration without a name.
+    pub unnamed: bool,
+    /// Whether a world was not understood.
+    pub world: bool,
+    /// Where the text was not understood: what else is found there may follow from that.
+    pub places: Vec<Span>,
 }
 
 /// A top-level item with its documentation.

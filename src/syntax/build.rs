@@ -8,12 +8,13 @@ mod entries;
 mod expr;
 mod item;
 mod learn;
+mod lost;
 mod number;
 mod task;
 mod tree;
 mod world;
 
-use super::ast::{Comment, Expr, ExprKind, File, Ident, Item, ItemKind, Spanned};
+use super::ast::{Comment, Expr, ExprKind, File, Ident, Item, ItemKind, Lost, Spanned};
 use super::comments::docs_before;
 use super::grammar::{Node, Parts, Rule};
 use super::tokens::{Kind, Token};
@@ -29,6 +30,8 @@ pub(super) struct Builder<'i> {
     diagnostics: Vec<Diagnostic>,
     /// Where the last text that could not be parsed failed: what begins before that place has been reported.
     failed_at: Option<usize>,
+    /// What the mistakes have taken so far.
+    lost: Lost,
 }
 
 impl<'i> Builder<'i> {
@@ -45,6 +48,7 @@ impl<'i> Builder<'i> {
             comments,
             diagnostics: Vec::new(),
             failed_at: None,
+            lost: Lost::default(),
         }
     }
 
@@ -60,6 +64,7 @@ impl<'i> Builder<'i> {
             items,
             comments: self.comments.to_vec(),
             span: Span::new(self.file, 0, self.text.len()),
+            lost: self.lost,
         };
         (file, self.diagnostics)
     }

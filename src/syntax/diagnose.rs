@@ -2,6 +2,7 @@
 
 mod characters;
 mod ends;
+mod foreign;
 mod words;
 
 pub(super) use characters::unclosed_quote;
@@ -51,11 +52,16 @@ pub(super) fn failure(
         before,
         second_before,
     };
+    if let Some(diagnostic) = place.comment() {
+        return (failure.at, diagnostic);
+    }
     if let Some((last, diagnostic)) = place.cut_line().or_else(|| place.cut_value()) {
         return (last.end, diagnostic);
     }
     let diagnostic = place
         .look_alike()
+        .or_else(|| place.letters())
+        .or_else(|| place.outcome())
         .or_else(|| place.unclosed())
         .or_else(|| place.text())
         .or_else(|| place.unit())

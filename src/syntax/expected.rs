@@ -121,7 +121,6 @@ fn name(rule: Rule) -> Option<(Rank, &'static str)> {
         Rule::guards => (Mark, "`=>`"),
         Rule::at_least => (Mark, "`>=`"),
         Rule::range_to => (More, "`..`"),
-        Rule::coordinate => (More, "`.x` or `.y`"),
         Rule::link => (More, "`of`, `per` or `->`"),
         Rule::string => (Part, "a path in quotes"),
         Rule::name | Rule::learner_name | Rule::family => (Part, "a name"),
@@ -162,7 +161,8 @@ fn name(rule: Rule) -> Option<(Rank, &'static str)> {
         | Rule::compare_op
         | Rule::sum_op
         | Rule::term_op
-        | Rule::power_op => (More, "an operator"),
+        | Rule::power_op
+        | Rule::coordinate => (More, "an operator"),
         Rule::file
         | Rule::EOI
         | Rule::WHITESPACE

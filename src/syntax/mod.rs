@@ -6,6 +6,7 @@ mod build;
 mod comments;
 mod diagnose;
 mod expected;
+mod follow_ups;
 mod grammar;
 mod nesting;
 mod parse;

@@ -1,8 +1,9 @@
 //! The way from a text to its tree.
 
-use super::ast::{File, Item, ItemKind};
+use super::ast::{File, Item, ItemKind, Lost};
 use super::build::Builder;
 use super::comments::comments;
+use super::follow_ups;
 use super::grammar::{self, Rule};
 use super::nesting;
 use super::tokens::tokens;
@@ -23,7 +24,7 @@ pub fn parse(file: FileId, text: &str) -> (File, Vec<Diagnostic>) {
         Some(place) => Err(place),
         None => grammar::parse(Rule::file, text).map_err(|stop| Span::new(file, stop.at, stop.at)),
     };
-    let (tree, mut diagnostics) = match parsed.map(|mut pairs| pairs.next()) {
+    let (mut tree, mut diagnostics) = match parsed.map(|mut pairs| pairs.next()) {
         Ok(Some(node)) => Builder::new(file, text, &tokens, &comments).file(node),
         Ok(None) => (File::default(), Vec::new()),
         Err(place) => {
@@ -37,11 +38,16 @@ pub fn parse(file: FileId, text: &str) -> (File, Vec<Diagnostic>) {
                 items: vec![item],
                 comments: comments.clone(),
                 span,
+                lost: Lost {
+                    unnamed: true,
+                    ..Lost::default()
+                },
             };
             (tree, vec![too_deep(place)])
         }
     };
     diagnostic::sort(&mut diagnostics);
+    let diagnostics = follow_ups::left_out(text, &mut tree, diagnostics);
     (tree, diagnostics)
 }
 

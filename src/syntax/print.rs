@@ -55,7 +55,11 @@ pub fn file(file: &ast::File, source: Option<&str>) -> String {
         source: source.as_ref(),
     };
     let items = printer.items(&file.items);
-    Layout::new(source.as_ref(), &file.comments).text(&items)
+    let text = Layout::new(source.as_ref(), &file.comments).text(&items);
+    match source {
+        Some(source) if source.ends_in_carriage_returns() => text.replace('\n', "\r\n"),
+        _ => text,
+    }
 }
 
 /// An item as text, with its documentation, ending in a newline.

@@ -8,7 +8,9 @@
 )]
 
 mod check;
+mod checking;
 mod cli;
+mod edits;
 mod environment;
 mod examples;
 mod explain;

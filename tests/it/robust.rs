@@ -205,6 +205,16 @@ fn thousands_of_items() {
     assert!(!holds(text.into()).has_errors());
 }
 
+/// What was likely meant by thousands of unknown names is looked for among thousands of known ones, in linear time.
+#[test]
+fn thousands_of_unknown_names() {
+    let n = 20_000;
+    let text = many(n, |i| format!("predicate p{i} = unknown_{i}_name\n"));
+    let loaded = load("mutant.bt", text.into(), &mut NoFiles);
+    assert_eq!(loaded.diagnostics.len(), n);
+    program::shown(&loaded);
+}
+
 #[test]
 fn long_ways_through_definitions() {
     // Each uses the one before, in either order of declaration.

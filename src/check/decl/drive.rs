@@ -45,7 +45,7 @@ impl<'a> Checker<'a> {
         let mut commands = [None, None, None, None];
         for ((arg, (name, ty)), command) in matched.args().zip(COMMANDS).zip(&mut commands) {
             let Some((arg, value)) = arg else { continue };
-            if name == "strafe" && self.has_world && !self.is_holonomic() {
+            if name == "strafe" && self.drive_known && !self.is_holonomic() {
                 self.error(
                     Code::E0305,
                     arg.span,
@@ -154,7 +154,7 @@ impl<'a> Checker<'a> {
             return false;
         };
         let holonomic = |robot: &Robot| robot.drive.kind == DriveKind::Holonomic;
-        match self.bodies.for_itself {
+        match self.bodies.for_itself() {
             true => world.robots().any(holonomic),
             false => holonomic(world.robot_of(self.subject)),
         }

@@ -5,7 +5,7 @@ use crate::check::context::{Binding, Region};
 use crate::check::names::{Decl, is_built_in};
 use crate::check::types::units::Dim;
 use crate::check::types::{Type, Value};
-use crate::diagnostic::{Code, Diagnostic, suggest};
+use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::Pool;
 use crate::ir::expr::{Binary, Expr, ExprId, Local, Temp};
 use crate::ir::law::{Block, Stmt};
@@ -257,7 +257,7 @@ impl<'a> Checker<'a> {
                 let locals = scope.filter(|binding| binding.locals.is_some());
                 let locals = locals.map(|binding| binding.name.name.as_str());
                 let states = self.names.values(|decl| matches!(decl, Decl::State(_)));
-                let likely = suggest::nearest(name, locals.chain(states));
+                let likely = self.likely(name, locals.chain(states));
                 self.undeclared(&target.name, "variable", likely).none()
             }
         }
@@ -281,7 +281,7 @@ impl<'a> Checker<'a> {
                 .this_is(decl.what())
                 .none(),
             None => {
-                let likely = suggest::nearest(&name.name, ["drive"]);
+                let likely = self.likely(&name.name, ["drive"].into_iter());
                 self.undeclared(name, "statement", likely).none()
             }
         }

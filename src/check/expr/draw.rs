@@ -28,6 +28,7 @@ impl<'a> Checker<'a> {
         match function {
             Function::Uniform | Function::Normal => {
                 let [a, b] = self.two_alike(reference)?;
+                self.range_of_draw(function, &a, &b)?;
                 let draw = match function {
                     Function::Uniform => Draw::Uniform,
                     _ => Draw::Normal,
@@ -40,11 +41,36 @@ impl<'a> Checker<'a> {
                     return None;
                 };
                 let p = self.expect(value, &Type::Ratio, "a chance");
+                self.probability(&p, "a chance")?;
                 Some(self.lift(Type::Bool, span, [&p], |pool, [p]| {
                     pool.draw(Draw::Chance(p))
                 }))
             }
             _ => self.one_of(reference),
+        }
+    }
+
+    /// Reports a range from more to less, and a standard deviation below zero, where they are constant.
+    fn range_of_draw(&mut self, function: Function, a: &Typed, b: &Typed) -> Option<()> {
+        let low = a.scalar().and_then(|id| self.program.pool.constant(id));
+        let high = b.scalar().and_then(|id| self.program.pool.constant(id));
+        match (function, low, high) {
+            (Function::Uniform, Some(low), Some(high)) if low > high => self
+                .out_of_range(
+                    a.span.to(b.span),
+                    "`uniform` draws from less to more",
+                    "this goes from more to less",
+                )
+                .help("exchange the two")
+                .none(),
+            (Function::Normal, _, Some(deviation)) if deviation < 0.0 => self
+                .out_of_range(
+                    b.span,
+                    "a standard deviation is not below zero",
+                    "this is the second argument: how far the values scatter",
+                )
+                .none(),
+            _ => Some(()),
         }
     }
 

@@ -3,6 +3,7 @@
 use crate::check::Checker;
 use crate::check::builtin::Function;
 use crate::check::context::Region;
+use crate::check::lint::Asked;
 use crate::check::signature::{Signature, Takes};
 use crate::check::types::{Type, Typed, Value};
 use crate::diagnostic::Code;
@@ -52,6 +53,16 @@ impl<'a> Checker<'a> {
         };
         if behavior.ty == Type::Error {
             return None;
+        }
+        if let Value::Behavior(behavior) = behavior.value
+            && !self.context.library
+            && status != Status::Running
+        {
+            self.endings.insert(Asked {
+                span,
+                behavior,
+                failure: status == Status::Failure,
+            });
         }
         if region == Region::StartHistory {
             let code = match behavior.value {

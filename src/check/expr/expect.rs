@@ -78,6 +78,25 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Reports a constant that is no probability.
+    pub fn probability(&mut self, typed: &Typed, role: &str) -> Option<()> {
+        let value = typed.scalar().and_then(|id| self.program.pool.constant(id));
+        let Some(value) = value.filter(|value| !(0.0..=1.0).contains(value)) else {
+            return Some(());
+        };
+        // The warning that it has no `%` is the lesser mistake.
+        let at = typed.span;
+        self.diagnostics
+            .retain(|said| said.code != Code::W0301 || said.span() != at);
+        let percent = value * 100.0;
+        self.out_of_range(
+            at,
+            format!("{role} goes from 0% to 100%"),
+            &format!("this is {percent} %"),
+        )
+        .none()
+    }
+
     /// The dimension of a number; anything else is reported.
     pub fn number(&mut self, typed: &Typed) -> Option<Dim> {
         if typed.ty == Type::Error {

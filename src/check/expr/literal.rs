@@ -43,6 +43,9 @@ impl<'a> Checker<'a> {
     pub fn point(&mut self, x: &'a Expr, y: &'a Expr, span: Span) -> Typed {
         let x = self.expect(x, &Type::LENGTH, "a coordinate");
         let y = self.expect(y, &Type::LENGTH, "a coordinate");
+        if x.ty == Type::Error || y.ty == Type::Error {
+            return Typed::error(span);
+        }
         let value = match (x.scalar(), y.scalar()) {
             (Some(x), Some(y)) => Value::Point(x, y),
             _ => Value::Unknown,

@@ -93,6 +93,9 @@ impl<'a> Checker<'a> {
         let (a, b) = (self.expr(left), self.expr(right));
         let (x, y) = (self.number(&a), self.number(&b));
         let (x, y) = (x?, y?);
+        if of == Binary::Div {
+            self.no_division_by_zero(&b)?;
+        }
         let power = if of == Binary::Mul { 1 } else { -1 };
         let ty = match (&a.ty, &b.ty) {
             (Type::Ratio, Type::Ratio) if power == 1 => Type::Ratio,

@@ -4,7 +4,7 @@ use crate::check::Checker;
 use crate::check::builtin;
 use crate::check::names::Decl;
 use crate::check::types::{Type, Typed, Value};
-use crate::diagnostic::{Code, suggest};
+use crate::diagnostic::Code;
 use crate::ir::expr::Expr;
 use crate::ir::world::{Robot, World};
 use crate::ir::{Id, Name};
@@ -51,7 +51,7 @@ impl<'a> Checker<'a> {
             return of(world.robot_of(self.subject)).map(Value::Sensor);
         }
         let unread = self.names.value(name, self.context.library).is_none();
-        let unknown = unread && self.bodies.for_itself;
+        let unknown = unread && self.bodies.for_itself();
         let known = unknown
             && world
                 .others
@@ -62,6 +62,9 @@ impl<'a> Checker<'a> {
 
     fn unknown_reference(&mut self, reference: &Ref) -> Option<Typed> {
         let name = &reference.name;
+        if self.names.is_lost(&name.name) || self.names.is_nearly_lost(&name.name) {
+            return None;
+        }
         // Only a sensor of the acting robot can be missing from a body of the library.
         let user = self.bodies.open.iter().find(|open| open.library);
         if let Some(user) = user.filter(|_| self.context.library) {
@@ -80,7 +83,7 @@ impl<'a> Checker<'a> {
         let declared = self.names.values(|decl| !matches!(decl, Decl::Tree(_)));
         let built_in = builtin::names().map(|name| -> &'a str { name });
         let known = scope.chain(declared).chain(built_in);
-        let likely = suggest::nearest(&name.name, known);
+        let likely = self.likely(&name.name, known);
         let what = match reference.args {
             Some(_) => "function, predicate or `let`",
             None => "state, event, place or `let`",
@@ -129,7 +132,7 @@ impl<'a> Checker<'a> {
                 (Type::Wall(kind), id.map(Value::Wall))
             }
             Decl::Sensor(_) => {
-                let acting = self.subject == World::acting() || self.bodies.for_itself;
+                let acting = self.subject == World::acting() || self.bodies.for_itself();
                 if !acting {
                     let robot = self.subject_robot().map(|robot| robot.name.clone());
                     let robot = robot.unwrap_or_default();

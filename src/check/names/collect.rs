@@ -19,6 +19,13 @@ impl<'a> Names<'a> {
             for item in &input.ast.items {
                 collector.item(item);
             }
+            let lost = &input.ast.lost;
+            names.lost.extend(lost.names.iter().cloned());
+            names.lost_world |= lost.world;
+            let top = input.ast.items.first();
+            names.top = top
+                .filter(|item| item.docs.is_empty())
+                .map(|item| item.span.before());
         }
         names
     }
@@ -48,13 +55,15 @@ impl<'a> Collector<'_, 'a> {
             ItemKind::Tree(decl) => self.value(Decl::Tree(decl)),
             ItemKind::World(world) => self.world(world),
             ItemKind::Task(task) => {
-                if let Some(first) = self.names.tasks.insert(&task.name.name, task) {
+                let first = *self.names.tasks.entry(&task.name.name).or_insert(task);
+                if !std::ptr::eq(first, task) {
                     self.twice(&task.name, &first.name, "a task");
                 }
             }
             ItemKind::Learn(learn) => {
                 let name = learned_name(learn);
-                if let Some(first) = self.names.learners.insert(name, learn) {
+                let first = *self.names.learners.entry(name).or_insert(learn);
+                if !std::ptr::eq(first, learn) {
                     let here = learn.name.as_ref().unwrap_or(&learn.task);
                     let there = first.name.as_ref().unwrap_or(&first.task);
                     self.error(Code::E0201, here, format!("two learners learn `{name}`"))
@@ -118,6 +127,10 @@ impl<'a> Collector<'_, 'a> {
         match layer.get(name.name.as_str()).copied() {
             Some(first) if !stands_beside(decl, first) => {
                 self.twice(name, first.ident(), first.what());
+                // Which of two different things a use means nobody knows.
+                if first.what() != decl.what() {
+                    self.names.lose(&name.name);
+                }
             }
             _ => {
                 layer.insert(&name.name, decl);

@@ -4,7 +4,7 @@ use super::Decl;
 use crate::check::Checker;
 use crate::check::report::Draft;
 use crate::check::types::Value;
-use crate::diagnostic::{Code, suggest};
+use crate::diagnostic::{Applicability, Code, suggest};
 use crate::ir::law::Behavior;
 use crate::ir::task::Task;
 use crate::ir::{Id, Name};
@@ -50,10 +50,7 @@ impl<'a> Checker<'a> {
             },
             None => {
                 let what = wanted.split_once(' ').map_or(wanted, |(_, what)| what);
-                let help = self.perhaps_of_library(&name.name);
-                let help = help.filter(|_| what == "behaviour");
                 self.undeclared_value(name, what, |decl| is(decl).is_some())
-                    .help_if(help)
                     .none()
             }
         }
@@ -75,15 +72,21 @@ impl<'a> Checker<'a> {
     /// The task of that name; one that nothing declares is reported.
     pub fn task_of(&mut self, name: &Ident) -> Option<Id<Task>> {
         if !self.names.tasks.contains_key(name.name.as_str()) {
-            let likely = suggest::nearest(&name.name, self.names.tasks.keys().copied());
+            let likely = self.likely(&name.name, self.names.tasks.keys().copied());
             self.undeclared(name, "task", likely);
         }
         let name = Name::word(&name.name);
         self.program.tasks.find(|task| task.name == name)
     }
 
-    /// Reports an undeclared name where a `what` is expected; `likely` is the name that was probably meant.
+    /// Reports an undeclared name where a `what` is expected, unless its declaration was not understood; `likely` is the name that was probably meant.
     pub fn undeclared(&mut self, name: &Ident, what: &str, likely: Option<&str>) -> Draft<'_> {
+        if self.names.is_lost(&name.name) || self.names.is_nearly_lost(&name.name) {
+            return Draft::silent(&mut self.diagnostics);
+        }
+        if self.lacks_library(&name.name) {
+            return self.library_is_missing(name);
+        }
         self.error(
             Code::E0202,
             name.span,
@@ -100,15 +103,47 @@ impl<'a> Checker<'a> {
         what: &str,
         fits: impl Fn(Decl<'a>) -> bool,
     ) -> Draft<'_> {
-        let likely = suggest::nearest(&name.name, self.names.values(fits));
+        let likely = self.likely(&name.name, self.names.values(fits));
         self.undeclared(name, what, likely)
     }
 
-    /// Advice to use the library, if it has a behaviour of this name and the program does not use it.
-    pub fn perhaps_of_library(&self, name: &str) -> Option<String> {
+    /// Whether the library has a behaviour of this name and the program does not use the library.
+    fn lacks_library(&self, name: &str) -> bool {
         let idle = self.names.value("idle", true);
         let used = idle.is_some_and(|(_, library)| library);
-        (!used && LIBRARY.contains(&name)).then(|| format!("`use std` brings `{name}`"))
+        !used && LIBRARY.contains(&name)
+    }
+
+    /// Reports, once, that the program does not use the library.
+    fn library_is_missing(&mut self, name: &Ident) -> Draft<'_> {
+        if std::mem::replace(&mut self.library_missed, true) {
+            return Draft::silent(&mut self.diagnostics);
+        }
+        let called = &name.name;
+        let top = self.names.top;
+        let draft = self
+            .error(
+                Code::E0202,
+                name.span,
+                format!("`{called}` is not declared"),
+            )
+            .label("a behaviour of the library, which this program does not use")
+            .help(format!("`use std` brings `{called}`"));
+        match top {
+            Some(top) => draft.fix("use the library", top, "use std\n\n", Applicability::Safe),
+            None => draft,
+        }
+    }
+
+    /// The name that was likely meant. A program has so many guesses: to look for the names of thousands among
+    /// thousands would take too long.
+    pub fn likely<'n>(&self, name: &str, known: impl Iterator<Item = &'n str>) -> Option<&'n str> {
+        let left = self.guesses.get();
+        let mut looked_at = 0;
+        let known = known.inspect(|_| looked_at += 1).take(left);
+        let found = suggest::nearest(name, known);
+        self.guesses.set(left - looked_at.min(left));
+        found
     }
 
     /// Reports an expression where a name is needed; `declaration` gives it one.

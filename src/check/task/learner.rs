@@ -5,7 +5,7 @@ use crate::check::context::{Context, Region};
 use crate::check::names::learned_name;
 use crate::check::types::Type;
 use crate::diagnostic::{Applicability, Code};
-use crate::ir::expr::{Binary, Expr, ExprId};
+use crate::ir::expr::{Binary, Expr};
 use crate::ir::law::Behavior;
 use crate::ir::task::{Discount, Learner, Method, Objective};
 use crate::ir::{Id, Name};
@@ -242,54 +242,6 @@ impl<'a> Checker<'a> {
             label,
         )
         .none()
-    }
-
-    /// `a`, or `a -> b`, which goes from one to the other in step with `progress`.
-    fn schedule(
-        &mut self,
-        value: &'a ast::Expr,
-        tail: Option<&'a ast::Expr>,
-        role: &str,
-    ) -> Option<ExprId> {
-        let from = self.expect(value, &Type::NUMBER, role);
-        let to = tail.map(|tail| self.expect(tail, &Type::NUMBER, role));
-        let from_id = from.scalar()?;
-        let id = match to {
-            Some(to) => self.ramp(from_id, to.scalar()?),
-            None => from_id,
-        };
-        let reads_world = self.program.pool.any(id, &mut |expr| {
-            !matches!(
-                expr,
-                Expr::Num(_)
-                    | Expr::Bool(_)
-                    | Expr::Visits
-                    | Expr::Progress
-                    | Expr::Unary(..)
-                    | Expr::Binary(..)
-                    | Expr::Select(..)
-            )
-        });
-        if reads_world {
-            return self
-                .error(
-                    Code::E0307,
-                    value.span,
-                    format!("{role} depends on `visits` and `progress` only"),
-                )
-                .label("this reads the world")
-                .none();
-        }
-        Some(id)
-    }
-
-    /// `from + (to - from) * progress`
-    fn ramp(&mut self, from: ExprId, to: ExprId) -> ExprId {
-        let pool = &mut self.program.pool;
-        let progress = pool.leaf(Expr::Progress);
-        let rise = pool.binary(Binary::Sub, to, from);
-        let risen = pool.binary(Binary::Mul, rise, progress);
-        pool.binary(Binary::Add, from, risen)
     }
 
     /// `average per 1 s`

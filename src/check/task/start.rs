@@ -4,7 +4,7 @@ use crate::check::Checker;
 use crate::check::context::{Context, Region};
 use crate::check::names::{Decl, START_WORDS};
 use crate::check::types::{Type, Value};
-use crate::diagnostic::{Code, suggest};
+use crate::diagnostic::Code;
 use crate::ir::expr::ExprId;
 use crate::ir::task::{History, Placing, StartLine};
 use crate::syntax::ast;
@@ -65,7 +65,13 @@ impl<'a> Checker<'a> {
                 Some(placings.into_iter().map(own).collect())
             }
             "position" => match self.expect(value, &Type::Point, "`position`").value {
-                Value::Point(x, y) => Some(vec![StartLine::Position(x, y)]),
+                Value::Point(x, y) => {
+                    let constant = |id| self.program.pool.constant(id);
+                    if let (Some(x), Some(y)) = (constant(x), constant(y)) {
+                        self.positions.push((value.span, [x, y]));
+                    }
+                    Some(vec![StartLine::Position(x, y)])
+                }
                 _ => None,
             },
             "heading" => {
@@ -182,7 +188,7 @@ impl<'a> Checker<'a> {
             }
             None => {
                 let states = self.names.values(|decl| matches!(decl, Decl::State(_)));
-                let likely = suggest::nearest(name, states.chain(START_WORDS));
+                let likely = self.likely(name, states.chain(START_WORDS));
                 return self.undeclared(&line.target.name, "state", likely).none();
             }
         };

@@ -4,7 +4,7 @@ use crate::check::Checker;
 use crate::check::context::{Context, Region};
 use crate::check::names::Decl;
 use crate::check::types::Type;
-use crate::diagnostic::{Code, suggest};
+use crate::diagnostic::Code;
 use crate::ir::program::Event;
 use crate::ir::task::{Claim, ClaimKind, Occurrence, TreeRef};
 use crate::ir::{Id, Name};
@@ -59,7 +59,7 @@ impl<'a> Checker<'a> {
             _ => {
                 let trees = self.names.values(|decl| matches!(decl, Decl::Tree(_)));
                 let trees = trees.chain(self.names.learners.keys().copied());
-                let likely = suggest::nearest(&name.name, trees);
+                let likely = self.likely(&name.name, trees);
                 self.undeclared(name, "tree", likely);
             }
         }
@@ -88,20 +88,9 @@ impl<'a> Checker<'a> {
             .as_ref()
             .map(|time| self.ticks(time, "`within`"));
         let probability = claim.probability.as_ref().map(|(_, p)| {
-            let value = self.constant(p, &Type::Ratio, "a probability")?;
-            if (0.0..=1.0).contains(&value) {
-                Some(value)
-            } else {
-                // The warning that it has no `%` is the lesser mistake.
-                self.diagnostics
-                    .retain(|said| said.code != Code::W0301 || said.span() != p.span);
-                self.out_of_range(
-                    p.span,
-                    "a probability goes from 0% to 100%",
-                    &format!("this is {} %", value * 100.0),
-                )
-                .none()
-            }
+            let typed = self.expect(p, &Type::Ratio, "a probability");
+            self.probability(&typed, "a probability")?;
+            self.constant_part(typed.scalar()?, p.span, "a probability")
         });
         Some(Occurrence {
             event: event?,

@@ -2,6 +2,7 @@
 
 use crate::check::Checker;
 use crate::check::expr::plain_ref;
+use crate::check::lint::Asked;
 use crate::check::names::{Decl, is_built_in};
 use crate::diagnostic::Code;
 use crate::ir::tree::{Atom, Guard};
@@ -98,6 +99,11 @@ impl<'a> Checker<'a> {
         };
         let id = self.behavior_ref(behavior)?;
         self.asked.push((reference.span, outcome));
+        self.endings.insert(Asked {
+            span: reference.span,
+            behavior: id,
+            failure: outcome == Outcome::Failure,
+        });
         Some(match outcome {
             Outcome::Success => Atom::Done(id),
             Outcome::Failure => Atom::Failed(id),

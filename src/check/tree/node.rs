@@ -207,13 +207,11 @@ impl<'a> Checker<'a> {
             if matches!(name, "done" | "failed") {
                 return condition(self);
             }
-            let help = self.perhaps_of_library(name);
             let what = "behaviour, subtree or predicate";
             return self
                 .undeclared_value(&reference.name, what, |decl| {
                     matches!(decl, Decl::Behavior(_) | Decl::Tree(_) | Decl::Predicate(_))
                 })
-                .help_if(help)
                 .none();
         };
         if self.context.lookup(name).is_some() {

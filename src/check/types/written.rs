@@ -4,7 +4,7 @@ use crate::check::Checker;
 use crate::check::names::TypeDecl;
 use crate::check::types::Type;
 use crate::check::types::units::Dim;
-use crate::diagnostic::{Code, suggest};
+use crate::diagnostic::Code;
 use crate::syntax::ast::{Ident, TypeExpr};
 
 /// The names of built-in types.
@@ -67,7 +67,7 @@ impl<'a> Checker<'a> {
             None => {
                 let built_in = BUILT_IN.iter().map(|(name, _)| *name);
                 let known = built_in.chain(self.names.types.keys().copied());
-                let likely = suggest::nearest(&name.name, known);
+                let likely = self.likely(&name.name, known);
                 self.undeclared(name, "type", likely);
                 Type::Error
             }

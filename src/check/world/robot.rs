@@ -108,6 +108,7 @@ impl<'a> Checker<'a> {
         }
         if let Some(drive) = drive.and_then(|field| self.drive(&field.value)) {
             robot.drive = drive;
+            self.drive_known = true;
         }
         if let Some(field) = contact {
             match word(&field.value) {
@@ -169,6 +170,8 @@ impl<'a> Checker<'a> {
                     .none();
             }
         }
+        self.noise(speed_noise)?;
+        self.noise(turn_noise)?;
         Some(Drive {
             kind,
             max_speed: max_speed.0,

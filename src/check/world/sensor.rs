@@ -24,7 +24,7 @@ impl<'a> Checker<'a> {
         let noise = ("noise", Type::LENGTH, Some(0.0));
         let (kind, noise) = match reference.name.name.as_str() {
             "scanner" => {
-                let [(from, at), (to, _), (range, far), (noise, _)] = self.settings(
+                let [(from, at), (to, _), (range, far), noise] = self.settings(
                     reference,
                     [
                         ("from", Type::ANGLE, None),
@@ -42,11 +42,11 @@ impl<'a> Checker<'a> {
                         )
                         .none();
                 }
-                self.positive(range, far)?;
+                self.positive("a range", range, far)?;
                 (SensorKind::Scanner { from, to, range }, noise)
             }
             "range_finder" => {
-                let [(at, _), (range, far), (noise, _)] = self.settings(
+                let [(at, _), (range, far), noise] = self.settings(
                     reference,
                     [
                         ("at", Type::ANGLE, None),
@@ -54,7 +54,7 @@ impl<'a> Checker<'a> {
                         noise,
                     ],
                 )?;
-                self.positive(range, far)?;
+                self.positive("a range", range, far)?;
                 (SensorKind::RangeFinder { at, range }, noise)
             }
             "beacon" => {
@@ -68,8 +68,9 @@ impl<'a> Checker<'a> {
                     ],
                 );
                 let (target, facing) = self.beacon_target(target, reference.name.span)?;
-                let [(range, far), (sector, _), (noise, _)] = settings?;
-                self.positive(range, far)?;
+                let [(range, far), (sector, width), noise] = settings?;
+                self.positive("a range", range, far)?;
+                self.positive("a sector", sector, width)?;
                 let kind = SensorKind::Beacon {
                     target,
                     range,
@@ -86,8 +87,21 @@ impl<'a> Checker<'a> {
         Some(Sensor {
             name: Name::word(&name.name),
             kind,
-            noise,
+            noise: self.noise(noise)?,
         })
+    }
+
+    /// Noise, which is a standard deviation.
+    pub fn noise(&mut self, (noise, span): (f64, Span)) -> Option<f64> {
+        if noise >= 0.0 {
+            return Some(noise);
+        }
+        self.out_of_range(
+            span,
+            "noise is not below zero",
+            "this is a standard deviation: how far the values scatter",
+        )
+        .none()
     }
 
     /// The `target` of a beacon: a place, whose `facing` is the way that it sends, against the robot that faces it.
@@ -106,11 +120,12 @@ impl<'a> Checker<'a> {
         Some((place.shape.center(), sends))
     }
 
-    fn positive(&mut self, range: f64, span: Span) -> Option<()> {
-        if range > 0.0 {
+    fn positive(&mut self, what: &str, value: f64, span: Span) -> Option<()> {
+        if value > 0.0 {
             return Some(());
         }
-        self.out_of_range(span, "a range is above zero", "this would sense nothing")
+        let message = format!("{what} is above zero");
+        self.out_of_range(span, message, "this would sense nothing")
             .none()
     }
 }

@@ -1,10 +1,12 @@
 //! Diagnostics for a person at a terminal.
 
+use super::visible::{in_place, visible};
 use crate::diagnostic::{Diagnostic, Fix, Severity};
 use crate::source::Sources;
 use codespan_reporting::diagnostic as report;
 use codespan_reporting::files::{Error, Files};
 use codespan_reporting::term::{self, Config, termcolor};
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// The text that shows `diagnostics`, one after another, each with the lines that it is about; with colours as ANSI
@@ -19,7 +21,17 @@ pub fn human(sources: &Sources, diagnostics: &[Diagnostic], color: bool) -> Stri
         tab_width: 4,
         ..Config::default()
     };
-    let files = SourceFiles(sources);
+    let files = SourceFiles {
+        sources,
+        texts: sources
+            .iter()
+            .map(|(_, source)| in_place(&source.text))
+            .collect(),
+        names: sources
+            .iter()
+            .map(|(_, source)| visible(&source.name))
+            .collect(),
+    };
     for diagnostic in diagnostics {
         // Writing into memory does not fail, and a place outside its file shows no line.
         let _ =
@@ -45,7 +57,7 @@ fn reported(sources: &Sources, diagnostic: &Diagnostic) -> report::Diagnostic<us
                 report::LabelStyle::Secondary
             };
             report::Label::new(style, label.span.file.0 as usize, label.span.range())
-                .with_message(&label.message)
+                .with_message(visible(&label.message))
         })
         .collect();
     let notes = diagnostic.notes.iter().map(|note| format!("note: {note}"));
@@ -57,17 +69,27 @@ fn reported(sources: &Sources, diagnostic: &Diagnostic) -> report::Diagnostic<us
     let fixes = diagnostic
         .fixes
         .iter()
-        .map(|fix| offered(sources, fix, said));
+        .filter_map(|fix| offered(sources, fix, said));
     report::Diagnostic::new(severity)
         .with_code(diagnostic.code)
-        .with_message(&diagnostic.message)
+        .with_message(visible(&diagnostic.message))
         .with_labels(labels)
-        .with_notes(notes.chain(help).chain(fixes).collect())
+        .with_notes(
+            notes
+                .chain(help)
+                .chain(fixes)
+                .map(|note| visible(&note).into_owned())
+                .collect(),
+        )
 }
 
 /// A fix in words, such as "help: compare twice: insert `and e ` before `< 3`"; without its title if it is `said`
 /// already, or says no more than the edit.
-fn offered(sources: &Sources, fix: &Fix, said: &str) -> String {
+fn offered(sources: &Sources, fix: &Fix, said: &str) -> Option<String> {
+    // A question that has been asked is not asked again.
+    if said.ends_with('?') && fix.edits.iter().all(|(_, new)| said.contains(new.trim())) {
+        return None;
+    }
     let edits: Vec<String> = fix
         .edits
         .iter()
@@ -80,6 +102,7 @@ fn offered(sources: &Sources, fix: &Fix, said: &str) -> String {
                 .unwrap_or_default()
                 .trim();
             match (old, new.as_str()) {
+                ("", new) if new.contains('\n') => format!("insert `{}`", new.trim()),
                 ("", new) if next.is_empty() => format!("insert `{new}` at the end of the line"),
                 ("", new) => format!("insert `{new}` before `{}`", shortened(next)),
                 (old, "") if old.trim().is_empty() => "delete the blank".to_owned(),
@@ -90,13 +113,15 @@ fn offered(sources: &Sources, fix: &Fix, said: &str) -> String {
         .collect();
     let edits = edits.join(", ");
     if fix.title.ends_with('?') {
-        return format!("help: {}", fix.title);
+        return Some(format!("help: {}", fix.title));
     }
-    if fix.title == said || fix.title.starts_with("write `") || fix.title.starts_with("drop ") {
-        format!("help: {edits}")
-    } else {
-        format!("help: {}: {edits}", fix.title)
-    }
+    Some(
+        if fix.title == said || fix.title.starts_with("write `") || fix.title.starts_with("drop ") {
+            format!("help: {edits}")
+        } else {
+            format!("help: {}: {edits}", fix.title)
+        },
+    )
 }
 
 /// The beginning of a line, for a hint.
@@ -110,11 +135,17 @@ fn shortened(line: &str) -> String {
 }
 
 /// The sources as codespan reads them.
-struct SourceFiles<'a>(&'a Sources);
+struct SourceFiles<'a> {
+    sources: &'a Sources,
+    /// What is shown of each.
+    texts: Vec<Cow<'a, str>>,
+    /// What each is called.
+    names: Vec<Cow<'a, str>>,
+}
 
 impl SourceFiles<'_> {
     fn source(&self, id: usize) -> Result<&crate::source::Source, Error> {
-        let mut files = self.0.iter();
+        let mut files = self.sources.iter();
         files
             .nth(id)
             .map(|(_, source)| source)
@@ -128,11 +159,17 @@ impl<'a> Files<'a> for SourceFiles<'a> {
     type Source = &'a str;
 
     fn name(&'a self, id: usize) -> Result<&'a str, Error> {
-        Ok(&self.source(id)?.name)
+        self.names
+            .get(id)
+            .map(|name| &**name)
+            .ok_or(Error::FileMissing)
     }
 
     fn source(&'a self, id: usize) -> Result<&'a str, Error> {
-        Ok(&SourceFiles::source(self, id)?.text)
+        self.texts
+            .get(id)
+            .map(|text| &**text)
+            .ok_or(Error::FileMissing)
     }
 
     fn line_index(&'a self, id: usize, offset: usize) -> Result<usize, Error> {

@@ -93,9 +93,9 @@ fn row(text: &[u8], cells: &[Range<usize>], roles: &[Role], reading: &mut Readin
                 Some(visits) => reading.draft.visits = visits.unwrap_or(0),
                 None => reading.unknown(text, cell, "a count"),
             },
-            Role::Value(column) => match number(text, cell) {
-                Some(q) => reading.draft.value(*column, q),
-                None => reading.unknown(text, cell, "a number"),
+            Role::Value(column) => match number::<f64>(text, cell) {
+                Some(q) if q.is_none_or(f64::is_finite) => reading.draft.value(*column, q),
+                _ => reading.unknown(text, cell, "a finite number"),
             },
             Role::Ignored => {}
         }

@@ -186,8 +186,10 @@ impl Line<'_> {
                 None => "a count",
             },
             Role::Value(column) => match value.number(|number| number.as_f64()) {
-                Some(q) => return reading.draft.value(column, q),
-                None => "a number",
+                Some(q) if q.is_none_or(f64::is_finite) => {
+                    return reading.draft.value(column, q);
+                }
+                _ => "a finite number",
             },
             Role::Ignored => return,
         };

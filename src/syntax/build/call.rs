@@ -67,10 +67,21 @@ impl<'i> Builder<'i> {
 
     pub(super) fn args(&mut self, node: Node<'i>) -> Vec<Arg> {
         let mut args: Vec<Arg> = Vec::new();
+        let mut is_unit = false;
         for part in Parts::of(node) {
             match part.as_rule() {
+                // What was to be a unit is no argument.
+                Rule::arg if std::mem::take(&mut is_unit) => {
+                    if let Some(Arg { kind, .. }) = args.last_mut()
+                        && let ArgKind::Positional(value) | ArgKind::Named(_, value) = kind
+                    {
+                        value.kind = ExprKind::Error;
+                    }
+                }
                 Rule::arg => args.push(self.arg(part)),
-                Rule::missing_arg_comma if self.unit_is_meant(&part, args.last()) => {}
+                Rule::missing_arg_comma if self.unit_is_meant(&part, args.last()) => {
+                    is_unit = true;
+                }
                 Rule::missing_arg_comma => {
                     let before = args.last().map(|arg| arg.span);
                     self.missing_comma(&part, before, "arguments");

@@ -32,6 +32,12 @@ impl<'i> Builder<'i> {
                 Rule::stray_close => self.stray_close(span),
                 Rule::bad_item | Rule::bad_entry | Rule::bad_reward | Rule::bad_child => {
                     self.bad(span.range().start, strict, previous);
+                    self.lose(span);
+                    if let Some(previous) = previous
+                        && self.goes_on(span.range().start)
+                    {
+                        self.suspect(previous);
+                    }
                     previous = Some(span);
                     push(self, None, span);
                 }

@@ -155,7 +155,6 @@ impl<'i> Builder<'i> {
         };
         let name = divisor.name.name.as_str();
         let is_unit = UNITS.contains(&name) && !matches!(name, "tick" | "ticks" | "min");
-        let unit = literal.unit.as_ref()?;
         if divisor.args.is_some()
             || !is_unit
             || self.slice(right.span).starts_with('`')
@@ -163,6 +162,20 @@ impl<'i> Builder<'i> {
         {
             return None;
         }
+        let Some(unit) = &literal.unit else {
+            let digits = &literal.digits;
+            let diagnostic = Diagnostic::new(
+                Code::E0114,
+                right.span,
+                format!("`/{name}` is not a unit of its own"),
+            )
+            .label("per what?")
+            .help(format!(
+                "a frequency is `{digits} Hz`, a turn rate `{digits} rad/s`, a speed `{digits} m/s`"
+            ));
+            self.report(diagnostic);
+            return Some(self.error_expr(span));
+        };
         let merged = format!("{}/{name}", unit.text);
         let place = unit.span.to(right.span);
         let diagnostic = Diagnostic::new(Code::E0115, place, "a unit has no blanks inside")

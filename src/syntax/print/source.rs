@@ -20,6 +20,14 @@ impl<'s> Source<'s> {
         }
     }
 
+    /// Whether its first line ends with a carriage return before the newline.
+    pub(super) fn ends_in_carriage_returns(&self) -> bool {
+        let first = self.newlines.first().copied().unwrap_or(0);
+        self.text
+            .get(..first)
+            .is_some_and(|line| line.ends_with('\r'))
+    }
+
     /// Whether `span` goes over several lines.
     pub(super) fn is_broken(&self, span: Span) -> bool {
         let next = self.newlines.partition_point(|&at| at < span.range().start);

@@ -291,3 +291,12 @@ fn a_power_is_parted_from_a_unit() {
         check(&text).unwrap();
     }
 }
+
+/// A file keeps the ends of its lines.
+#[test]
+fn carriage_returns_stay() {
+    for text in EXAMPLES {
+        let returns = text.replace('\n', "\r\n");
+        assert_eq!(print::format(&returns).unwrap(), returns);
+    }
+}

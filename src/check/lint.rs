@@ -1,0 +1,45 @@
+//! What is wrong with a program whose parts are all right: passes over the whole of it, once nothing else is wrong.
+//!
+//! They err on the side of silence: what they report does not depend on how the program runs.
+
+mod cases;
+mod endings;
+mod geometry;
+mod mentions;
+mod predicates;
+mod regions;
+mod rewards;
+mod tree;
+mod unused;
+mod world;
+
+use super::{Checker, Input};
+use crate::diagnostic::Diagnostic;
+pub use endings::Asked;
+
+impl<'a> Checker<'a> {
+    /// The passes over the whole program, the main file being the last of the files.
+    pub fn whole_program(&mut self, files: &[Input<'a>]) {
+        let own = || files.iter().filter(|input| !input.library);
+        let items = || own().flat_map(|input| &input.ast.items);
+        if self.has_errors() || files.iter().any(|input| input.ast.lost.any) {
+            return;
+        }
+        self.endings_that_never_come();
+        self.blocked_places(items());
+        if self.has_errors() {
+            return;
+        }
+        self.unread_names();
+        self.unused_declarations(files);
+        self.regions_without_effect(items());
+        self.predicates_without_effect(items());
+        self.rewards_without_effect(items());
+        self.nodes_without_effect(items());
+        self.world_without_effect(items());
+    }
+
+    fn has_errors(&self) -> bool {
+        self.diagnostics.iter().any(Diagnostic::is_error)
+    }
+}

@@ -1,0 +1,101 @@
+//! Endings that are asked for and never come.
+
+use crate::check::Checker;
+use crate::diagnostic::Code;
+use crate::ir::law::Behavior;
+use crate::ir::tree::Status;
+use crate::ir::{Id, Program};
+use crate::source::Span;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A place where the program asks whether a behaviour has ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Asked {
+    /// Where it asks.
+    pub span: Span,
+    /// The behaviour.
+    pub behavior: Id<Behavior>,
+    /// Whether it asks for a failure.
+    pub failure: bool,
+}
+
+impl Checker<'_> {
+    /// `success(b)`, `failure(b)`, `done(b)`, `failed(b)` of a behaviour that never ends so, or that nothing runs: one
+    /// message for each behaviour and outcome.
+    pub fn endings_that_never_come(&mut self) {
+        let run = run(&self.program);
+        let mut places: BTreeMap<(Id<Behavior>, bool), Vec<Span>> = BTreeMap::new();
+        for asked in std::mem::take(&mut self.endings) {
+            let key = (asked.behavior, asked.failure);
+            places.entry(key).or_default().push(asked.span);
+        }
+        for ((behavior, failure), places) in places {
+            let Some((&first, more)) = places.split_first() else {
+                continue;
+            };
+            let name = self.program.behaviors[behavior].name.clone();
+            let status = if failure {
+                Status::Failure
+            } else {
+                Status::Success
+            };
+            let draft = if !may_end(&self.program, behavior, status) {
+                let (verb, clause) = if failure {
+                    ("fails", "neither `requires` nor `fail when`")
+                } else {
+                    ("succeeds", "no `succeed when` that can hold")
+                };
+                self.error(Code::E0611, first, format!("`{name}` never {verb}"))
+                    .note(format!("it has {clause}"))
+            } else if run.as_ref().is_some_and(|run| !run.contains(&behavior)) {
+                let message = format!("no task chooses `{name}`, and no tree runs it");
+                let help = format!("add `{name}` to `choose`, or ask another behaviour");
+                self.error(Code::E0611, first, message).help(help)
+            } else {
+                continue;
+            };
+            let draft = draft.label("so this never holds");
+            more.iter()
+                .fold(draft, |draft, place| draft.also(*place, "nor does this"))
+                .emit();
+        }
+    }
+}
+
+/// The behaviours that tasks choose and trees run; `None` if the program has no task.
+fn run(program: &Program) -> Option<BTreeSet<Id<Behavior>>> {
+    if program.tasks.is_empty() {
+        return None;
+    }
+    let mut run: BTreeSet<_> = program
+        .tasks
+        .values()
+        .flat_map(|task| task.choose.iter().copied())
+        .chain(
+            program
+                .learners
+                .values()
+                .filter_map(|learner| learner.unseen),
+        )
+        .collect();
+    let others = program.world.iter().flat_map(|world| world.others.values());
+    let scripts = others.filter_map(|other| other.script.as_ref());
+    for root in program.trees.values().map(|tree| &tree.root).chain(scripts) {
+        root.visit_behaviors(&mut |id| {
+            run.insert(id);
+        });
+    }
+    Some(run)
+}
+
+/// Whether a behaviour may end so; one that is declared only may.
+pub fn may_end(program: &Program, behavior: Id<Behavior>, status: Status) -> bool {
+    let Some(law) = &program.behaviors[behavior].law else {
+        return true;
+    };
+    let constant = |id| program.pool.constant(id);
+    match status {
+        Status::Failure => constant(law.requires) != Some(1.0) || constant(law.fail) != Some(0.0),
+        _ => constant(law.succeed) != Some(0.0) && constant(law.requires) != Some(0.0),
+    }
+}

@@ -1,0 +1,183 @@
+//! Predicates that say nothing, or nothing new, to the task that observes them.
+
+use super::cases::of_expr;
+use crate::check::Checker;
+use crate::check::expr::plain_ref;
+use crate::check::names::Decl;
+use crate::diagnostic::Code;
+use crate::ir::program::Predicate;
+use crate::ir::{Id, Name};
+use crate::spelling::spelled;
+use crate::syntax::ast::{
+    AspectKind, BehaviorBody, BinaryOp, ClauseKind, Expr, ExprKind, Item, ItemKind, Ref, Task,
+};
+
+impl<'a> Checker<'a> {
+    /// Warns of predicates that always or never hold, of pairs that say the same, and of what a behaviour requires and
+    /// the task does not observe.
+    pub fn predicates_without_effect(&mut self, items: impl Iterator<Item = &'a Item> + Clone) {
+        for item in items.clone() {
+            match &item.kind {
+                ItemKind::Predicate(predicate) if predicate.params.is_none() => {
+                    let name = Name::word(&predicate.name.name);
+                    if let (Some(id), Some(value)) = (self.predicate_named(&name), &predicate.value)
+                    {
+                        self.constant_predicate(id, value);
+                    }
+                }
+                ItemKind::Task(task) => {
+                    self.predicates_alike(task);
+                    self.unobserved(task, items.clone());
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn predicate_named(&self, name: &Name) -> Option<Id<Predicate>> {
+        self.program.predicates.find(|other| other.name == *name)
+    }
+
+    fn constant_predicate(&mut self, id: Id<Predicate>, value: &Expr) {
+        let predicate = &self.program.predicates[id];
+        let Some(when) = predicate.when else { return };
+        let says = match [true, false].map(|wanted| of_expr(&self.program, when, wanted).is_never())
+        {
+            [true, _] => "never",
+            [_, true] => "always",
+            _ => return,
+        };
+        let message = format!("the predicate `{}` {says} holds", predicate.name);
+        self.warning(Code::W0601, value.span, message)
+            .label("whatever happens in the world");
+    }
+
+    /// The references of a list of the task, each with the predicate that it observes.
+    fn observed_by(&self, task: &'a Task) -> Vec<(&'a Ref, Id<Predicate>)> {
+        let name = Name::word(&task.name.name);
+        let Some(id) = self.program.tasks.find(|task| task.name == name) else {
+            return Vec::new();
+        };
+        let lists = task.aspects.iter().filter_map(|aspect| match &aspect.kind {
+            AspectKind::Observe(list) => Some(list),
+            _ => None,
+        });
+        let references = lists.flatten().filter_map(plain_ref);
+        references
+            .zip(self.program.tasks[id].observe.iter().copied())
+            .collect()
+    }
+
+    /// Of two observed predicates that are equal, or opposites, the second tells nothing.
+    fn predicates_alike(&mut self, task: &'a Task) {
+        let observed = self.observed_by(task);
+        for (at, &(reference, id)) in observed.iter().enumerate() {
+            for &(first, other) in observed.iter().take(at) {
+                let (Some(one), Some(two)) = (
+                    self.program.predicates[other].when,
+                    self.program.predicates[id].when,
+                ) else {
+                    continue;
+                };
+                let cases = |id, wanted| of_expr(&self.program, id, wanted);
+                let same = |wanted| {
+                    let (one, two) = (cases(one, true), cases(two, wanted));
+                    !one.is_never() && one.implies(&two) && two.implies(&one)
+                };
+                let what = if one == two || same(true) {
+                    "says the same as"
+                } else if same(false) {
+                    "is the opposite of"
+                } else {
+                    continue;
+                };
+                let names = [id, other].map(|id| self.program.predicates[id].name.to_string());
+                let [name, of] = names.map(|name| name.trim_matches('`').to_owned());
+                let message = format!("`{name}` {what} `{of}`");
+                self.warning(Code::W0513, reference.span, message)
+                    .label("observing this as well tells the robot nothing")
+                    .also(first.span, "observed already");
+                break;
+            }
+        }
+    }
+
+    /// A behaviour of the user that requires a predicate which the task does not observe fails for no reason that the
+    /// policy could learn.
+    fn unobserved(&mut self, task: &'a Task, items: impl Iterator<Item = &'a Item> + Clone) {
+        let observed = self.observed_by(task);
+        if observed.is_empty() {
+            return;
+        }
+        let families: Vec<&str> = observed
+            .iter()
+            .map(|(reference, _)| reference.name.name.as_str())
+            .collect();
+        let lists = task.aspects.iter().filter_map(|aspect| match &aspect.kind {
+            AspectKind::Choose(list) => Some(list),
+            _ => None,
+        });
+        for chosen in lists.flatten().filter_map(plain_ref) {
+            let behavior = items.clone().find_map(|item| match &item.kind {
+                ItemKind::Behavior(behavior) if behavior.name.name == chosen.name.name => {
+                    Some(behavior)
+                }
+                _ => None,
+            });
+            let Some(BehaviorBody::Clauses(clauses)) = behavior.map(|behavior| &behavior.body)
+            else {
+                continue;
+            };
+            for clause in clauses {
+                let ClauseKind::Requires(test) = &clause.kind else {
+                    continue;
+                };
+                let mut asked = Vec::new();
+                conjuncts(test, &mut asked);
+                for reference in asked {
+                    let name = reference.name.name.as_str();
+                    let is_predicate =
+                        matches!(self.names.value(name, false), Some((Decl::Predicate(_), _)));
+                    if !is_predicate || families.contains(&name) || self.is_told(name, &observed) {
+                        continue;
+                    }
+                    let name = spelled(name).trim_matches('`').to_owned();
+                    let message = format!(
+                        "the task `{}` does not observe `{name}`, which `{}` requires",
+                        task.name.name, chosen.name.name
+                    );
+                    self.warning(Code::W0514, chosen.span, message)
+                        .label("where it does not hold, this fails, and the policy cannot tell why")
+                        .also(reference.span, "required here");
+                }
+            }
+        }
+    }
+
+    /// Whether another predicate of the list says what the one of this name does.
+    fn is_told(&self, name: &str, observed: &[(&'a Ref, Id<Predicate>)]) -> bool {
+        let mut predicates = self.program.predicates.values();
+        let named = predicates.find(|predicate| predicate.name.family == name);
+        let Some(when) = named.and_then(|predicate| predicate.when) else {
+            // One that no task and no tree asks has no instance to compare.
+            return false;
+        };
+        let mut observed = observed
+            .iter()
+            .map(|(_, id)| self.program.predicates[*id].when);
+        observed.any(|other| other == Some(when))
+    }
+}
+
+/// The references that have to hold for an expression to hold.
+fn conjuncts<'a>(expr: &'a Expr, found: &mut Vec<&'a Ref>) {
+    match &expr.kind {
+        ExprKind::Ref(reference) => found.push(reference),
+        ExprKind::Paren(inner) => conjuncts(inner, found),
+        ExprKind::Binary { op, left, right } if op.node == BinaryOp::And => {
+            conjuncts(left, found);
+            conjuncts(right, found);
+        }
+        _ => {}
+    }
+}

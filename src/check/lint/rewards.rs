@@ -1,0 +1,139 @@
+//! Rewards that are never paid, ends that count for nothing, and times that never pass.
+
+use super::cases::{Cases, of_expr};
+use crate::check::Checker;
+use crate::diagnostic::Code;
+use crate::ir::expr::ExprId;
+use crate::ir::task::Task;
+use crate::ir::{Id, Name};
+use crate::source::Span;
+use crate::syntax::ast::{self, AspectKind, Expr, Item, ItemKind, LearnEntry, RewardLine};
+
+impl<'a> Checker<'a> {
+    /// Warns of what a task says about rewards, ends and times without any effect.
+    pub fn rewards_without_effect(&mut self, items: impl Iterator<Item = &'a Item>) {
+        for item in items {
+            match &item.kind {
+                ItemKind::Task(task) => {
+                    let name = Name::word(&task.name.name);
+                    if let Some(id) = self.program.tasks.find(|task| task.name == name) {
+                        self.rewards_of(task, id);
+                    }
+                }
+                ItemKind::Learn(learn) => self.dwells_too_long(learn),
+                _ => {}
+            }
+        }
+    }
+
+    fn rewards_of(&mut self, task: &'a ast::Task, id: Id<Task>) {
+        let checked = self.program.tasks[id].clone();
+        let mut ends = 0;
+        for aspect in &task.aspects {
+            match &aspect.kind {
+                AspectKind::Reward { lines, otherwise } => {
+                    self.lines_without_effect(lines, &checked);
+                    let values = checked.reward.iter().map(|line| line.value);
+                    let prices = checked.prices.iter().map(|price| price.per_second);
+                    let mut values = values.chain(prices).chain([checked.otherwise]);
+                    let zero = |id: ExprId| self.program.pool.constant(id) == Some(0.0);
+                    if values.all(zero) {
+                        let last = otherwise.as_ref().or(lines.last().map(|line| &line.value));
+                        let span = last.map_or(aspect.span, |value| value.span);
+                        self.warning(Code::W0510, span, "every reward of this task is 0")
+                            .label("so any tree is as good as any other");
+                    }
+                }
+                AspectKind::EndOn(event) => {
+                    self.end_without_value(event, ends, &checked);
+                    ends += 1;
+                }
+                AspectKind::Patience(time)
+                    if checked
+                        .patience
+                        .is_some_and(|ticks| ticks >= checked.end_after) =>
+                {
+                    self.warning(Code::W0512, time.span, "no episode lasts so long")
+                        .label("so patience never runs out")
+                        .note(format!("an episode ends after {} ticks", checked.end_after));
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// The first line whose event happens gives the reward.
+    fn lines_without_effect(&mut self, lines: &'a [RewardLine], checked: &Task) {
+        let mut before: Vec<(Span, Cases)> = Vec::new();
+        for (place, line) in lines.iter().enumerate() {
+            let here = line.paid.span();
+            // A line for the members of a kind is one for each.
+            let members = checked.written.reward.iter().zip(&checked.reward);
+            let members = members.filter(|(of, _)| **of == place);
+            let cases: Vec<Cases> = members
+                .map(|(_, line)| of_expr(&self.program, line.event, true))
+                .collect();
+            let Some(first) = cases.first() else {
+                continue;
+            };
+            let earlier = before.iter().find(|(_, earlier)| first.implies(earlier));
+            let covered = |cases: &Cases| before.iter().any(|(_, earlier)| cases.implies(earlier));
+            if cases.iter().all(Cases::is_never) {
+                self.warning(Code::W0509, here, "this reward is never paid")
+                    .label("this never happens");
+            } else if let Some((earlier, _)) = earlier.filter(|_| cases.iter().all(covered)) {
+                let earlier = *earlier;
+                self.warning(Code::W0509, here, "this reward is never paid")
+                    .label("whenever this happens, an earlier line pays")
+                    .also(earlier, "this line comes first");
+            }
+            before.extend(cases.into_iter().map(|cases| (here, cases)));
+        }
+    }
+
+    /// A line of `end on`, by its place among them.
+    fn end_without_value(&mut self, event: &'a Expr, place: usize, checked: &Task) {
+        let members = checked.written.end_on.iter().zip(&checked.end_on);
+        let members = members.filter(|(of, _)| **of == place);
+        let ends: Vec<Cases> = members
+            .map(|(_, end)| of_expr(&self.program, *end, true))
+            .collect();
+        if ends.is_empty() {
+            return;
+        }
+        if ends.iter().all(Cases::is_never) {
+            self.warning(Code::W0509, event.span, "no episode ends on this")
+                .label("this never happens");
+            return;
+        }
+        let rewarded = checked.reward.iter().any(|line| {
+            let paid = of_expr(&self.program, line.event, true);
+            ends.iter()
+                .any(|end| !end.and(&paid).is_never() && (end.implies(&paid) || paid.implies(end)))
+        });
+        if !rewarded {
+            self.warning(Code::W0511, event.span, "this end is neither good nor bad")
+                .label("no line of `reward` says what it is worth")
+                .help("reward it, or make it cost something, such as `on EVENT: -5`");
+        }
+    }
+
+    fn dwells_too_long(&mut self, learn: &'a ast::Learn) {
+        let name = crate::check::names::learned_name(learn);
+        let mut learners = self.program.learners.values();
+        let learner = learners.find(|learner| learner.name.is(name));
+        let Some((dwell, episode)) = learner.map(|learner| (learner.dwell, learner.episode_ticks))
+        else {
+            return;
+        };
+        let setting = learn.entries.iter().find_map(|entry| match entry {
+            LearnEntry::Setting(setting) if setting.name.name == "dwell" => Some(setting),
+            _ => None,
+        });
+        if let Some(setting) = setting.filter(|_| dwell >= episode) {
+            self.warning(Code::W0512, setting.value.span, "no episode lasts so long")
+                .label("so there is one decision in each episode")
+                .note(format!("an episode of learning ends after {episode} ticks"));
+        }
+    }
+}

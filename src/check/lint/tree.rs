@@ -1,0 +1,204 @@
+//! Nodes that a tree never gets to, and guards that ask nothing.
+//!
+//! Within a tick predicates do not change: a node is reached where all that stands before it gives way. What drives and
+//! fails gives way, too, so only what can never fail shuts off what follows it in a selector.
+
+use super::cases::{Cases, of_guard};
+use super::endings::may_end;
+use crate::check::Checker;
+use crate::diagnostic::Code;
+use crate::ir::tree::{Composite, Decorator, Guard, Node, Status};
+use crate::ir::{Name, Program};
+use crate::source::Span;
+use crate::syntax::ast::{self, ExprKind, Item, ItemKind, NodeKind};
+
+impl<'a> Checker<'a> {
+    /// Warns of nodes that are never reached and of guards that always or never hold.
+    pub fn nodes_without_effect(&mut self, items: impl Iterator<Item = &'a Item>) {
+        for item in items {
+            let ItemKind::Tree(tree) = &item.kind else {
+                continue;
+            };
+            let name = Name::word(&tree.name.name);
+            let built = self.program.trees.values().find(|tree| tree.name == name);
+            if let Some(root) = built.map(|built| built.root.clone()) {
+                self.nodes_of(&tree.root, &root, &Cases::constant(true));
+            }
+        }
+    }
+
+    /// `reached` says when the node may be reached.
+    fn nodes_of(&mut self, written: &'a ast::Node, node: &Node, reached: &Cases) {
+        match (&written.kind, node) {
+            (NodeKind::Guarded { guard, node: inner }, Node::Composite { children, .. }) => {
+                let [Node::Condition(asked), node] = children.as_slice() else {
+                    return;
+                };
+                if self.asks_nothing(guard, asked) {
+                    return;
+                }
+                let within = reached.and(&of_guard(&self.program, asked, true));
+                if within.is_never() {
+                    self.warning(Code::W0602, guard.span, "this unit is never reached")
+                        .label("what comes before it takes every case in which this holds");
+                    return;
+                }
+                self.nodes_of(inner, node, &within);
+            }
+            (NodeKind::Leaf(expr), Node::Condition(asked)) => {
+                let literal = matches!(expr.kind, ExprKind::Bool(_));
+                if !literal {
+                    self.asks_nothing(expr, asked);
+                }
+            }
+            (NodeKind::Composite { children, .. }, Node::Decorator { child, .. }) => {
+                if let [only] = children.as_slice() {
+                    self.nodes_of(only, child, reached);
+                }
+            }
+            (
+                NodeKind::Composite { children, .. },
+                Node::Parallel {
+                    children: nodes, ..
+                },
+            ) => {
+                for (written, node) in children.iter().zip(nodes) {
+                    self.nodes_of(written, node, reached);
+                }
+            }
+            (
+                NodeKind::Composite { children, .. },
+                Node::Composite {
+                    kind,
+                    memory,
+                    children: nodes,
+                },
+            ) => self.children_of(children, nodes, *kind, *memory, reached),
+            _ => {}
+        }
+    }
+
+    fn children_of(
+        &mut self,
+        written: &'a [ast::Node],
+        nodes: &[Node],
+        kind: Composite,
+        memory: bool,
+        reached: &Cases,
+    ) {
+        let mut open = reached.clone();
+        let mut shut: Option<Span> = None;
+        for (child, node) in written.iter().zip(nodes) {
+            if open.is_never() {
+                let (message, label) = match kind {
+                    Composite::Selector => ("this is never reached", "this never fails"),
+                    Composite::Sequence => ("this is never reached", "this never succeeds"),
+                };
+                let at = head(child);
+                let draft = self
+                    .warning(Code::W0602, at, message)
+                    .label("never reached");
+                if let Some(shut) = shut {
+                    draft.also(shut, label);
+                }
+                return;
+            }
+            // Whoever writes `false` has the rest switched off on purpose.
+            if matches!(&child.kind, NodeKind::Leaf(leaf) if matches!(leaf.kind, ExprKind::Bool(_)))
+            {
+                return;
+            }
+            self.nodes_of(child, node, &open);
+            let status = match kind {
+                Composite::Selector => Status::Failure,
+                Composite::Sequence => Status::Success,
+            };
+            let passes = when(&self.program, node, status);
+            let next = match (memory, passes.is_never()) {
+                (false, _) => open.and(&passes),
+                // A child of a memory node may have ended in an earlier tick.
+                (true, true) => Cases::constant(false),
+                (true, false) => open.clone(),
+            };
+            if next.is_never() {
+                shut = Some(head(child));
+            }
+            open = next;
+        }
+    }
+
+    /// Whether a guard always or never holds; warned of if so.
+    fn asks_nothing(&mut self, written: &'a ast::Expr, guard: &Guard) -> bool {
+        let never = |wanted| of_guard(&self.program, guard, wanted).is_never();
+        let says = match (never(true), never(false)) {
+            (true, _) => "never",
+            (_, true) => "always",
+            _ => return false,
+        };
+        // A predicate that is constant by its definition has its warning there.
+        let plain = matches!(&written.kind, ExprKind::Ref(_));
+        if !plain {
+            self.warning(
+                Code::W0601,
+                written.span,
+                format!("this guard {says} holds"),
+            )
+            .label("it asks nothing");
+        }
+        true
+    }
+}
+
+/// When a node may answer with success, or with failure.
+fn when(program: &Program, node: &Node, status: Status) -> Cases {
+    let fails = status == Status::Failure;
+    let possible = |possible| match possible {
+        true => Cases::Unknown,
+        false => Cases::constant(false),
+    };
+    match node {
+        Node::Condition(guard) => of_guard(program, guard, !fails),
+        Node::Behavior(id) => possible(may_end(program, *id, status)),
+        Node::Composite {
+            kind,
+            memory,
+            children,
+        } => {
+            let parts = children.iter().map(|child| when(program, child, status));
+            // A sequence succeeds with all of its children, and fails with one.
+            let all = (*kind == Composite::Sequence) != fails;
+            if *memory {
+                let mut parts = parts;
+                let never = match all {
+                    true => parts.any(|part| part.is_never()),
+                    false => parts.all(|part| part.is_never()),
+                };
+                return possible(!never);
+            }
+            parts.fold(Cases::constant(all), |so_far, part| match all {
+                true => so_far.and(&part),
+                false => so_far.or(&part),
+            })
+        }
+        Node::Decorator { kind, child } => match (kind, status) {
+            (Decorator::Succeed, Status::Failure) | (Decorator::Fail, Status::Success) => {
+                Cases::constant(false)
+            }
+            (Decorator::Retry(_) | Decorator::Repeat(_), _)
+            | (Decorator::Timeout(_), Status::Success) => {
+                possible(!when(program, child, status).is_never())
+            }
+            _ => Cases::Unknown,
+        },
+        Node::Parallel { .. } => Cases::Unknown,
+    }
+}
+
+/// The part of a node to point at: its guard, or the word that it begins with.
+fn head(node: &ast::Node) -> Span {
+    match &node.kind {
+        NodeKind::Composite { word, .. } => word.span,
+        NodeKind::Guarded { guard, .. } => guard.span,
+        NodeKind::Leaf(_) | NodeKind::Error => node.span,
+    }
+}

@@ -1,0 +1,130 @@
+//! Declarations that nothing uses.
+
+use super::mentions::Mentions;
+use crate::check::{Checker, Input};
+use crate::diagnostic::Code;
+use crate::spelling::spelled;
+use crate::syntax::ast::{
+    BehaviorBody, Ident, Item, ItemKind, RobotEntryKind, World, WorldEntryKind,
+};
+
+impl<'a> Checker<'a> {
+    /// Warns of what the main file declares and nothing uses. A file that neither sets a task nor has a tree is there
+    /// for others to use.
+    pub fn unused_declarations(&mut self, files: &[Input<'a>]) {
+        let Some(main) = files.last() else { return };
+        let is_root = |item: &&Item| matches!(item.kind, ItemKind::Task(_) | ItemKind::Tree(_));
+        if !main.ast.items.iter().any(|item| is_root(&item)) {
+            return;
+        }
+        let mentions = |library: bool| {
+            let mut mentions = Mentions::default();
+            let files = files.iter().filter(|input| input.library == library);
+            for item in files.flat_map(|input| &input.ast.items) {
+                mentions.item(item);
+            }
+            mentions
+        };
+        let (own, library) = (mentions(false), mentions(true));
+        for item in &main.ast.items {
+            match &item.kind {
+                ItemKind::World(world) => self.unused_in_world(world, &own, &library),
+                _ => self.unused_item(item, &own),
+            }
+        }
+    }
+
+    fn unused_item(&mut self, item: &'a Item, mentions: &Mentions) {
+        match &item.kind {
+            ItemKind::State(state) => self.unused_state(&state.name, mentions),
+            ItemKind::Event(event) => {
+                let help = "reward it, end the episode on it or let it have an effect";
+                self.unused(&event.name, "event", help, mentions);
+            }
+            ItemKind::Let(shared) => {
+                self.unused(&shared.name, "shared expression", "take it away", mentions);
+            }
+            // What is declared only is there for tables and environments, too.
+            ItemKind::Predicate(predicate) if predicate.value.is_some() => {
+                self.unused(&predicate.name, "predicate", "observe it", mentions);
+            }
+            ItemKind::Behavior(behavior) if !matches!(behavior.body, BehaviorBody::Declared) => {
+                let help = "let a task choose it or a tree run it";
+                self.unused(&behavior.name, "behaviour", help, mentions);
+            }
+            ItemKind::Tree(tree) if tree.params.is_some() => {
+                self.unused(&tree.name, "subtree", "use it in a tree", mentions);
+            }
+            _ => {}
+        }
+    }
+
+    /// Only of sensors does the library know the names.
+    fn unused_in_world(&mut self, world: &'a World, mentions: &Mentions, library: &Mentions) {
+        for entry in &world.entries {
+            match &entry.kind {
+                WorldEntryKind::Place { name, of_kind, .. }
+                    if !of_kind
+                        .as_ref()
+                        .is_some_and(|kind| mentioned(kind, mentions)) =>
+                {
+                    self.unused(name, "place", "take it away", mentions);
+                }
+                WorldEntryKind::Robot { entries, .. } => {
+                    for entry in entries {
+                        if let RobotEntryKind::Sensor { name, .. } = &entry.kind
+                            && !mentioned(name, library)
+                        {
+                            self.unused(name, "sensor", "take it away", mentions);
+                        }
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn unused(&mut self, name: &Ident, what: &str, help: &str, mentions: &Mentions) {
+        if mentioned(name, mentions) || name.name.starts_with('_') {
+            return;
+        }
+        let (shown, kept) = (spelled(&name.name), format!("_{}", name.name));
+        let message = format!("nothing uses the {what} {}", quoted(&shown));
+        self.warning(Code::W0201, name.span, message)
+            .label("declared here, and never used")
+            .help(format!(
+                "{help}, or call it {} if it is to stay",
+                quoted(&spelled(&kept))
+            ));
+    }
+
+    fn unused_state(&mut self, name: &Ident, mentions: &Mentions) {
+        if mentions.set.contains(name.name.as_str()) && !mentioned(name, mentions) {
+            if name.name.starts_with('_') {
+                return;
+            }
+            let message = format!(
+                "the state {} is set and never read",
+                quoted(&spelled(&name.name))
+            );
+            self.warning(Code::W0202, name.span, message)
+                .label("nothing depends on it")
+                .help("read it in an event, a predicate or a reward, or take it away");
+        } else {
+            self.unused(name, "state", "read it", mentions);
+        }
+    }
+}
+
+fn mentioned(name: &Ident, mentions: &Mentions) -> bool {
+    mentions.read.contains(name.name.as_str())
+}
+
+/// A name in backquotes, which it may have already.
+fn quoted(spelled: &str) -> String {
+    if spelled.starts_with('`') {
+        spelled.to_owned()
+    } else {
+        format!("`{spelled}`")
+    }
+}

@@ -1,0 +1,188 @@
+//! Parts of a world that do nothing: walls outside the arena, places that coincide, places that no way leads to.
+
+use super::geometry::{clearance, is_free};
+use crate::check::Checker;
+use crate::diagnostic::Code;
+use crate::geometry::{Point, minus};
+use crate::ir::Name;
+use crate::ir::task::StartLine;
+use crate::ir::world::{Place, World};
+use crate::source::Span;
+use crate::syntax::ast::{self, Ident, Item, ItemKind, WorldEntryKind};
+use std::collections::BTreeSet;
+
+/// The most cells of the grid on which ways are looked for, along each axis.
+const CELLS: usize = 120;
+
+impl<'a> Checker<'a> {
+    /// Warns of walls and places that cannot matter.
+    pub fn world_without_effect(&mut self, items: impl Iterator<Item = &'a Item>) {
+        let Some(world) = self.program.world.clone() else {
+            return;
+        };
+        for item in items {
+            if let ItemKind::World(declared) = &item.kind {
+                self.walls_outside(declared, &world);
+                self.places_alike(declared, &world);
+                self.places_apart(declared, &world);
+            }
+        }
+    }
+
+    fn walls_outside(&mut self, declared: &'a ast::World, world: &World) {
+        let (low, high) = world.arena.bounds();
+        for entry in &declared.entries {
+            let WorldEntryKind::Wall { name, shape, .. } = &entry.kind else {
+                continue;
+            };
+            let wall = world.walls.values().find(|wall| wall.name.is(&name.name));
+            let Some((from, to)) = wall.map(|wall| wall.shape.bounds()) else {
+                continue;
+            };
+            let apart = |low: Point, high: Point| low[0] >= high[0] || low[1] >= high[1];
+            if apart(low, to) || apart(from, high) {
+                let message = format!("the wall `{}` lies outside the arena", name.name);
+                self.warning(Code::W0401, shape.span, message)
+                    .label("no robot meets it");
+            }
+        }
+    }
+
+    fn places_alike(&mut self, declared: &'a ast::World, world: &World) {
+        let mut seen: Vec<(&'a Ident, Span, &Place)> = Vec::new();
+        for (name, span, place) in places(declared, world) {
+            let same = |other: &&Place| other.shape == place.shape && other.facing == place.facing;
+            let first = seen.iter().find(|(_, _, other)| same(other));
+            if let Some((other, at, _)) = first {
+                let message = format!("the places `{}` and `{}` coincide", other.name, name.name);
+                let at = *at;
+                self.warning(Code::W0401, span, message)
+                    .label("the same place under another name")
+                    .also(at, "the first");
+            }
+            seen.push((name, span, place));
+        }
+    }
+
+    /// Places that the robot is sent to and no way leads to. The grid is generous: a robot a cell smaller than this
+    /// one would not get there.
+    fn places_apart(&mut self, declared: &'a ast::World, world: &World) {
+        let sent = |place: &Place| {
+            let mut behaviors = self.program.behaviors.values();
+            behaviors.any(|behavior| {
+                let target = behavior.name.given().next();
+                let target = target.map(|(_, given)| given.to_string());
+                behavior.name.family == "goto" && target == Some(place.name.to_string())
+            })
+        };
+        let wanted: Vec<_> = places(declared, world)
+            .filter(|(.., place)| sent(place))
+            .collect();
+        if wanted.is_empty() || world.walls.is_empty() {
+            return;
+        }
+        let grid = Grid::new(world);
+        let free = grid.free(world);
+        let reached = match self.starts() {
+            Some(starts) => grid.flood(&free, &starts),
+            None => free,
+        };
+        for (name, span, place) in wanted {
+            let near =
+                |at: Point| place.shape.contains(at) || clearance(&place.shape, at) <= grid.step;
+            if !reached.iter().any(|cell| near(grid.center(*cell))) {
+                let message = format!("no way leads to the place `{}`", name.name);
+                self.warning(Code::W0401, span, message)
+                    .label("the robot does not fit through to it");
+            }
+        }
+    }
+
+    /// Where episodes start; `None` if some may start anywhere.
+    fn starts(&self) -> Option<Vec<Point>> {
+        let tasks = self.program.tasks.values().map(|task| &task.start);
+        let learners = self.program.learners.values().map(|learner| &learner.start);
+        let fixed = |lines: &Vec<StartLine>| {
+            lines.iter().find_map(|line| match line {
+                StartLine::Position(x, y) => {
+                    let pool = &self.program.pool;
+                    Some([pool.constant(*x)?, pool.constant(*y)?])
+                }
+                _ => None,
+            })
+        };
+        let starts: Option<Vec<Point>> = tasks.chain(learners).map(fixed).collect();
+        starts.filter(|starts| !starts.is_empty())
+    }
+}
+
+/// The places of a world as they are declared, each with the place of its shape.
+fn places<'a, 'w>(
+    declared: &'a ast::World,
+    world: &'w World,
+) -> impl Iterator<Item = (&'a Ident, Span, &'w Place)> {
+    declared.entries.iter().filter_map(|entry| {
+        let WorldEntryKind::Place { name, shape, .. } = &entry.kind else {
+            return None;
+        };
+        let mut places = world.places.values();
+        let place = places.find(|place| place.name == Name::word(&name.name))?;
+        Some((name, shape.span, place))
+    })
+}
+
+/// A cell by its column and its row.
+type Cell = (usize, usize);
+
+/// Square cells over the arena.
+struct Grid {
+    low: Point,
+    step: f64,
+}
+
+impl Grid {
+    fn new(world: &World) -> Self {
+        let (low, high) = world.arena.bounds();
+        let [width, height] = minus(high, low);
+        let step = width.max(height) / CELLS as f64;
+        Self { low, step }
+    }
+
+    fn center(&self, (column, row): Cell) -> Point {
+        let along = |low: f64, cell: usize| low + (cell as f64 + 0.5) * self.step;
+        [along(self.low[0], column), along(self.low[1], row)]
+    }
+
+    /// The cells in which a robot a cell smaller fits.
+    fn free(&self, world: &World) -> BTreeSet<Cell> {
+        let radius = (world.robot.radius - self.step).max(self.step / 4.0);
+        let cells = (0..CELLS).flat_map(|column| (0..CELLS).map(move |row| (column, row)));
+        cells
+            .filter(|cell| is_free(world, self.center(*cell), radius))
+            .collect()
+    }
+
+    /// The free cells that ways lead to.
+    fn flood(&self, free: &BTreeSet<Cell>, starts: &[Point]) -> BTreeSet<Cell> {
+        let near = |cell: &Cell, start: Point| {
+            let [dx, dy] = minus(self.center(*cell), start);
+            dx.abs().max(dy.abs()) <= self.step
+        };
+        let begin = |cell: &&Cell| starts.iter().any(|start| near(cell, *start));
+        let mut open: Vec<Cell> = free.iter().filter(begin).copied().collect();
+        let mut reached: BTreeSet<Cell> = open.iter().copied().collect();
+        while let Some((column, row)) = open.pop() {
+            for next in [
+                (column + 1, row),
+                (column, row + 1),
+                (column.wrapping_sub(1), row),
+                (column, row.wrapping_sub(1)),
+            ] {
+                if free.contains(&next) && reached.insert(next) {
+                    open.push(next);
+                }
+            }
+        }
+        reached
+    }
+}

@@ -1,0 +1,41 @@
+//! Characters that would change what a terminal shows: control characters, and marks that turn the direction of writing.
+
+use std::borrow::Cow;
+
+/// The text with each such character written as its code.
+pub fn visible(text: &str) -> Cow<'_, str> {
+    if !text.contains(is_hidden) {
+        return Cow::Borrowed(text);
+    }
+    let mut shown = String::with_capacity(text.len());
+    for letter in text.chars() {
+        if is_hidden(letter) {
+            shown.push_str(&format!("\\u{{{:x}}}", u32::from(letter)));
+        } else {
+            shown.push(letter);
+        }
+    }
+    Cow::Owned(shown)
+}
+
+/// The text with a stand-in of the same length in bytes for each such character, so that places stay what they are.
+pub(super) fn in_place(text: &str) -> Cow<'_, str> {
+    if !text.contains(is_hidden) {
+        return Cow::Borrowed(text);
+    }
+    let stand_in = |letter: char| match letter.len_utf8() {
+        _ if !is_hidden(letter) => letter,
+        1 => '?',
+        2 => '\u{b7}',
+        _ => '\u{fffd}',
+    };
+    Cow::Owned(text.chars().map(stand_in).collect())
+}
+
+fn is_hidden(letter: char) -> bool {
+    let turns = matches!(
+        letter,
+        '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}'
+    );
+    turns || letter.is_control() && !matches!(letter, '\n' | '\r' | '\t')
+}

@@ -1,0 +1,91 @@
+//! What a text that was not understood would have declared.
+
+use super::Builder;
+use crate::source::Span;
+use crate::spelling::RESERVED;
+use crate::syntax::tokens::{Kind, Token};
+
+/// The words that declare the name after them.
+const DECLARING: [&str; 15] = [
+    "world",
+    "enum",
+    "state",
+    "event",
+    "let",
+    "predicate",
+    "behavior",
+    "task",
+    "learn",
+    "tree",
+    "place",
+    "wall",
+    "robot",
+    "sensor",
+    "local",
+];
+
+/// The words that show that a text is of a world.
+const IN_WORLDS: [&str; 4] = ["world", "place", "wall", "robot"];
+
+/// How many of its first words a text may declare, whose own word may be the one that is wrong.
+const FIRST: usize = 3;
+
+impl Builder<'_> {
+    /// Notes that what begins at `span` may not be what was meant: a text on its line was not understood.
+    pub(super) fn suspect(&mut self, span: Span) {
+        let start = self
+            .tokens
+            .partition_point(|token| token.start < span.range().start);
+        let first = self.tokens.iter().skip(start).take(FIRST);
+        let names = first.filter(|token| self.is_name(token));
+        let mut lost: Vec<String> = names.map(|token| self.bare(token)).collect();
+        // Of a word with a letter that no name has, the name is what stands before that.
+        let start = |name: &String| name.find(|c: char| !c.is_ascii_alphanumeric() && c != '_');
+        let cut = |name: &String| Some(name.get(..start(name)?)?.to_owned());
+        let starts: Vec<String> = lost.iter().filter_map(cut).collect();
+        lost.extend(starts);
+        self.lost.names.extend(lost);
+    }
+
+    fn is_name(&self, token: &Token) -> bool {
+        matches!(token.kind, Kind::Word | Kind::Name) && !RESERVED.contains(&token.of(self.text))
+    }
+
+    fn bare(&self, token: &Token) -> String {
+        token.of(self.text).trim_matches('`').to_owned()
+    }
+
+    /// Notes what the text at `span` seems to declare.
+    pub(super) fn lose(&mut self, span: Span) {
+        let range = span.range();
+        let from = self
+            .tokens
+            .partition_point(|token| token.start < range.start);
+        let to = self.tokens.partition_point(|token| token.start < range.end);
+        let tokens = self.tokens.get(from..to).unwrap_or_default();
+        let is_code = |token: &&Token| token.kind != Kind::Comment;
+        let code: Vec<&Token> = tokens.iter().filter(is_code).collect();
+        let word = |token: &Token| token.of(self.text);
+        let first = code.first().map(|token| word(token));
+        let is_name = |token: &&&Token| self.is_name(token);
+        let mut names: Vec<&Token> = code.iter().take(FIRST).filter(is_name).copied().collect();
+        if first == Some("enum") {
+            names.extend(code.iter().filter(is_name));
+        }
+        let mut unnamed = first == Some("use");
+        for pair in code.windows(2) {
+            if let [declares, name] = pair
+                && DECLARING.contains(&word(declares))
+            {
+                names.push(name);
+                unnamed |= !self.is_name(name);
+            }
+        }
+        let world = code.iter().any(|token| IN_WORLDS.contains(&word(token)));
+        let names: Vec<String> = names.into_iter().map(|token| self.bare(token)).collect();
+        self.lost.names.extend(names);
+        self.lost.unnamed |= unnamed;
+        self.lost.world |= world;
+        self.lost.places.push(span);
+    }
+}

@@ -1,0 +1,77 @@
+//! Habits of other languages: their comments, letters that only backquotes allow, outcomes that no history keeps.
+
+use super::Place;
+use crate::diagnostic::{Applicability, Code, Diagnostic};
+use crate::source::Span;
+use crate::spelling::quoted;
+use crate::syntax::grammar::Rule;
+use crate::syntax::tokens::Kind;
+
+/// What begins a comment elsewhere.
+const COMMENTS: [&str; 4] = ["#", "/*", "--", "<!--"];
+
+impl Place<'_> {
+    /// A comment as other languages begin it.
+    pub(super) fn comment(&self) -> Option<Diagnostic> {
+        // Two signs before a value are read as signs.
+        let signs = [self.second_before, self.before].into_iter().flatten();
+        let mut starts = signs.chain([self.found]).map(|token| token.start);
+        let (at, begins) = starts.find_map(|at| {
+            let rest = self.text.get(at..).unwrap_or_default();
+            let begins = COMMENTS.into_iter().find(|mark| rest.starts_with(mark))?;
+            Some((at, begins))
+        })?;
+        let span = Span::new(self.file, at, at + begins.len());
+        let diagnostic = Diagnostic::new(
+            Code::E0129,
+            span,
+            format!("a comment begins with `//`, not with `{begins}`"),
+        )
+        .label("write `//`")
+        .note("it goes on to the end of its line");
+        let over_lines = matches!(begins, "/*" | "<!--");
+        Some(match over_lines {
+            true => diagnostic,
+            false => diagnostic.fix("write `//`", span, "//", Applicability::Safe),
+        })
+    }
+
+    /// A name with letters that a name has in backquotes only.
+    pub(super) fn letters(&self) -> Option<Diagnostic> {
+        let word = self.found();
+        if self.found.kind != Kind::Word || word.is_ascii() {
+            return None;
+        }
+        let letter = word.chars().find(|letter| !letter.is_ascii())?;
+        let name = quoted(word);
+        Some(
+            Diagnostic::new(
+                Code::E0131,
+                self.span(),
+                format!("`{letter}` is no letter of a name"),
+            )
+            .label("names are made of a to z, A to Z, digits and `_`")
+            .fix(
+                "put it in backquotes",
+                self.span(),
+                name,
+                Applicability::Unsafe,
+            ),
+        )
+    }
+
+    /// A word that should say what a history keeps.
+    pub(super) fn outcome(&self) -> Option<Diagnostic> {
+        if self.found.kind != Kind::Word || !self.expects(Rule::outcome) {
+            return None;
+        }
+        let message = format!(
+            "a history keeps `success`, `failure` or both, found `{}`",
+            self.found()
+        );
+        Some(
+            Diagnostic::new(Code::E0101, self.span(), message)
+                .label("expected `success` or `failure`"),
+        )
+    }
+}

@@ -1,0 +1,168 @@
+//! Mistakes that follow from others: of those that one slip brings about, one is told.
+
+use super::ast::{File, Item, ItemKind};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
+use std::cmp::Ordering;
+
+/// Leaves out what follows from another mistake, and notes where the text was not understood.
+pub(super) fn left_out(text: &str, tree: &mut File, sorted: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    tree.lost.any = sorted.iter().any(Diagnostic::is_error);
+    let mut places: Vec<Span> = tree
+        .lost
+        .places
+        .iter()
+        .map(|span| lines(text, *span))
+        .collect();
+    let wide = |found: &&Diagnostic| is_bracket(found.code) && slice(text, found) != "(";
+    let brackets = sorted.iter().filter(wide);
+    let regions: Vec<Span> = brackets.map(|found| region(tree, found)).collect();
+    let place_of = |found: &Diagnostic| {
+        let at = found.span();
+        let around = regions
+            .iter()
+            .filter(|region| region.start <= at.start && at.start < region.end);
+        around.fold(lines(text, at), |place, region| place.to(*region))
+    };
+    let mut told: Vec<Diagnostic> = Vec::new();
+    let mut rest = sorted.into_iter().peekable();
+    while let Some(first) = rest.next() {
+        let mut place = place_of(&first);
+        let mut together = vec![first];
+        while let Some(next) = rest.peek() {
+            let within = next.span().start < place.end;
+            let goes_on = lines(text, next.span()).start <= place.end + 1
+                && is_rest(text, next)
+                && together.iter().any(|found| found.code != Code::E0118);
+            if !within && !goes_on {
+                break;
+            }
+            place = place.to(place_of(next));
+            together.extend(rest.next().filter(|_| within));
+        }
+        places.push(place);
+        told.extend(causes(text, together));
+    }
+    tree.lost.places = places;
+    told
+}
+
+/// The mistakes of one place that do not follow from others there.
+fn causes(text: &str, together: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    let bracket = together.iter().position(|found| is_bracket(found.code));
+    // A bracket that is never closed is told at its beginning: what is not understood after it shows the slip itself,
+    // unless the layout shows which bracket it is.
+    let shown = together
+        .iter()
+        .any(|found| found.code == Code::E0102 && found.labels.len() > 2);
+    let slip = together
+        .iter()
+        .take_while(|found| found.code != Code::E0103)
+        .position(|found| is_slip(found.code));
+    let together: Vec<Diagnostic> = match (slip.filter(|_| !shown).or(bracket), bracket) {
+        (Some(cause), Some(_)) => {
+            let told = together.into_iter().enumerate();
+            let told = told.filter(|(at, found)| match at.cmp(&cause) {
+                Ordering::Less => !is_bracket(found.code),
+                Ordering::Equal => true,
+                Ordering::Greater => !is_bracket(found.code) && !is_general(found),
+            });
+            told.map(|(_, found)| found).collect()
+        }
+        _ => together,
+    };
+    let mut told: Vec<Diagnostic> = Vec::new();
+    let mut of_line: Vec<Diagnostic> = Vec::new();
+    for found in together {
+        let same = of_line.last().is_some_and(|last: &Diagnostic| {
+            lines(text, last.span()).end >= lines(text, found.span()).end
+        });
+        if !same {
+            told.append(&mut in_line(std::mem::take(&mut of_line)));
+        }
+        of_line.push(found);
+    }
+    told.append(&mut in_line(of_line));
+    told
+}
+
+/// Of the mistakes of one line those up to the first text that was not understood. A mark that could be dropped is told
+/// only where nothing else is wrong.
+fn in_line(mut found: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    if found.iter().any(|found| found.code != Code::E0118) {
+        found.retain(|found| found.code != Code::E0118);
+    } else {
+        return found;
+    }
+    match found.iter().position(is_general) {
+        Some(0) => found.truncate(1),
+        Some(at) => found.truncate(at),
+        None => {}
+    }
+    found
+}
+
+/// Whether a mistake says no more than that a text was not understood.
+fn is_general(found: &Diagnostic) -> bool {
+    match found.code {
+        Code::E0105 | Code::E0123 => found.fixes.is_empty(),
+        Code::E0112 | Code::E0114 | Code::E0118 | Code::E0125 => true,
+        code => is_slip(code) || is_bracket(code),
+    }
+}
+
+/// The text that a mistake points at.
+fn slice<'t>(text: &'t str, found: &Diagnostic) -> &'t str {
+    text.get(found.span().range()).unwrap_or_default()
+}
+
+fn is_slip(code: Code) -> bool {
+    matches!(code, Code::E0101 | Code::E0126)
+}
+
+fn is_bracket(code: Code) -> bool {
+    matches!(code, Code::E0102 | Code::E0103)
+}
+
+/// Whether a mistake on the line after another one is likely the rest of what was not understood there: a mark, or a
+/// word that begins nothing and is like none that does.
+fn is_rest(text: &str, found: &Diagnostic) -> bool {
+    match found.code {
+        Code::E0103 => true,
+        Code::E0118 => slice(text, found) == ",",
+        Code::E0105 | Code::E0123 => found.fixes.is_empty(),
+        _ => false,
+    }
+}
+
+/// What a mistake in brackets may have taken along: its item, for a bracket that closes nothing the one before it, and
+/// what follows up to the next item that was understood.
+fn region(tree: &File, bracket: &Diagnostic) -> Span {
+    let at = bracket.span();
+    let mut own: Option<&Item> = None;
+    let mut end = tree.span.end;
+    for item in &tree.items {
+        if item.span.start <= at.start {
+            let before = item.span.end <= at.start;
+            own = Some(item).filter(|_| !before || bracket.code == Code::E0103);
+        } else if !matches!(item.kind, ItemKind::Error) {
+            end = item.span.start;
+            break;
+        }
+    }
+    Span {
+        start: own.map_or(at.start, |item| item.span.start),
+        end,
+        ..at
+    }
+}
+
+/// The whole lines of a place.
+fn lines(text: &str, span: Span) -> Span {
+    let range = span.range();
+    let before = text.get(..range.start).unwrap_or_default();
+    let after = text.get(range.end..).unwrap_or_default();
+    let start = before.rfind('\n').map_or(0, |at| at + 1);
+    let end = after.find('\n').map_or(text.len(), |at| range.end + at);
+    Span::new(span.file, start, end)
+}
