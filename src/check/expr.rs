@@ -19,7 +19,7 @@ use super::types::{Type, Typed, Value};
 use crate::syntax::ast::{Axis, Expr, ExprKind, Ref};
 
 /// How many expressions may be checked within one another, those of unrolled bodies included.
-const DEEP: usize = 700;
+const DEEP: usize = 400;
 
 impl<'a> Checker<'a> {
     /// Checks an expression; one with a mistake is of `Type::Error`.
