@@ -111,6 +111,8 @@ def keys(texts):
     """What each leaf calls, with its position."""
     found = {}
     for position, text in enumerate(texts):
+        if not text:
+            continue
         made = module(text)
         rehearsal = Rehearsal()
         made.create_root(robot(made, rehearsal)).tick_once()

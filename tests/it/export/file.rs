@@ -35,7 +35,7 @@ pub(super) fn only<'a, 'i>(document: &'a Document<'i>, name: &str) -> Element<'a
 }
 
 /// Whether a leaf is of a robot that runs a script: no tree of the program has it.
-fn is_of_another_robot(program: &Program, leaf: &Node) -> bool {
+pub(super) fn is_of_another_robot(program: &Program, leaf: &Node) -> bool {
     let mut found = false;
     leaf.visit_behaviors(&mut |id| found |= program.behaviors[id].name.robot().is_some());
     leaf.visit_atoms(&mut |atom| {

@@ -3,6 +3,7 @@
 //! The variable `BTC_PY_TREES` names a Python that can import py_trees, so these tests run where they are asked for:
 //! `BTC_PY_TREES=… cargo test export::python -- --ignored`
 
+use super::file::is_of_another_robot;
 use super::play::{Play, Tick};
 use super::script;
 use super::trees::{Grower, Kinds, atoms, subjects};
@@ -35,9 +36,12 @@ fn run(
     plays: &[(String, Play)],
     programs: &[String],
 ) -> (Vec<Vec<Tick>>, Vec<String>) {
-    let modules = |nodes: Vec<Node>| -> Vec<String> {
-        nodes.iter().map(|node| module(program, node)).collect()
+    // The place of a leaf of another robot stays empty: it has the name of one of ours.
+    let module_of = |node: &Node| match is_of_another_robot(program, node) {
+        true => String::new(),
+        false => module(program, node),
     };
+    let modules = |nodes: Vec<Node>| -> Vec<String> { nodes.iter().map(module_of).collect() };
     let (asked, done) = subjects(program);
     let plays: Vec<Value> = plays
         .iter()
