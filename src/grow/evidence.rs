@@ -175,8 +175,8 @@ impl Evidence {
         row
     }
 
-    /// Plays about `ticks` ticks under a tree, counts what its decisions lead to, and gives the visits. Of the decisions,
-    /// a part `explore` is random. `round` keeps the episodes of two calls apart.
+    /// Plays about `ticks` ticks under a tree or a policy, counts what its decisions lead to, and gives the visits with the
+    /// ticks that were played. Of the decisions, a part `explore` is random.
     pub fn collect<W: World>(
         &mut self,
         ground: &Ground<W>,

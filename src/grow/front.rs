@@ -1,7 +1,8 @@
 //! The trees that none beats in both nodes and return, and the one of them that is taken.
 
-use super::race::{Entrant, Judge, RANSOM};
-use super::{Settings, Starts, Visited};
+use super::grower::Found;
+use super::race::{Entrant, RANSOM};
+use super::{Settings, Starts};
 use crate::ir::tree::{Atom, Node};
 use crate::learn::process::World;
 use crate::learn::simulated::Purpose;
@@ -91,13 +92,16 @@ impl Grown {
 ///
 /// # Errors
 /// The exact tree asks an atom that the world does not know.
-pub fn choose<W: World>(
-    mut judge: Judge<'_, '_, W>,
-    mut visited: Vec<Visited>,
+pub(super) fn choose<W: World>(
+    found: Found<'_, '_, W>,
     starts: &Starts,
     settings: &Settings,
-    price: f64,
 ) -> Result<Grown, Atom> {
+    let Found {
+        mut judge,
+        mut visited,
+        price,
+    } = found;
     // The later ones are the better ones; of the same size the last.
     visited.reverse();
     let mut trees: Vec<Node> = Vec::new();

@@ -61,7 +61,7 @@ pub struct Iterated {
 
 impl Iterated {
     /// Takes the decisions over, with the evidence for minterms that have none; gives the number of those that changed.
-    pub fn into(self, decisions: &mut Decisions, table: &mut QTable) -> usize {
+    pub fn apply(self, decisions: &mut Decisions, table: &mut QTable) -> usize {
         let mut changed = 0;
         let mut choices: Vec<(Key, usize)> = self.choices.into_iter().collect();
         choices.sort_unstable();
@@ -96,7 +96,7 @@ impl Iterated {
     }
 }
 
-/// Policies by the thousand, judged by simulation.
+/// Improves a policy, round by round.
 #[derive(Debug)]
 pub struct Iteration<'g, 'w, W> {
     /// Where they are judged.
