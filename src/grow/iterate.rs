@@ -12,6 +12,7 @@ use crate::ir::law::Behavior;
 use crate::learn::episode::{Episode, play};
 use crate::learn::extract::{Decided, Decisions};
 use crate::learn::greedy::Greedy;
+use crate::learn::improve::is_worth_it;
 use crate::learn::process::{Key, World};
 use crate::learn::q_table::QTable;
 use crate::learn::simulated::Purpose;
@@ -34,8 +35,6 @@ const TELLING: usize = 16;
 const COUNTED: usize = 3;
 /// The gain that a policy must have, in standard errors.
 const SURE: f64 = 2.0;
-/// The part of a return, or of its standard deviation, that a change must gain: a policy is not made another for less.
-const WORTH: f64 = 0.01;
 /// Rounds without a better policy before it is enough.
 const FAILURES: usize = 10;
 /// Rounds without a better policy before the same one is counted under again.
@@ -277,18 +276,17 @@ impl<W: World> Iteration<'_, '_, W> {
             }
         }
         let surely = |candidate: &Candidate| {
-            let gain = gain(candidate, base);
-            let totals: Vec<f64> = base.played.iter().map(|e| e.total).collect();
-            let returns = Mean::of(&totals);
-            let spread = error(&returns) * (totals.len() as f64).sqrt();
-            let worth = WORTH * returns.mean.abs().max(spread);
+            let totals = |played: &[Episode]| -> Vec<f64> {
+                played.iter().map(|episode| episode.total).collect()
+            };
             let harms = |played: &[Episode]| -> u64 {
                 let harms = played.iter().map(|episode| self.ground.harm(episode));
                 harms.sum()
             };
             let (own, other) = (harms(&candidate.played), harms(&base.played));
             let more = own.saturating_sub(other) as f64;
-            more <= ((own + other) as f64).sqrt() && gain.mean - SURE * error(&gain) > worth
+            more <= ((own + other) as f64).sqrt()
+                && is_worth_it(&totals(&candidate.played), &totals(&base.played), SURE)
         };
         (standing.into_iter().next().filter(surely), used)
     }

@@ -171,16 +171,9 @@ impl<W: World, H: Fn(&Episode) -> u64 + Sync> Improver<'_, W, H> {
         let more: i64 = pairs()
             .map(|((_, own), (_, other))| harms(own) - harms(other))
             .sum();
-        let gains: Vec<f64> = pairs()
-            .map(|((_, own), (_, other))| own.episode.total - other.episode.total)
-            .collect();
-        let gain = Mean::of(&gains);
-        let error = (gain.ci95[1] - gain.mean) / 1.96;
-        let returns: Vec<f64> = base.iter().map(|(_, shown)| shown.episode.total).collect();
-        let returns = Mean::of(&returns);
-        let spread = (returns.ci95[1] - returns.mean) / 1.96 * (base.len() as f64).sqrt();
-        let worth = WORTH * returns.mean.abs().max(spread);
-        more <= 0 && gain.mean - least * error > worth
+        let own: Vec<f64> = played.iter().map(|(_, own)| own.episode.total).collect();
+        let other: Vec<f64> = base.iter().map(|(_, other)| other.episode.total).collect();
+        more <= 0 && is_worth_it(&own, &other, least)
     }
 
     /// Plays episodes of these numbers.
@@ -207,6 +200,21 @@ impl<W: World, H: Fn(&Episode) -> u64 + Sync> Improver<'_, W, H> {
             })
             .collect()
     }
+}
+
+/// Whether returns gain over others of the same episodes what a change must, by so many standard errors more. There may be
+/// more of the others; they tell what is usual.
+pub fn is_worth_it(own: &[f64], other: &[f64], least: f64) -> bool {
+    let error = |mean: &Mean| (mean.ci95[1] - mean.mean) / 1.96;
+    let gains: Vec<f64> = own
+        .iter()
+        .zip(other)
+        .map(|(own, other)| own - other)
+        .collect();
+    let (gain, usual) = (Mean::of(&gains), Mean::of(other));
+    let spread = error(&usual) * (other.len() as f64).sqrt();
+    let worth = WORTH * usual.mean.abs().max(spread);
+    gain.mean - least * error(&gain) > worth
 }
 
 fn ticks(shown: &[(u64, Shown)]) -> u64 {

@@ -1,25 +1,10 @@
 //! One slip, one message: single edits of sound programs, by seed.
 
 use crate::program::NoFiles;
+use crate::robust::Dice;
 use btc::diagnostic::Diagnostic;
 use btc::driver::load::load;
 use std::path::Path;
-
-/// Small reproducible numbers.
-struct Dice(u64);
-
-impl Dice {
-    fn roll(&mut self, sides: usize) -> usize {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        usize::try_from(self.0 % sides as u64).unwrap()
-    }
-
-    fn pick<'t, T: ?Sized>(&mut self, of: &[&'t T]) -> &'t T {
-        of[self.roll(of.len())]
-    }
-}
 
 /// The sound programs that use no other files.
 fn programs() -> Vec<String> {

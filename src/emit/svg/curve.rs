@@ -1,5 +1,6 @@
 //! A learning curve: the return against ticks, and below it the minterms seen.
 
+use super::chart::{self, LEFT, RIGHT, crisp};
 use super::page::{self, Head, Page};
 use super::paint::{Rule, rule};
 use super::scale::Axis;
@@ -17,17 +18,15 @@ pub struct Point {
     pub minterms: usize,
 }
 
-/// The picture in px, and what stands left and right of the axes.
+/// The picture in px.
 const SIZE: [f64; 2] = [720.0, 420.0];
-const LEFT: f64 = 64.0;
-const RIGHT: f64 = 696.0;
 /// From the top to the foot of the two panels.
 const RETURN: [f64; 2] = [40.0, 264.0];
 const MINTERMS: [f64; 2] = [304.0, 370.0];
 
 const RULES: &[Rule] = &[
-    rule("grid", "stroke:#e3e8ec", "stroke:#222b34"),
-    rule("axis", "fill:none;stroke:#8496a3", "stroke:#5f6f7b"),
+    chart::GRID,
+    chart::AXIS,
     rule("band", "fill:#0072b2;fill-opacity:.16", "fill:#56b4e9"),
     rule(
         "mean",
@@ -57,12 +56,7 @@ pub fn curve(points: &[Point], caption: &str, interval: &str) -> String {
         description: &description(&points, interval),
         rules: RULES,
     });
-    let all = |value: fn(&Point) -> [f64; 2]| {
-        points
-            .iter()
-            .map(|point| value(point))
-            .reduce(|[low, high], [l, h]| [low.min(l), high.max(h)])
-    };
+    let all = |value: fn(&Point) -> [f64; 2]| chart::ends(points.iter().map(|point| value(point)));
     let ticks = all(|point| [0.0, point.ticks as f64]).unwrap_or([0.0, 1.0]);
     let returns = all(|p| [p.interval[0].min(p.mean), p.interval[1].max(p.mean)]);
     let minterms = all(|point| [0.0, point.minterms as f64]).unwrap_or([0.0, 1.0]);
@@ -104,10 +98,7 @@ pub fn curve(points: &[Point], caption: &str, interval: &str) -> String {
     page.path("seen", page::chain(seen));
     page.path("seen", swatch(top - 16.0, 0.0));
     page.text("remark", LEFT + 26.0, top - 12.0, "minterms seen");
-    for (at, label) in x.marks() {
-        page.text("remark middle", at, foot + 18.0, &label);
-    }
-    page.text("remark middle", (LEFT + RIGHT) / 2.0, foot + 36.0, "ticks");
+    chart::numbers(&mut page, &x, foot, "ticks");
     page.finish()
 }
 
@@ -136,17 +127,9 @@ fn description(points: &[&Point], interval: &str) -> String {
 
 /// Grid and axes of a panel, with the numbers on the left.
 fn panel(x: &Axis, y: &Axis, [top, foot]: [f64; 2], page: &mut Page) {
-    let crisp = |at: f64| at.floor() + 0.5;
     for (at, _) in x.marks() {
         page.line("grid", [crisp(at), top], [crisp(at), foot]);
     }
-    for (at, label) in y.marks() {
-        page.line("grid", [LEFT, crisp(at)], [RIGHT, crisp(at)]);
-        page.text("remark end", LEFT - 8.0, at + 4.0, &label);
-    }
-    let [left, foot] = [LEFT, foot].map(crisp);
-    page.path(
-        "axis",
-        page::chain([[left, top], [left, foot], [RIGHT, foot]]),
-    );
+    chart::rows(page, y);
+    chart::axes(page, [top, foot]);
 }

@@ -1,5 +1,6 @@
 //! The front of trees: return against nodes.
 
+use super::chart::{self, LEFT, RIGHT};
 use super::page::{self, Head, Page};
 use super::paint::{Rule, rule};
 use super::scale::Axis;
@@ -19,14 +20,12 @@ pub struct Dot {
 
 /// The picture in px, and where the axes lie.
 const SIZE: [f64; 2] = [720.0, 320.0];
-const LEFT: f64 = 64.0;
-const RIGHT: f64 = 696.0;
 const TOP: f64 = 40.0;
 const FOOT: f64 = 264.0;
 
 const RULES: &[Rule] = &[
-    rule("grid", "stroke:#e3e8ec", "stroke:#222b34"),
-    rule("axis", "fill:none;stroke:#8496a3", "stroke:#5f6f7b"),
+    chart::GRID,
+    chart::AXIS,
     rule(
         "mean",
         "fill:none;stroke:#0072b2;stroke-width:1.5",
@@ -54,28 +53,13 @@ pub fn front(dots: &[Dot], caption: &str) -> String {
         description: &description(&dots),
         rules: RULES,
     });
-    let ends = |of: &dyn Fn(&Dot) -> [f64; 2]| {
-        let all = dots.iter().map(|dot| of(dot));
-        all.reduce(|[low, high], [l, h]| [low.min(l), high.max(h)])
-    };
-    let nodes = ends(&|dot| [dot.nodes as f64, dot.nodes as f64]).unwrap_or([0.0, 1.0]);
-    let returns = ends(&|dot| dot.interval).unwrap_or([0.0, 1.0]);
+    let nodes = chart::ends(dots.iter().map(|dot| [dot.nodes as f64; 2])).unwrap_or([0.0, 1.0]);
+    let returns = chart::ends(dots.iter().map(|dot| dot.interval)).unwrap_or([0.0, 1.0]);
     let x = Axis::new([nodes[0] - 1.0, nodes[1] + 1.0], [LEFT, RIGHT], 10.0);
     let y = Axis::new(returns, [FOOT, TOP], 6.0);
-    let crisp = |at: f64| at.floor() + 0.5;
-    for (at, label) in y.marks() {
-        page.line("grid", [LEFT, crisp(at)], [RIGHT, crisp(at)]);
-        page.text("remark end", LEFT - 8.0, at + 4.0, &label);
-    }
-    for (at, label) in x.marks() {
-        page.text("remark middle", at, FOOT + 18.0, &label);
-    }
-    page.text("remark middle", (LEFT + RIGHT) / 2.0, FOOT + 36.0, "nodes");
-    let [left, foot] = [LEFT, FOOT].map(crisp);
-    page.path(
-        "axis",
-        page::chain([[left, TOP], [left, foot], [RIGHT, foot]]),
-    );
+    chart::rows(&mut page, &y);
+    chart::numbers(&mut page, &x, FOOT, "nodes");
+    chart::axes(&mut page, [TOP, FOOT]);
     let place = |dot: &Dot, value: f64| [x.at(dot.nodes as f64), y.at(value)];
     page.path(
         "mean",

@@ -1,5 +1,6 @@
 //! What a tree gains at each value of a number that may be tuned.
 
+use super::chart::{self, LEFT, RIGHT};
 use super::page::{self, Head, Page};
 use super::paint::{Rule, rule};
 use super::scale::Axis;
@@ -36,14 +37,12 @@ pub struct Sweep<'a> {
 
 /// The picture in px, and where the axes lie.
 const SIZE: [f64; 2] = [720.0, 320.0];
-const LEFT: f64 = 64.0;
-const RIGHT: f64 = 696.0;
 const TOP: f64 = 40.0;
 const FOOT: f64 = 264.0;
 
 const RULES: &[Rule] = &[
-    rule("grid", "stroke:#e3e8ec", "stroke:#222b34"),
-    rule("axis", "fill:none;stroke:#8496a3", "stroke:#5f6f7b"),
+    chart::GRID,
+    chart::AXIS,
     rule("flat", "fill:#009e73;fill-opacity:.14", ""),
     rule("band", "fill:#0072b2;fill-opacity:.16", "fill:#56b4e9"),
     rule(
@@ -72,13 +71,9 @@ pub fn sweep(sweep: &Sweep) -> String {
         rules: RULES,
     });
     let dots = &sweep.dots;
-    let ends = |number: fn(&Dot) -> f64| {
-        let numbers = dots.iter().map(number).filter(|number| number.is_finite());
-        numbers
-            .map(|n| [n, n])
-            .reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])
-    };
-    let values = ends(|dot| dot.value).unwrap_or([0.0, 1.0]);
+    let values = dots.iter().map(|dot| dot.value);
+    let values = values.filter(|value| value.is_finite());
+    let values = chart::ends(values.map(|value| [value; 2])).unwrap_or([0.0, 1.0]);
     let x = Axis::new(values, [LEFT, RIGHT], 10.0).tight(values);
     let y = Axis::new(limits(dots), [FOOT, TOP], 6.0);
     let within = |gain: f64| y.at(gain).clamp(TOP, FOOT);
@@ -89,21 +84,9 @@ pub fn sweep(sweep: &Sweep) -> String {
         let corners = [[from, TOP], [to, TOP], [to, FOOT], [from, FOOT]];
         page.path("flat", page::chain(corners) + "Z");
     }
-    let crisp = |at: f64| at.floor() + 0.5;
-    for (at, label) in y.marks() {
-        page.line("grid", [LEFT, crisp(at)], [RIGHT, crisp(at)]);
-        page.text("remark end", LEFT - 8.0, at + 4.0, &label);
-    }
-    for (at, label) in x.marks() {
-        page.text("remark middle", at, FOOT + 18.0, &label);
-    }
-    let middle = (LEFT + RIGHT) / 2.0;
-    page.text("remark middle", middle, FOOT + 36.0, sweep.unit);
-    let [left, foot] = [LEFT, FOOT].map(crisp);
-    page.path(
-        "axis",
-        page::chain([[left, TOP], [left, foot], [RIGHT, foot]]),
-    );
+    chart::rows(&mut page, &y);
+    chart::numbers(&mut page, &x, FOOT, sweep.unit);
+    chart::axes(&mut page, [TOP, FOOT]);
     for (class, value) in [("used", sweep.used), ("best", sweep.best)] {
         page.line(class, [x.at(value), TOP], [x.at(value), FOOT]);
     }
