@@ -8,7 +8,7 @@ use crate::emit::svg;
 use crate::emit::svg::track::{Stand, Track, TrackTick};
 use crate::learn::simulated::Purpose;
 use crate::report::words::end_names;
-use crate::world::{End, Simulation};
+use crate::world::{End, Pose};
 
 /// Draws the world with the first `ticks` ticks of episode 0 of a seed, which is also the first that
 /// [`run`](super::run::run) plays.
@@ -25,8 +25,13 @@ pub fn draw(loaded: &Loaded, subject: &Subject, seed: u64, ticks: u64) -> Result
         Subject::Policy(..) => "policy".to_owned(),
     };
     let (mut start, mut steps, mut end) = (None, Vec::new(), None);
+    let robots = program.world.iter().flat_map(|world| world.others.values());
+    let mut others: Vec<Vec<Stand>> = robots.map(|_| Vec::new()).collect();
     record::watch(loaded, subject, begin, &mut |_, simulation, done| {
-        let stand = stand(simulation);
+        let stand = stand(simulation.pose());
+        for (way, pose) in others.iter_mut().zip(simulation.others()) {
+            way.push(self::stand(pose));
+        }
         start.get_or_insert(stand);
         if let Some(done) = done {
             steps.push(TrackTick {
@@ -45,6 +50,7 @@ pub fn draw(loaded: &Loaded, subject: &Subject, seed: u64, ticks: u64) -> Result
         choices: task.choose.clone(),
         start,
         steps,
+        others,
     };
     let mut caption = format!("{name}, seed {seed}, {} ticks", track.steps.len());
     if let Some(End::On(line)) = end
@@ -58,8 +64,7 @@ pub fn draw(loaded: &Loaded, subject: &Subject, seed: u64, ticks: u64) -> Result
     }))
 }
 
-fn stand(simulation: &Simulation) -> Stand {
-    let pose = simulation.pose();
+fn stand(pose: Pose) -> Stand {
     Stand {
         position: pose.position,
         heading: pose.heading,

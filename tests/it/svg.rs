@@ -9,6 +9,7 @@ use btc::driver::{compile, picture, target};
 use btc::emit::form::TreeForm;
 use btc::emit::svg;
 use btc::emit::svg::curve::Point;
+use btc::emit::svg::front::Dot;
 use btc::emit::svg::layout::{Block, Placed, place};
 use btc::ir::law::Behavior;
 use btc::ir::tree::{Atom, Composite, Decorator, Guard, Node, Tree};
@@ -35,8 +36,12 @@ fn tree(loaded: &Loaded) -> String {
 }
 
 fn world(loaded: &Loaded, ticks: u64) -> String {
-    let expert = target::tree(loaded, "expert").unwrap();
-    picture::draw(loaded, &Subject::Tree(expert), 1, ticks).unwrap()
+    played(loaded, "expert", ticks)
+}
+
+fn played(loaded: &Loaded, tree: &str, ticks: u64) -> String {
+    let tree = target::tree(loaded, tree).unwrap();
+    picture::draw(loaded, &Subject::Tree(tree), 1, ticks).unwrap()
 }
 
 /// A curve that rises and settles.
@@ -73,6 +78,34 @@ fn the_pictures_of_small_delivery() {
     check("tree.expert.svg", &tree(&loaded));
     check("world.small.svg", &world(&loaded, 300));
     check("curve.svg", &curve());
+}
+
+#[test]
+fn doors_are_dashed_and_other_robots_have_ways_of_their_own() {
+    for (example_of, name, shown) in [
+        ("rooms.bt", "world.rooms.svg", "class=\"wall dashed\""),
+        ("guard.bt", "world.guard.svg", ">raider</text>"),
+    ] {
+        let picture = played(&example(example_of), "hand", 60);
+        assert!(picture.contains(shown), "{picture}");
+        check(name, &picture);
+    }
+}
+
+#[test]
+fn a_front_counts_whole_nodes() {
+    let dot = |nodes: usize, mean: f64| Dot {
+        nodes,
+        mean,
+        interval: [mean - 0.5, mean + 0.5],
+        taken: nodes == 10,
+    };
+    check(
+        "front.one.svg",
+        &svg::front::front(&[dot(10, 9.0)], "learned"),
+    );
+    let all = [dot(1, 2.0), dot(4, 5.0), dot(10, 9.0), dot(38, 9.25)];
+    check("front.svg", &svg::front::front(&all, "learned"));
 }
 
 #[test]

@@ -55,7 +55,9 @@ pub fn front(dots: &[Dot], caption: &str) -> String {
     });
     let nodes = chart::ends(dots.iter().map(|dot| [dot.nodes as f64; 2])).unwrap_or([0.0, 1.0]);
     let returns = chart::ends(dots.iter().map(|dot| dot.interval)).unwrap_or([0.0, 1.0]);
-    let x = Axis::new([nodes[0] - 1.0, nodes[1] + 1.0], [LEFT, RIGHT], 10.0);
+    let [fewest, most] = [nodes[0] - 1.0, nodes[1] + 1.0];
+    // No marks between whole numbers of nodes.
+    let x = Axis::new([fewest, most], [LEFT, RIGHT], (most - fewest).min(10.0));
     let y = Axis::new(returns, [FOOT, TOP], 6.0);
     chart::rows(&mut page, &y);
     chart::numbers(&mut page, &x, FOOT, "nodes");

@@ -41,6 +41,8 @@ pub struct Track {
     pub start: Stand,
     /// The ticks.
     pub steps: Vec<TrackTick>,
+    /// The ways of the other robots, in the order of their declaration.
+    pub others: Vec<Vec<Stand>>,
 }
 
 /// Points nearer than this are drawn as one, in px.
@@ -98,6 +100,13 @@ impl Track {
             from = stretch.last().map_or(from, |step| step.stand);
         }
     }
+}
+
+/// The way of another robot.
+pub(super) fn draw_other(way: &[Stand], view: &View, page: &mut Page) {
+    let points = thinned(way.iter().map(|stand| view.at(stand.position)));
+    let arrows = arrowheads(&points, &mut (ARROWS / 2.0));
+    page.path("way", page::chain(points) + &arrows);
 }
 
 /// Arrowheads along a line; `left` is how far it is to the next one.

@@ -120,14 +120,19 @@ pub fn world(program: &Program, world: &World, caption: &str, track: Option<&Tra
     }
     for wall in world.walls.values() {
         let thin = matches!(wall.shape, Shape::Polyline(_));
-        titled(
-            &mut page,
-            &wall.name.to_string(),
-            if thin { "wall" } else { "solid" },
-            view.outline(&wall.shape),
-        );
+        let class = match (thin, wall.when.is_some()) {
+            (true, false) => "wall",
+            (true, true) => "wall dashed",
+            (false, false) => "solid",
+            (false, true) => "solid dashed",
+        };
+        let outline = view.outline(&wall.shape);
+        titled(&mut page, &wall.name.to_string(), class, outline);
     }
     if let Some(track) = track {
+        for (other, way) in world.others.values().zip(&track.others) {
+            draw_other(&other.robot, way, &view, &mut page);
+        }
         track.draw(&view, &mut page);
         let radius = world.robot.radius * view.scale;
         for (class, stand) in [("start", track.start), ("last", track.end())] {
@@ -196,6 +201,18 @@ fn legend(program: &Program, world: &World, track: Option<&Track>) -> Legend {
         ),
         ("robot", robot),
     ])
+}
+
+/// Another robot with its way, and its name where it stood last.
+fn draw_other(robot: &Robot, way: &[Stand], view: &View, page: &mut Page) {
+    track::draw_other(way, view, page);
+    let Some(last) = way.last() else {
+        return;
+    };
+    let (at, radius) = (view.at(last.position), robot.radius * view.scale);
+    legend::robot("last", at, view::along(last.heading), radius, page);
+    let name = robot.name.to_string();
+    page.text("name label middle", at[0], at[1] + radius + 13.0, &name);
 }
 
 /// A path that shows its name when it is pointed at.
