@@ -25,7 +25,7 @@ use crate::learn::episode::Episode;
 use crate::learn::experiment::{Experiment, Run};
 use crate::learn::greedy;
 use crate::learn::improve::{Improved, Improver};
-use crate::learn::process::World;
+use crate::learn::process::{Key, World};
 use crate::learn::simulated::Purpose;
 use crate::tree::prune::Requirement;
 pub use front::{Choice, Figures, Grown, Point};
@@ -40,6 +40,8 @@ pub struct Starts {
     pub exact: Node,
     /// Other trees, such as those that a person wrote.
     pub others: Vec<Node>,
+    /// The minterms of the policy.
+    pub minterms: Vec<Key>,
 }
 
 /// How a search is done.

@@ -191,6 +191,21 @@ impl<'w> Field<'w> {
     }
 }
 
+/// In how many of these minterms two trees begin with the same behaviour, or with none.
+pub fn alike<W: World>(ground: &Ground<W>, trees: [&Node; 2], keys: &[Key]) -> usize {
+    let numbers = ground.choices.iter().enumerate();
+    let numbers: Numbers = numbers.map(|(at, id)| (*id, at)).collect();
+    let atoms = ground.world.atoms();
+    let observed = atoms.get(..ground.observed).unwrap_or(&[]);
+    let [own, other] = trees.map(|root| Runner::new(&without_memory(root, observed), atoms).ok());
+    let (Some(mut own), Some(mut other)) = (own, other) else {
+        return 0;
+    };
+    let begins = |runner: &mut Runner, key| driven(runner, key, &numbers, |_| false).choice;
+    let alike = |key: &&Key| begins(&mut own, **key) == begins(&mut other, **key);
+    keys.iter().filter(alike).count()
+}
+
 /// What a tree does in a minterm, its memory fresh, where some choices fail at once.
 fn driven(
     runner: &mut Runner,

@@ -1,7 +1,8 @@
 //! The trees that none beats in both nodes and return, and the one of them that is taken.
 
+use super::field;
 use super::grower::Found;
-use super::race::{Entrant, RANSOM};
+use super::race::{Entrant, RANSOM, is_more};
 use super::{Settings, Starts};
 use crate::ir::tree::{Atom, Node};
 use crate::learn::process::World;
@@ -10,8 +11,8 @@ use crate::learn::statistics::{Mean, Summary};
 use crate::tree::Size;
 use crate::trial::paired::error;
 
-/// Episodes by which a tree of the front is chosen.
-const CONFIRMING: usize = 200;
+/// For each stage of the choice, the episodes up to which its trees play, and the most that stay after it.
+const STAGES: [(usize, usize); 3] = [(60, 7), (160, 3), (500, 3)];
 /// The most trees that are looked at for the front.
 const LOOKED_AT: usize = 16;
 /// Fresh episodes that measure the tree that was chosen.
@@ -75,6 +76,9 @@ pub struct Grown {
     pub gain: Mean,
     /// Whether this is the exact tree.
     pub kept: bool,
+    /// The minterms of the policy in which it begins as the exact tree does, and all of them. What a memory node goes on
+    /// with is read from the history.
+    pub alike: [usize; 2],
     /// The front, the smallest tree first.
     pub front: Vec<Point>,
     /// Ticks that the search simulated.
@@ -121,12 +125,28 @@ pub(super) fn choose<W: World>(
     }];
     let part = (settings.effort as f64 / WHOLE).min(1.0);
     let of = |episodes: usize| ((episodes as f64 * part) as usize).max(FEWEST);
-    let episodes = judge.scaled(of(CONFIRMING));
-    judge.play(&trials, &mut exact, episodes, None);
     let ready = trees.iter().filter_map(|root| judge.entrant(&trials, root));
-    let mut entrants: Vec<Entrant> = ready.collect();
-    judge.play(&trials, &mut entrants, episodes, exact.first());
-    entrants.retain(|entrant| exact.iter().all(|exact| exact.root != entrant.root));
+    let mut entrants: Vec<Entrant> = ready
+        .filter(|entrant| entrant.root != starts.exact)
+        .collect();
+    let mut out: Vec<Entrant> = Vec::new();
+    // A front is drawn of trees that have played alike long.
+    let halves = settings.choice == Choice::Knee && !settings.front;
+    let stages = if halves {
+        STAGES.len()
+    } else {
+        STAGES.len() - 1
+    };
+    for (episodes, stay) in STAGES.into_iter().take(stages) {
+        let episodes = judge.scaled(of(episodes));
+        judge.play(&trials, &mut exact, episodes, None);
+        judge.play(&trials, &mut entrants, episodes, exact.first());
+        if halves {
+            judge.order(&mut entrants, |entrant| worth(entrant, price));
+            out.extend(entrants.drain(stay.min(entrants.len())..));
+        }
+    }
+    entrants.extend(out);
     entrants.extend(exact);
     let harms = |entrant: &Entrant| judge.harms(entrant);
     let last = entrants.len().saturating_sub(1);
@@ -161,10 +181,19 @@ pub(super) fn choose<W: World>(
             ci95: [-high, -low],
         },
         kept: root == starts.exact,
+        alike: [
+            field::alike(judge.ground, [&root, &starts.exact], &starts.minterms),
+            starts.minterms.len(),
+        ],
         root,
         front,
         ticks: judge.ticks + ticks,
     })
+}
+
+/// What a tree returns for its nodes.
+fn worth(entrant: &Entrant, price: f64) -> f64 {
+    entrant.contender.returns().mean - price * entrant.nodes as f64
 }
 
 /// The place of the tree that is taken; the exact one stands last.
@@ -179,63 +208,73 @@ fn chosen(
         return exact;
     };
     let mean = |entrant: &Entrant| entrant.contender.returns().mean;
+    // Those that have played to the end and do no more harm.
     let safe: Vec<(usize, &Entrant)> = entrants
         .iter()
         .enumerate()
-        .filter(|(_, entrant)| harms(entrant) <= harms(base))
+        .filter(|(_, entrant)| entrant.contender.episodes() == base.contender.episodes())
+        .filter(|(_, entrant)| !is_more(harms(entrant), harms(base)))
         .collect();
-    let by = |worth: &dyn Fn(&Entrant) -> f64, from: Vec<(usize, &Entrant)>| {
-        let best = from.into_iter().reduce(|best, next| {
-            if worth(next.1) > worth(best.1) {
-                next
-            } else {
-                best
-            }
-        });
+    let best = |from: &[(usize, &Entrant)], worth: &dyn Fn(&Entrant) -> f64| {
+        let worths = from.iter().map(|(at, entrant)| (*at, worth(entrant)));
+        let best = worths.reduce(|best, next| if next.1 > best.1 { next } else { best });
         best.map_or(exact, |(at, _)| at)
     };
     match choice {
-        Choice::Knee => {
-            let good = |(at, entrant): &(usize, &Entrant)| {
-                let loss = entrant.contender.loss(&base.contender);
-                let ransom = RANSOM * mean(base).abs();
-                *at == exact
-                    || harms(entrant) < harms(base) && loss.mean <= ransom
-                    || loss.mean <= error(&loss)
-            };
-            let least = safe
-                .iter()
-                .map(|(_, entrant)| harms(entrant))
-                .min()
-                .unwrap_or(0);
-            // Less harm stands before more return, where the difference is more than chance.
-            let few = |entrant: &Entrant| {
-                let more = harms(entrant) - least;
-                (more as f64) <= ((harms(entrant) + least) as f64).sqrt()
-            };
-            let worth = |entrant: &Entrant| mean(entrant) - price * entrant.nodes as f64;
-            let from = safe.into_iter().filter(|c| good(c) && few(c.1)).collect();
-            let best = by(&worth, from);
-            let gives_way = entrants.get(best).is_some_and(|entrant| {
-                let safer = harms(entrant) < harms(base) && !few(base);
-                safer || worth(entrant) - worth(base) > PROVED * price
-            });
-            if gives_way { best } else { exact }
-        }
+        Choice::Knee => knee(&safe, (exact, base), harms, price),
         Choice::Nodes(most) => {
-            let from = entrants.iter().enumerate();
-            by(&mean, from.filter(|(_, e)| e.nodes <= most).collect())
+            let all = entrants.iter().enumerate();
+            let few: Vec<_> = all.filter(|(_, e)| e.nodes <= most).collect();
+            best(&few, &mean)
         }
         Choice::Loss(part) => {
-            let best = safe
-                .iter()
-                .map(|(_, e)| mean(e))
-                .fold(f64::NEG_INFINITY, f64::max);
-            let least = best - part * best.abs();
-            let from = safe.into_iter().filter(|(_, e)| mean(e) >= least).collect();
-            by(&|entrant| -(entrant.nodes as f64), from)
+            let means = safe.iter().map(|(_, entrant)| mean(entrant));
+            let most = means.fold(f64::NEG_INFINITY, f64::max);
+            let least = most - part * most.abs();
+            let good: Vec<_> = safe.into_iter().filter(|(_, e)| mean(e) >= least).collect();
+            best(&good, &|entrant| -(entrant.nodes as f64))
         }
     }
+}
+
+/// The place of the tree that returns most for its nodes, of those that do no more harm than others.
+fn knee(
+    safe: &[(usize, &Entrant)],
+    (exact, base): (usize, &Entrant),
+    harms: &impl Fn(&Entrant) -> u64,
+    price: f64,
+) -> usize {
+    let ransom = |entrant: &Entrant| RANSOM * entrant.contender.returns().mean.abs();
+    let good = |(at, entrant): &(usize, &Entrant)| {
+        let loss = entrant.contender.loss(&base.contender);
+        *at == exact
+            || is_more(harms(base), harms(entrant)) && loss.mean <= ransom(base)
+            || loss.mean <= error(&loss)
+    };
+    let good: Vec<(usize, &Entrant)> = safe.iter().copied().filter(good).collect();
+    let least = good.iter().map(|(_, entrant)| harms(entrant)).min();
+    let few = |entrant: &Entrant| !is_more(harms(entrant), least.unwrap_or(0));
+    let worth = |entrant: &Entrant| worth(entrant, price);
+    // The best; then the one that does least harm of those that are nearly as good.
+    let few_harms = good.iter().filter(|(_, entrant)| few(entrant));
+    let worths = few_harms.clone().map(|(_, entrant)| worth(entrant));
+    let most = worths.fold(f64::NEG_INFINITY, f64::max);
+    let near = |entrant: &Entrant| worth(entrant) >= most - 0.5 * ransom(entrant);
+    let best = few_harms
+        .filter(|(_, entrant)| near(entrant))
+        .copied()
+        .reduce(|best, next| {
+            let (own, other) = (harms(next.1), harms(best.1));
+            match own < other || own == other && worth(next.1) > worth(best.1) {
+                true => next,
+                false => best,
+            }
+        });
+    let gives_way = best.is_some_and(|(_, entrant)| {
+        let safer = is_more(harms(base), harms(entrant));
+        safer || worth(entrant) - worth(base) > PROVED * price
+    });
+    best.filter(|_| gives_way).map_or(exact, |(at, _)| at)
 }
 
 /// The trees that none beats in both nodes and return, and the one that was taken.

@@ -16,6 +16,8 @@ const RARE: usize = 160;
 const LENGTH: u64 = 1000;
 /// A tree leaves a race when its gain is below zero by this many standard errors.
 const HOPELESS: f64 = 2.0;
+/// The standard errors by which harm is more than chance.
+const CERTAIN: f64 = 1.7;
 /// The part of the return that a tree may lose where it avoids harm.
 pub const RANSOM: f64 = 0.05;
 
@@ -140,6 +142,17 @@ impl<'g, 'w, W: World> Judge<'g, 'w, W> {
         gain.mean > error(&gain)
     }
 
+    /// Orders trees that have played alike long: those that surely do more harm than others come last, the others by
+    /// what they are worth.
+    pub fn order(&self, entrants: &mut [Entrant], worth: impl Fn(&Entrant) -> f64) {
+        let least = entrants.iter().map(|entrant| self.harms(entrant)).min();
+        let certain = |entrant: &Entrant| is_more(self.harms(entrant), least.unwrap_or(0));
+        entrants.sort_by(|a, b| {
+            let safer = certain(a).cmp(&certain(b));
+            safer.then(worth(b).total_cmp(&worth(a)))
+        });
+    }
+
     fn hopes(&self, entrant: &Entrant, base: &Entrant, price: f64) -> bool {
         let (more, doubt) = self.harm(entrant, base);
         if more > 2.0 * doubt {
@@ -175,15 +188,8 @@ impl<'g, 'w, W: World> Judge<'g, 'w, W> {
             let Some(base) = base.first() else { break };
             self.play(&trials, &mut entrants, episodes, Some(base));
             entrants.retain(|entrant| self.hopes(entrant, base, price));
-            let worth = |entrant: &Entrant| {
-                let (more, doubt) = self.harm(entrant, base);
-                // Harm that is certain stands before any return.
-                let certain = if more.abs() >= 2.0 * doubt { more } else { 0.0 };
-                (certain, self.gain(entrant, base, price).mean)
-            };
-            entrants.sort_by(|a, b| {
-                let ((harm, gain), (other, least)) = (worth(a), worth(b));
-                harm.total_cmp(&other).then(least.total_cmp(&gain))
+            self.order(&mut entrants, |entrant| {
+                self.gain(entrant, base, price).mean
             });
             entrants.truncate(stay);
             if entrants.is_empty() {
@@ -197,4 +203,10 @@ impl<'g, 'w, W: World> Judge<'g, 'w, W> {
         });
         (found, base)
     }
+}
+
+/// Whether harm is more than other harm in as many episodes, and not by chance.
+pub fn is_more(harms: u64, others: u64) -> bool {
+    let more = harms.saturating_sub(others) as f64;
+    more > CERTAIN * ((harms + others) as f64).sqrt()
 }

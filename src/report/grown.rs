@@ -36,9 +36,10 @@ pub fn doc(grown: &Grown, program: &Program, task: &Task) -> String {
         true => String::new(),
         false => format!("; {}", ended.join(", ")),
     };
+    let [alike, all] = grown.alike;
     format!(
-        "That is the exact tree of {} nodes. This one, of {}, was grown and is tested, not proved: a return of {:.2} for \
-         {:.2} on {} fresh episodes, {}{ended}.",
+        "That is the exact tree of {} nodes. This one, of {}, begins as it does in {alike} of the {all} minterms, was grown \
+         and is tested, not proved: a return of {:.2} for {:.2} on {} fresh episodes, {}{ended}.",
         before.size.nodes,
         after.size.nodes,
         after.summary.total.mean,

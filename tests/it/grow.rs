@@ -34,6 +34,7 @@ fn grown(tree: &str, choice: Choice) -> (Loaded, Grown) {
     let experiment = Experiment::new(&loaded.program, Id::new(0), None, 10).unwrap();
     let ground = grow::ground(&experiment, 1);
     let starts = Starts {
+        minterms: Vec::new(),
         exact,
         others: Vec::new(),
     };

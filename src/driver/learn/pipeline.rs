@@ -91,7 +91,12 @@ pub fn learn<'e, W: World>(
     let exact = &trees.chosen().root;
     let grown = match options.shape {
         Shape::Exact => None,
-        Shape::Grown => Some(grown(experiment, exact, (options, seed), progress)?),
+        Shape::Grown => Some(grown(
+            experiment,
+            (exact, &policy),
+            (options, seed),
+            progress,
+        )?),
     };
     let tested = if options.tests > 0 {
         progress(Stage::Testing);
@@ -135,7 +140,7 @@ fn learn_all<W: World>(
 /// The tree that grows from the exact one and those of the program.
 fn grown<W: World>(
     experiment: &Experiment<W>,
-    exact: &Node,
+    (exact, policy): (&Node, &Policy),
     (options, seed): (&Options, u64),
     progress: &(dyn Fn(Stage) + Sync),
 ) -> Result<Grown, Unlearned> {
@@ -155,6 +160,7 @@ fn grown<W: World>(
     let starts = Starts {
         exact: exact.clone(),
         others: others.collect(),
+        minterms: policy.rows.iter().map(|row| row.minterm.key()).collect(),
     };
     let requirements = grow::requirements(program, task);
     let settings = grow::Settings {
