@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes docs/paper.md: section VIII of the paper beside what btc does today, from real runs, in one to two minutes.
+# Makes docs/paper.md: section VIII of the paper beside what btc does today, from real runs, in a few minutes.
 #
 #   cargo build --release && docs/paper.sh > docs/paper.md
 #
@@ -27,8 +27,8 @@ learn() {
     fi
 }
 
-# report NAME AWK: what an awk program finds in the report of a run, where `part` is 1 before and 2 after simplification.
-report() { awk 'BEGIN { part = 1 } $1 == "simplified" { part = 2 }'"$2" "$runs/$1.txt"; }
+# report NAME AWK: what an awk program finds in the report of a run, where `part` is 2 from the figures of the grown tree on.
+report() { awk 'BEGIN { part = 1 } $1 == "grown" { part = 2 }'"$2" "$runs/$1.txt"; }
 
 # tree NAME FILE: the tree of that name, without its doc comment.
 tree() { awk -v head="tree $1 for" 'index($0, head) == 1 { on = 1 } on { print } on && /^}/ { exit }' "$2"; }
@@ -44,7 +44,7 @@ guards() {
     } END { print list }' "$1"
 }
 
-# places BEHAVIOUR FILE: the units of the simplified tree, numbered in their order, in which a behaviour stands.
+# places BEHAVIOUR FILE: the units of the grown tree, numbered in their order, in which a behaviour stands.
 places() {
     awk -v leaf="$1" '
         /^tree/ { next }
@@ -87,8 +87,8 @@ hand() {
 }
 
 for seed in $SEEDS; do
-    learn "small_$seed" "$SMALL" --seed "$seed"
-    learn "large_$seed" "$LARGE" --seed "$seed" --simplify 1%
+    learn "small_$seed" "$SMALL" --shape exact --seed "$seed"
+    learn "large_$seed" "$LARGE" --seed "$seed"
 done
 best=0
 for name in expert table_1 table_1_wander; do
@@ -101,7 +101,7 @@ simple="$runs/large_1.bt"
 echo "# The paper, beside what btc does
 
 Section VIII of Bikramjit Banerjee, *Autonomous Acquisition of Behavior Trees for Robot Control*, IROS 2018, item by item, beside
-real runs of $("$BTC" --version). The page is made by \`cargo build --release && docs/paper.sh > docs/paper.md\` in one to two minutes
+real runs of $("$BTC" --version). The page is made by \`cargo build --release && docs/paper.sh > docs/paper.md\` in a few minutes
 and not edited by hand: every figure of ours comes out of a command that is named beside it.
 The worlds are not the same. The paper's robot runs in Gazebo, ours in [\`$SMALL\`](../$SMALL)
 and [\`$LARGE\`](../$LARGE), with measures and control laws of their own. The paper gives no
@@ -142,10 +142,10 @@ echo "
 ## Table I: the large delivery, guard by guard
 
 \`\`\`bt
-// btc learn $LARGE --seed 1 --simplify 1%
+// btc learn $LARGE --seed 1
 // Exact, proved $(report large_1 '$1 == "proved" { sub(/^proved */, ""); print }').
 $(tree learned_exact "$exact")
-// Simplified: made from the exact tree, tested and not proved.
+// Grown from it: tested, not proved.
 $(tree learned "$simple")
 \`\`\`
 
@@ -154,7 +154,7 @@ also says that no unit before it holds. \`V\` is vis, \`P\` carrying_package, \`
 waits for a low battery; a bar over \`L\` seems to be lost, so both readings are shown. The last three columns count among the
 $(report large_1 '$1 == "learned" { print $2 }') minterms that seed 1 learned (\`policy.csv\`): where the paper's guard holds, where our policy decides so, and both.
 
-| behaviour | guard in Table I | our simplified tree reaches it in unit | guard holds | ours | both |
+| behaviour | guard in Table I | our grown tree reaches it in unit | guard holds | ours | both |
 | --- | --- | --- | --- | --- | --- |"
 while IFS=';' read -r behavior guard condition; do
     echo "| \`$behavior\` | $guard | $(places "$behavior" "$simple") | $(overlap "$behavior" "$condition") |"
@@ -172,15 +172,15 @@ echo "
 ## Figure 9: the tree made readable
 
 The paper's tree has five tests: t1 = \`battery_low and vis(C)\`, t2 = \`carrying_package\`, t3 = \`vis(A)\`, t4 = \`vis(B)\`,
-t5 = \`carrying_package and vis(C)\`. The tests of our simplified trees, and the nodes of the tree that Algorithm 1 alone makes of
-the policy, of the smallest that a search finds from there (exact), and of the simplified one; below, the trees of seeds 2 to 5:
+t5 = \`carrying_package and vis(C)\`. The tests of our grown trees, and the nodes of the tree that Algorithm 1 alone makes of
+the policy, of the smallest that a search finds from there (exact), and of the grown one; below, the trees of seeds 2 to 5:
 
-| seed | tests | Algorithm 1 | exact | simplified |
+| seed | tests | Algorithm 1 | exact | grown |
 | --- | --- | --- | --- | --- |"
 for seed in $SEEDS; do
     report "large_$seed" '
         $1 == "tree" { exact = $2; alone = $(NF - 1) }
-        $1 == "simplified" { simple = $4 }
+        $1 == "grown" { simple = $2 }
         END { printf "| '"$seed | $(guards "$runs/large_$seed.bt")"' | %s | %s | %s |\n", alone, exact, simple }'
 done
 echo
@@ -203,7 +203,7 @@ for name in expert table_1 table_1_wander; do
     hand "$name" | awk -v name="$name" '{ printf "| `%s` | %s | %s to %s | %s of %s |\n", name, $1, $2, $3, $4, $5 }'
 done
 echo "
-Learned: \`btc learn $LARGE --seed N --simplify 1%\`. Each pair is exact / simplified, on the same
+Learned: \`btc learn $LARGE --seed N\`. Each pair is exact / grown, on the same
 fresh episodes; the percentage is of the $best deliveries of the best tree by hand in its own $EPISODES episodes. *Reached* are the
 minterms that the greedy policy meets, on which the exact tree is proved; *closed* says whether btc reports the proof as closed under the transitions that were met.
 
@@ -213,9 +213,9 @@ for seed in $SEEDS; do
     report "large_$seed" '
         $1 == "learned" { seen = $2 }
         $1 == "proved" { reached = $3; closed = /not closed/ ? "no" : "yes" }
-        $1 == "simplified" { nodes = $2 " / " $4 }
-        part == 2 && $1 == "return" { gained = $2 " / " $4; sub(/,$/, "", gained) }
-        part == 2 && $1 == "dropoff" { rate = $2 " / " $4; share = sprintf("%.1f %% / %.1f %%", 100 * $2 / '"$best"', 100 * $4 / '"$best"') }
-        part == 2 && $1 == "ended" { deaths = $2 " / " $4 " of " $6 }
+        $1 == "grown" { nodes = $5 " / " $2; sub(/,/, "", nodes) }
+        part == 2 && $1 == "return" { gained = $4 " / " $2; sub(/,/, "", gained) }
+        part == 2 && $1 == "dropoff" { rate = $4 " / " $2; share = sprintf("%.1f %% / %.1f %%", 100 * $4 / '"$best"', 100 * $2 / '"$best"') }
+        part == 2 && $1 == "ended" { deaths = $4 " / " $2 " of " $6 }
         END { printf "| '"$seed"' | %s / %s | %s | %s | %s | %s | %s | %s |\n", seen, reached, closed, nodes, gained, rate, share, deaths }'
 done
