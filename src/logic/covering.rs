@@ -36,7 +36,9 @@ impl List {
     /// The nodes of the list as a tree: a sequence, a leaf and the literals for each rule, a leaf and a selector.
     pub fn nodes(&self) -> usize {
         let rules = self.rules.iter();
-        2 + rules.map(|rule| 2 + rule.cube.literals().len()).sum::<usize>()
+        2 + rules
+            .map(|rule| 2 + rule.cube.literals().len())
+            .sum::<usize>()
     }
 }
 
@@ -230,10 +232,7 @@ impl Table {
             }
         };
         let inside = self.columns.inside(literal);
-        (
-            count(on, inside),
-            count(off, self.columns.meeting(literal)),
-        )
+        (count(on, inside), count(off, self.columns.meeting(literal)))
     }
 }
 
@@ -298,7 +297,8 @@ impl Search<'_> {
                 break;
             }
             let others = off.count();
-            let gain = |step: &&Step| (others - step.met) * (1 << 16) / (1 + on.count() - step.kept);
+            let gain =
+                |step: &&Step| (others - step.met) * (1 << 16) / (1 + on.count() - step.kept);
             let Some(step) = steps.iter().max_by_key(gain).copied() else {
                 break;
             };

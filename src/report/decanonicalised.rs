@@ -4,7 +4,7 @@ use super::words::{self, counted, rows};
 use crate::ir::Program;
 use crate::policy::Policy;
 use crate::tree::Size;
-use crate::tree::decanonicalise::{Decanonicalised, Loosened};
+use crate::tree::decanonicalise::{Decanonicalised, Loosened, Stage};
 
 /// What there is to report of a tree that was made from a table.
 #[derive(Clone, Copy, Debug)]
@@ -78,6 +78,18 @@ impl Report<'_> {
             line("paper", size(paper));
         }
         line("tree", size(&self.exact.size));
+        if !self.exact.unfinished.is_empty() {
+            let stages = self.exact.unfinished.iter().map(|stage| match stage {
+                Stage::Paper => "Algorithm 1",
+                Stage::Memory => "which behaviours memory nodes join",
+                Stage::Search => "the search for smaller trees",
+            });
+            let stages: Vec<&str> = stages.collect();
+            line(
+                "unfinished",
+                format!("{}: a greater effort goes further", stages.join(", ")),
+            );
+        }
         line("proved", format!("on {}", proved(policy, self.exact)));
         match self.loosened {
             Some(loosened) => line(

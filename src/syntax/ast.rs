@@ -18,7 +18,10 @@ pub use declaration::{
     Enum, Event, Let, LetBody, On, Param, Params, Predicate, State, Trigger, TypeExpr, Use, UseWhat,
 };
 pub(super) use expr::chain_depth;
-pub use expr::{Arg, ArgKind, Axis, BinaryOp, Choice, Expr, ExprKind, Literal, Otherwise, Ref, UnaryOp, Unit, UnitFactor, Yield, chain};
+pub use expr::{
+    Arg, ArgKind, Axis, BinaryOp, Choice, Expr, ExprKind, Literal, Otherwise, Ref, UnaryOp, Unit,
+    UnitFactor, Yield, chain,
+};
 use std::fmt;
 pub use task::{
     Aspect, AspectKind, Learn, LearnEntry, Link, Outcome, Paid, RewardLine, Setting, Start,

@@ -59,9 +59,11 @@ impl Level {
     fn depth_from(&self, strength: usize) -> usize {
         let chains = self.chains.iter().skip(strength).rev();
         let strengths = (strength..STRENGTHS).rev();
-        chains.zip(strengths).fold(self.operand, |depth, (chain, strength)| {
-            chain.depth(strength) + chain.deepest.max(depth)
-        })
+        chains
+            .zip(strengths)
+            .fold(self.operand, |depth, (chain, strength)| {
+                chain.depth(strength) + chain.deepest.max(depth)
+            })
     }
 
     /// The depth of all that has stood inside the bracket.

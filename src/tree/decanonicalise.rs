@@ -23,11 +23,11 @@ use super::prove::{Proof, Prover, Refuted};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::{Node, Status};
+use crate::logic::Account;
 use crate::policy::{Minterm, Policy, Row};
 use minimiser::Minimiser;
 use problem::Problem;
 use search::Found;
-use crate::logic::Account;
 use serde::Serialize;
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -68,8 +68,8 @@ pub struct Options {
     pub care: Care,
     /// The order of the units.
     pub order: Order,
-    /// The work that the search may do, in units of about a twentieth of a second. It is counted in words of sets of rows
-    /// that are read, never timed.
+    /// The work that the search may do, in units of about a tenth of a second. It is counted in words of sets of rows that
+    /// are read, never timed.
     pub effort: u64,
 }
 

@@ -22,7 +22,9 @@ fn dropped(columns: &Columns, classes: &[Bits], list: &mut List, account: &Accou
     for rule in list.rules.iter().rev() {
         let meets = columns.cube_meets(&rule.cube, &all);
         let inside = columns.cube_rows(&rule.cube, own(rule.class));
-        let after = right.last().map_or(none.clone(), |after| after.minus(&meets));
+        let after = right
+            .last()
+            .map_or(none.clone(), |after| after.minus(&meets));
         right.push(after.or(&inside));
     }
     right.reverse();
@@ -31,7 +33,10 @@ fn dropped(columns: &Columns, classes: &[Bits], list: &mut List, account: &Accou
         let Some(rule) = list.rules.get_mut(at) else {
             break;
         };
-        if right.get(at + 1).is_some_and(|after| reach.is_subset(after)) {
+        if right
+            .get(at + 1)
+            .is_some_and(|after| reach.is_subset(after))
+        {
             list.rules.remove(at);
             return true;
         }

@@ -57,9 +57,8 @@ fn cheapest(
     let cores: Vec<(Core, Option<bool>, Account)> = cores.collect();
     cores.iter().for_each(|(.., part)| account.settle(part));
     let cores = cores.into_iter();
-    let cores: Option<Vec<(Core, bool)>> = cores
-        .map(|(core, holds, _)| Some((core, holds?)))
-        .collect();
+    let cores: Option<Vec<(Core, bool)>> =
+        cores.map(|(core, holds, _)| Some((core, holds?))).collect();
     let mut cores = cores?;
     loop {
         let looks = |(_, (core, _)): &(usize, &mut (Core, bool))| cost(&core.solution().cover);

@@ -61,7 +61,11 @@ impl<'a> Core<'a> {
     }
 
     /// A solution for all rows under a greater effort, starting from the present core; `None` if the account is spent.
-    pub(in crate::logic) fn finish(&self, effort: &'a Effort, account: &Account) -> Option<Solution> {
+    pub(in crate::logic) fn finish(
+        &self,
+        effort: &'a Effort,
+        account: &Account,
+    ) -> Option<Solution> {
         let mut core = Self {
             effort,
             rounds: 0,

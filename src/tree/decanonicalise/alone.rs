@@ -152,7 +152,9 @@ impl<'a, 'p> Core<'a, 'p> {
             atoms: whole.atoms.clone(),
             behaviors: whole.behaviors.clone(),
             history: whole.history,
-            rows: rows.filter_map(|row| whole.rows.get(row).cloned()).collect(),
+            rows: rows
+                .filter_map(|row| whole.rows.get(row).cloned())
+                .collect(),
             ..Policy::default()
         }
     }

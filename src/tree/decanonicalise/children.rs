@@ -44,7 +44,9 @@ impl Children {
         let literal = Literal { atom, positive };
         let literal = guard::literal(literal, &problem.policy.atoms);
         // What stands last in both is reached where no unit before it holds.
-        if inner.nodes.len() > 1 && outer.nodes.len() == 1 && inner.nodes.last() == outer.nodes.last()
+        if inner.nodes.len() > 1
+            && outer.nodes.len() == 1
+            && inner.nodes.last() == outer.nodes.last()
         {
             inner.nodes.pop();
             inner.price = Price {

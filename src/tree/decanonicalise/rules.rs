@@ -66,7 +66,9 @@ impl Rules {
             for length in (1..=SHORT).rev() {
                 let count = count_short(atoms.len(), length);
                 if count <= MOST
-                    && minimiser.account.affords((count as u64).saturating_mul(words).saturating_mul(SHARE))
+                    && minimiser
+                        .account
+                        .affords((count as u64).saturating_mul(words).saturating_mul(SHARE))
                 {
                     rules.add_short(minimiser, &atoms, length);
                     return rules;
@@ -88,7 +90,9 @@ impl Rules {
             return;
         }
         let problem = minimiser.problem;
-        minimiser.account.spend(minimiser.words() * cube.literals().len() as u64);
+        minimiser
+            .account
+            .spend(minimiser.words() * cube.literals().len() as u64);
         let rows = problem.columns().cube_rows(cube, &problem.all());
         self.known.insert(cube.clone());
         let atoms = cube.literals().iter().map(|literal| literal.atom);
@@ -149,7 +153,9 @@ impl Rules {
         owners: &[usize],
         left: &Bits,
     ) -> Vec<Applied> {
-        minimiser.account.spend(self.rules.len() as u64 * 2 * minimiser.words());
+        minimiser
+            .account
+            .spend(self.rules.len() as u64 * 2 * minimiser.words());
         let applied = self.rules.iter().enumerate().filter_map(|(at, rule)| {
             let first = rule.rows.first_of_both(left)?;
             let number = *owners.get(first)?;

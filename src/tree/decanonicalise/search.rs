@@ -52,7 +52,9 @@ pub(super) fn tree(problem: &Problem, account: &Account) -> Found {
     let mut unfinished = Vec::new();
     let held = alone::held(problem, account);
     let mut trees = held.trees.clone();
-    trees.extend(optimum(problem, account));
+    let optimum = optimum(problem, account);
+    let is_small = optimum.is_some();
+    trees.extend(optimum);
     let mut paper = None;
     if problem.policy.rows.len() <= LARGE {
         let minimiser = Minimiser::new(problem, account.part(5));
@@ -71,6 +73,8 @@ pub(super) fn tree(problem: &Problem, account: &Account) -> Found {
     }
     let with_memory = configurations.get(1..).unwrap_or_default();
     let half = match with_memory.is_empty() {
+        // Little is left to find.
+        _ if is_small => account.part(8),
         true => account.part(1),
         false => account.part(2),
     };
@@ -91,7 +95,10 @@ pub(super) fn tree(problem: &Problem, account: &Account) -> Found {
     }
     let mut tree = smallest(
         problem,
-        trees.into_iter().map(|node| (Size::of(&node), node)).collect(),
+        trees
+            .into_iter()
+            .map(|node| (Size::of(&node), node))
+            .collect(),
     );
     if tree.is_none() {
         // No partition of rows that leave atoms free.

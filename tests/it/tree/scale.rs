@@ -12,7 +12,11 @@ use btc::tree::prove::prove;
 use rayon::prelude::*;
 
 /// A table over this many predicates.
-fn table(atoms: usize, behaviors: usize, rows: impl Iterator<Item = (Minterm, usize)>) -> Policy {
+pub(super) fn table(
+    atoms: usize,
+    behaviors: usize,
+    rows: impl Iterator<Item = (Minterm, usize)>,
+) -> Policy {
     let mut rows: Vec<Row> = rows
         .map(|(minterm, does)| Row {
             minterm,
@@ -51,7 +55,7 @@ fn five_rules(seed: u64) -> Policy {
     table(7, 6, rows)
 }
 
-fn searched(policy: &Policy, order: Order, effort: u64) -> Decanonicalised {
+pub(super) fn searched(policy: &Policy, order: Order, effort: u64) -> Decanonicalised {
     let asked = Options {
         order,
         effort,
