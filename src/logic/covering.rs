@@ -76,7 +76,7 @@ impl Worth {
     }
 }
 
-/// A list of rules for these classes among the rows `among`; `None` if the account is spent before there is one, or it has more
+/// A list of rules for these classes among the rows `among`; a row may be of several classes, each of which is right. `None` if the account is spent before there is one, or it has more
 /// than `limit` nodes.
 pub fn covering(
     columns: &Columns,
@@ -90,15 +90,10 @@ pub fn covering(
     let mut left = Bits::full(table.columns.rows());
     let mut list = List::default();
     loop {
-        let classes = table.classes.iter();
-        let mut there = classes.filter(|(_, own)| !own.is_disjoint(&left));
-        match (there.next(), there.next()) {
-            (None, _) => return Some(list),
-            (Some((class, _)), None) => {
-                list.last = *class;
-                return Some(list);
-            }
-            _ => {}
+        let mut classes = table.classes.iter();
+        if let Some((class, _)) = classes.find(|(_, own)| left.is_subset(own)) {
+            list.last = *class;
+            return Some(list);
         }
         if account.is_spent() || list.nodes() > limit {
             return None;

@@ -11,6 +11,8 @@ use crate::tree::decanonicalise::{Decanonicalised, Loosened, Stage};
 pub struct Report<'a> {
     /// The policy of the table.
     pub policy: &'a Policy,
+    /// The rows that allow several behaviours, of which the policy takes one.
+    pub several: usize,
     /// The tree that is equal to the table.
     pub exact: &'a Decanonicalised,
     /// The smaller tree that slack allows, if there is one.
@@ -28,6 +30,11 @@ impl Report<'_> {
                 self.slack,
                 loosened.deviations.len(),
                 rows(self.policy)
+            ),
+            None if self.several > 0 => format!(
+                "Made from {source}: proved to take an allowed behaviour on {}; {} of them allow several.",
+                proved(self.policy, self.exact),
+                self.several
             ),
             None => format!(
                 "Made from {source}: proved on {}.",
@@ -74,6 +81,13 @@ impl Report<'_> {
                 counted(policy.behaviors.len(), "behaviour")
             ),
         );
+        if self.several > 0 {
+            let title = "allowed";
+            line(
+                title,
+                format!("several behaviours in {} of the rows", self.several),
+            );
+        }
         if let Some(paper) = &self.exact.paper_size {
             line("paper", size(paper));
         }

@@ -1,5 +1,6 @@
 //! Policies to trees (paper, section VII).
 
+mod allowed;
 mod alone;
 mod beam;
 mod children;
@@ -33,6 +34,7 @@ use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 pub use crate::logic::Order;
+pub use allowed::allowing;
 pub use slack::{Deviation, Loosened, loosen};
 
 /// How the tree is found.

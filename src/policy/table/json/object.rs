@@ -1,6 +1,6 @@
 //! One object of JSON with its keys in order, repeated ones as well.
 
-use serde::de::{Deserialize, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
+use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 use std::borrow::Cow;
 use std::fmt;
 
@@ -14,8 +14,8 @@ pub(super) enum Value<'t> {
     Number(serde_json::Number),
     Text(Cow<'t, str>),
     Object(Vec<(Cow<'t, str>, Value<'t>)>),
-    /// What a list holds says nothing in a table.
-    List,
+    /// A list of texts; what other lists hold says nothing in a table.
+    List(Option<Vec<Cow<'t, str>>>),
 }
 
 impl Object<'_> {
@@ -32,7 +32,7 @@ impl fmt::Display for Value<'_> {
             Value::Number(number) => number.fmt(f),
             Value::Text(text) => write!(f, "\"{text}\""),
             Value::Object(_) => f.write_str("{…}"),
-            Value::List => f.write_str("[…]"),
+            Value::List(_) => f.write_str("[…]"),
         }
     }
 }
@@ -131,7 +131,13 @@ impl<'de> Visitor<'de> for Anything {
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Self::Value, A::Error> {
-        while list.next_element::<IgnoredAny>()?.is_some() {}
-        Ok(Value::List)
+        let mut texts = Some(Vec::new());
+        while let Some(value) = list.next_element::<Value<'de>>()? {
+            match (value, &mut texts) {
+                (Value::Text(text), Some(texts)) => texts.push(text),
+                _ => texts = None,
+            }
+        }
+        Ok(Value::List(texts))
     }
 }
