@@ -56,10 +56,10 @@ pub(super) struct Arguments {
 const FORMATS: &str = "\
 Tables: a column for each predicate with 0, 1, or - for either; one for what is done, called behavior, behaviour or \
 action; if known, visits, q_gap, and q:NAME with the value of each behaviour. done(NAME) and failed(NAME) ask the \
-history. Rows that say the same are merged.
+history. Rows that say the same are merged. A row may allow several behaviours, go|dock: the tree takes one of them.
 
 JSON Lines: an object a line with the same names as keys. A predicate is 0, 1, false, true, or \"-\" or null for \
-either; values may stand in an object under q:
+either; several behaviours are a list of names; values may stand in an object under q:
   {\"low\": true, \"near\": null, \"behavior\": \"dock\", \"visits\": 12, \"q\": {\"dock\": 1.5, \"wander\": 0.2}}";
 
 fn slack(text: &str) -> Result<f64, String> {
