@@ -219,6 +219,8 @@ impl Reader {
             None => self.wrong(span, PlaErrorKind::Number(keyword.to_owned())),
             Some(number) if number > MOST => {
                 self.wrong(span, PlaErrorKind::Many(keyword.to_owned(), MOST));
+                // Without the size, no row can be read.
+                self.ended = true;
             }
             Some(number) => return Some(number as usize),
         }

@@ -51,27 +51,18 @@ fn without_redundancy(mut guard: Guard, free: Signal, guards: &mut Guards) -> Gu
             return Guard::Const(constant);
         }
     }
-    // The last first: of a list, what later rules have in common with earlier ones goes before the guards of those.
-    for at in (0..parts(&guard)).rev() {
-        let Some(shorter) = without(&guard, &mut { at }) else {
-            continue;
-        };
+    let mut at = 0;
+    while let Some(shorter) = without(&guard, &mut { at }) {
         let changed = guards.signal(&shorter);
         let differs = guards.circuit.xor(changed, signal);
         let differs = guards.circuit.and(differs, !free);
         if guards.is_never(differs) {
             guard = shorter;
+        } else {
+            at += 1;
         }
     }
     guard
-}
-
-/// The number of parts of a guard, and of their parts.
-fn parts(guard: &Guard) -> usize {
-    match guard {
-        Guard::And(inner) | Guard::Or(inner) => inner.iter().map(|part| 1 + parts(part)).sum(),
-        _ => 0,
-    }
 }
 
 /// The guard without its `at`-th part, in the order in which they are read; `None` if there are fewer.

@@ -70,6 +70,14 @@ pub(super) fn held(problem: &Problem, account: &Account) -> Held {
 pub(super) fn trees(problem: &Problem, held: &Held, account: &Account) -> Vec<Node> {
     let mut found = Vec::new();
     let all = problem.all();
+    if problem.policy.rows.len() > WHOLE {
+        // A list of classes looks at a core of its own for each class.
+        let minimiser = Minimiser::new(problem, account.part(3));
+        let subunits = behaviors(problem);
+        let list = in_order(&minimiser, &subunits, Order::Learned);
+        found.extend(list.map(|list| shared(listed(&minimiser, &subunits, &list))));
+        account.settle(&minimiser.account);
+    }
     for partition in &held.partitions {
         let part = account.part(6);
         found.push(parted::with_lists(problem, partition, &all, &part).node());

@@ -3,7 +3,7 @@
 use super::minimiser::Minimiser;
 use super::subunit::Subunit;
 use crate::ir::tree::Node;
-use crate::logic::{Bits, Cover, Order, list_within};
+use crate::logic::{Bits, Cover, Effort, Order, list_within};
 use crate::tree::unit::{guarded, selector};
 
 /// The subunits from the left: the number of each, and its cover against those that follow; `None` if the account is spent.
@@ -20,7 +20,7 @@ pub(super) fn in_order(
         minimiser.problem.columns(),
         &classes,
         order,
-        &minimiser.effort(),
+        &Effort::default(),
         &minimiser.account,
     )
 }
