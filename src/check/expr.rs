@@ -14,6 +14,8 @@ mod reading;
 mod reference;
 mod tune;
 
+use operator::is_arithmetic;
+
 use super::Checker;
 use super::types::{Type, Typed, Value};
 use crate::syntax::ast::{Axis, Expr, ExprKind, Ref};
@@ -32,6 +34,11 @@ impl<'a> Checker<'a> {
             self.meaning(expr)
         };
         self.depth -= 1;
+        self.settled(typed, expr)
+    }
+
+    /// What an expression came to, as a value of that expression.
+    pub(super) fn settled(&mut self, typed: Option<Typed>, expr: &'a Expr) -> Typed {
         let typed = typed.filter(|typed| self.is_finite(typed, expr));
         typed.map_or(Typed::error(expr.span), |typed| Typed {
             span: expr.span,
@@ -64,7 +71,10 @@ impl<'a> Checker<'a> {
                 Some(Typed::new(Type::LENGTH, coordinate, span))
             }
             ExprKind::Unary { op, operand } => self.unary(op.node, operand, span),
-            ExprKind::Binary { op, left, right } => self.binary(*op, left, right, span),
+            ExprKind::Binary { op, left, right } => match is_arithmetic(op.node) {
+                true => self.arithmetic(expr),
+                false => self.binary(*op, left, right, span),
+            },
             ExprKind::Error => None,
         }
     }

@@ -34,7 +34,9 @@ pub(super) struct Arguments {
     /// A table gives the order of its columns of values, or else that in which its rows name the behaviours.
     #[arg(long, value_name = "ORDER", default_value = "learned")]
     order: Order,
-    /// How much work the search may take, in millions of units; the tree is the same on every machine.
+    /// How much work the search may take, in units of about a tenth of a second; the tree is the same on every machine.
+    ///
+    /// Work is counted, not timed. A tree is found whatever the effort; `--report` says what it left unfinished.
     #[arg(long, value_name = "N", default_value_t = decanonicalise::Options::default().effort)]
     effort: u64,
     /// The name of the tree.
@@ -54,10 +56,10 @@ pub(super) struct Arguments {
 const FORMATS: &str = "\
 Tables: a column for each predicate with 0, 1, or - for either; one for what is done, called behavior, behaviour or \
 action; if known, visits, q_gap, and q:NAME with the value of each behaviour. done(NAME) and failed(NAME) ask the \
-history. Rows that say the same are merged.
+history. Rows that say the same are merged. A row may allow several behaviours, go|dock: the tree takes one of them.
 
 JSON Lines: an object a line with the same names as keys. A predicate is 0, 1, false, true, or \"-\" or null for \
-either; values may stand in an object under q:
+either; several behaviours are a list of names; values may stand in an object under q:
   {\"low\": true, \"near\": null, \"behavior\": \"dock\", \"visits\": 12, \"q\": {\"dock\": 1.5, \"wander\": 0.2}}";
 
 fn slack(text: &str) -> Result<f64, String> {

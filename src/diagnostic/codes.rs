@@ -144,6 +144,7 @@ codes! {
     E0819 "a tree without canonical form",
     E0821 "a node that the robot's library does not have",
     E0822 "a time that the robot's library cannot keep",
+    E0823 "rows that allow several behaviours",
 
     W0201 "a name that nothing reads",
     W0202 "a state that is set and never read",

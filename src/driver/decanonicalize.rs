@@ -7,6 +7,7 @@ use super::text::Text;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::emit::bt;
 use crate::emit::form::TreeForm;
+use crate::ir::law::Behavior;
 use crate::ir::tree::Tree;
 use crate::ir::{Id, Name, Program};
 use crate::policy::table::{AtomName, Table};
@@ -52,6 +53,8 @@ impl Default for Options<'_> {
 pub struct Asked {
     program: Program,
     policy: Policy,
+    /// The behaviours that each row allows, if some row allows several.
+    allowed: Option<Vec<Vec<Id<Behavior>>>>,
     /// The name of the table.
     source: String,
 }
@@ -97,10 +100,24 @@ pub fn read(text: Text, recorded: Option<Recorded>, options: &Options) -> Result
         let help = "choose another name for the tree, with `--name NAME`";
         return Err(Refused::text(text, |file| vec![found(file).help(help)]));
     }
+    if read.has_sets() && (options.slack > 0.0 || recorded.is_some()) {
+        let message = "a row that allows several behaviours has neither slack nor transitions";
+        let found = at_header(Code::E0823, message.to_owned());
+        let help = "choose one behaviour for each row, or leave out the option";
+        return Err(Refused::text(text, |file| vec![found(file).help(help)]));
+    }
     let (program, policy) = decisions::declared(&read);
+    let sets = read.has_sets().then(|| {
+        let of = |numbers: Vec<usize>| {
+            let ids = numbers.into_iter().map(Id::new);
+            ids.collect()
+        };
+        read.allowed().map(of).collect()
+    });
     let mut asked = Asked {
         program,
         policy,
+        allowed: sets,
         source: called(text.name),
     };
     if let Some(recorded) = recorded {
@@ -142,11 +159,20 @@ pub fn decanonicalize(asked: Asked, options: &Options) -> Result<Made, Refused> 
     };
     let Asked {
         mut program,
-        policy,
+        mut policy,
+        allowed,
         source,
     } = asked;
     let refused = |refuted: Refuted| internal(&source, &refuted.to_string());
-    let exact = decanonicalise::decanonicalise(&policy, &wanted).map_err(refused)?;
+    let exact = match &allowed {
+        Some(allowed) => {
+            let found = decanonicalise::allowing(&policy, allowed, &wanted);
+            let (chosen, found) = found.map_err(refused)?;
+            policy = chosen;
+            found
+        }
+        None => decanonicalise::decanonicalise(&policy, &wanted).map_err(refused)?,
+    };
     let loosened = if options.slack > 0.0 {
         decanonicalise::loosen(&policy, &exact, &wanted, options.slack)
     } else {
@@ -155,6 +181,7 @@ pub fn decanonicalize(asked: Asked, options: &Options) -> Result<Made, Refused> 
     let found = loosened.as_ref().map_or(&exact, |loosened| &loosened.found);
     let report = decanonicalised::Report {
         policy: &policy,
+        several: allowed.map_or(0, |rows| rows.iter().filter(|all| all.len() > 1).count()),
         exact: &exact,
         loosened: loosened.as_ref(),
         slack: options.slack,

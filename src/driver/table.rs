@@ -147,6 +147,7 @@ fn code(kind: &TableErrorKind) -> Code {
         TableErrorKind::UnknownValue { .. } => Code::E0814,
         TableErrorKind::Contradiction { .. } | TableErrorKind::Wide => Code::E0815,
         TableErrorKind::UnusableName { .. } | TableErrorKind::SharedName(_) => Code::E0816,
+        TableErrorKind::Several => Code::E0823,
         TableErrorKind::UnknownColumn(_)
         | TableErrorKind::UnknownBehavior(_)
         | TableErrorKind::Unseen => Code::E0610,

@@ -8,7 +8,7 @@ use crate::ir::tree::{Composite, Decorator, Guard, Node, Tree};
 use crate::source::Span;
 use crate::syntax::ast::{
     self, Arg, ArgKind, BehaviorBody, BinaryOp, Expr, ExprKind, Ident, Item, ItemKind, Literal,
-    NodeKind, Ref, Spanned, UnaryOp, Unit, Word,
+    NodeKind, Ref, Spanned, UnaryOp, Unit, Word, chain,
 };
 use crate::syntax::print;
 use crate::tree::unit::parts;
@@ -158,14 +158,9 @@ fn joined(program: &Program, op: BinaryOp, parts: &[Guard]) -> Expr {
     let mut all = Vec::new();
     flat(op, parts, &mut all);
     let parts = all.into_iter().map(|part| formula(program, part));
-    let whole = parts.reduce(|left, right| {
-        expr(ExprKind::Binary {
-            op: spanned(op),
-            left: Box::new(left),
-            right: Box::new(right),
-        })
-    });
-    whole.unwrap_or_else(|| expr(ExprKind::Bool(op == BinaryOp::And)))
+    let parts: Vec<Expr> = parts.collect();
+    let signs = vec![spanned(op); parts.len().saturating_sub(1)];
+    chain(parts, signs).unwrap_or_else(|| expr(ExprKind::Bool(op == BinaryOp::And)))
 }
 
 /// A name as an expression.

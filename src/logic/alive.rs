@@ -26,6 +26,11 @@ impl Alive {
         self.words.iter().map(|w| w.count_ones() as usize).sum()
     }
 
+    /// How many words still have rows.
+    pub(super) fn words(&self) -> usize {
+        self.words.len()
+    }
+
     /// Whether there are none.
     pub(super) fn is_empty(&self) -> bool {
         self.words.is_empty()

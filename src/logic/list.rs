@@ -3,11 +3,12 @@
 mod exchange;
 mod learned;
 
+use super::account::Account;
 use super::bits::Bits;
 use super::columns::Columns;
 use super::cube::Cover;
 use super::minimise::core::Core;
-use super::minimise::{Effort, minimise_with};
+use super::minimise::{Effort, minimise_within};
 use rayon::prelude::*;
 
 /// The order of a decision list.
@@ -36,21 +37,32 @@ pub fn list(
     order: Order,
     effort: &Effort,
 ) -> Vec<(usize, Cover)> {
+    list_within(columns, classes, order, effort, &Account::unlimited()).unwrap_or_default()
+}
+
+/// As [`list`]; `None` if the account is spent before there is a list.
+pub fn list_within(
+    columns: &Columns,
+    classes: &[Bits],
+    order: Order,
+    effort: &Effort,
+    account: &Account,
+) -> Option<Vec<(usize, Cover)>> {
     let there = classes
         .iter()
         .enumerate()
         .filter(|(_, rows)| !rows.is_empty());
     let mut classes: Vec<Class> = there.map(|(number, rows)| Class { number, rows }).collect();
     let list = match order {
-        Order::Learned => learned::list(columns, classes, effort),
-        Order::Given => fixed(columns, &classes, effort),
+        Order::Learned => learned::list(columns, classes, effort, account)?,
+        Order::Given => fixed(columns, &classes, effort, account)?,
         Order::Rarest => {
             classes.sort_by_key(|class| class.rows.count());
-            fixed(columns, &classes, effort)
+            fixed(columns, &classes, effort, account)?
         }
     };
     let entry = |entry: Entry| (entry.class.number, entry.cover);
-    list.into_iter().map(entry).collect()
+    Some(list.into_iter().map(entry).collect())
 }
 
 /// A class by its number.
@@ -81,16 +93,28 @@ fn cost(cover: &Cover) -> Cost {
 }
 
 /// The list in this order.
-fn fixed<'a>(columns: &Columns, classes: &[Class<'a>], effort: &Effort) -> Vec<Entry<'a>> {
+fn fixed<'a>(
+    columns: &Columns,
+    classes: &[Class<'a>],
+    effort: &Effort,
+    account: &Account,
+) -> Option<Vec<Entry<'a>>> {
     let entry = |(i, class): (usize, &Class<'a>)| {
+        let part = account.part(classes.len());
         let after = classes.iter().skip(i + 1);
         let off = union(columns, after.map(|class| class.rows));
-        Entry {
-            class: *class,
-            cover: minimise_with(columns, class.rows, &off, effort).cover,
-        }
+        let found = minimise_within(columns, class.rows, &off, effort, &part);
+        (part, found)
     };
-    classes.par_iter().enumerate().map(entry).collect()
+    let found: Vec<_> = classes.par_iter().enumerate().map(entry).collect();
+    let entries = classes.iter().zip(found).map(|(class, (part, found))| {
+        account.settle(&part);
+        Some(Entry {
+            class: *class,
+            cover: found?.cover,
+        })
+    });
+    entries.collect()
 }
 
 fn union<'a>(columns: &Columns, sets: impl Iterator<Item = &'a Bits>) -> Bits {
@@ -100,23 +124,25 @@ fn union<'a>(columns: &Columns, sets: impl Iterator<Item = &'a Bits>) -> Bits {
     })
 }
 
-/// The cover of a class against the rows of those that follow; `None` as soon as it seems to cost more than `limit`.
+/// The cover of a class against the rows of those that follow; `None` as soon as it seems to cost more than `limit`, or the
+/// account is spent.
 fn within(
     columns: &Columns,
     class: Class,
     off: &Bits,
     limit: Cost,
     effort: &Effort,
+    account: &Account,
 ) -> Option<Cover> {
     let quick = effort.quick();
     let mut core = Core::new(columns, class.rows, off, &quick);
     loop {
-        let holds = core.refine();
+        let holds = core.refine(account)?;
         if cost(&core.solution().cover) > limit {
             return None;
         }
         if holds {
-            return Some(core.finish(effort).cover);
+            return core.finish(effort, account).map(|found| found.cover);
         }
     }
 }

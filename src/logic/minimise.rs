@@ -13,9 +13,10 @@ mod exact;
 mod expand;
 mod improve;
 mod instance;
-mod random;
+pub(super) mod random;
 mod split;
 
+use super::account::Account;
 use super::bits::Bits;
 use super::columns::Columns;
 use super::cube::{Cover, Cube};
@@ -81,24 +82,47 @@ pub fn minimise(columns: &Columns, on: &Bits, off: &Bits) -> Cover {
 
 /// As [`minimise`], with an effort, and whether the cover is proved to be smallest.
 pub fn minimise_with(columns: &Columns, on: &Bits, off: &Bits, effort: &Effort) -> Solution {
+    let found = minimise_within(columns, on, off, effort, &Account::unlimited());
+    found.unwrap_or_else(|| Solution {
+        cover: Cover::new(on.iter().map(|row| Cube::new(columns.literals_of(row)))),
+        proved: false,
+    })
+}
+
+/// As [`minimise_with`]; `None` if the account is spent before there is a cover.
+pub fn minimise_within(
+    columns: &Columns,
+    on: &Bits,
+    off: &Bits,
+    effort: &Effort,
+    account: &Account,
+) -> Option<Solution> {
     match split::split(columns, on, off) {
-        Some((columns, on, off)) => by_core(&columns, &on, &off, effort),
-        None => by_core(columns, on, off, effort),
+        Some((columns, on, off)) => by_core(&columns, &on, &off, effort, account),
+        None => by_core(columns, on, off, effort, account),
     }
 }
 
-fn by_core(columns: &Columns, on: &Bits, off: &Bits, effort: &Effort) -> Solution {
+fn by_core(
+    columns: &Columns,
+    on: &Bits,
+    off: &Bits,
+    effort: &Effort,
+    account: &Account,
+) -> Option<Solution> {
     let quick = effort.quick();
     let mut core = Core::new(columns, on, off, &quick);
-    while !core.refine() {}
-    core.finish(effort)
+    while !core.refine(account)? {}
+    core.finish(effort, account)
 }
 
-/// A cover of an instance as a whole.
-fn solve(instance: &Instance, effort: &Effort) -> Solution {
-    let trivial = |cover| Solution {
-        cover,
-        proved: true,
+/// A cover of an instance as a whole; `None` if the account is spent.
+fn solve(instance: &Instance, effort: &Effort, account: &Account) -> Option<Solution> {
+    let trivial = |cover| {
+        Some(Solution {
+            cover,
+            proved: true,
+        })
     };
     if instance.on.rows() == 0 {
         return trivial(Cover::default());
@@ -106,13 +130,19 @@ fn solve(instance: &Instance, effort: &Effort) -> Solution {
     if instance.off.rows() == 0 {
         return trivial(Cover::new([Cube::default()]));
     }
-    let (pool, chosen, proved) = exact::exact(instance, effort).unwrap_or_else(|| {
-        let (pool, chosen) = improve::heuristic(instance, effort);
-        (pool, chosen, false)
-    });
+    if account.is_spent() {
+        return None;
+    }
+    let (pool, chosen, proved) = match exact::exact(instance, effort, account) {
+        Some(found) => found,
+        None => {
+            let (pool, chosen) = improve::heuristic(instance, effort, account)?;
+            (pool, chosen, false)
+        }
+    };
     let primes = pool.among(&chosen);
-    Solution {
+    Some(Solution {
         cover: Cover::new(primes.map(|prime| prime.cube.clone())),
         proved,
-    }
+    })
 }

@@ -3,21 +3,25 @@
 //! A table holds its rows transposed, one column of bits per atom. Rows that are neither in the ON set nor in the OFF set
 //! are free, and so is every minterm of no row: the don't-care set is never built.
 
+pub mod account;
 mod alive;
 pub mod bits;
 pub mod columns;
 pub mod complement;
+pub mod covering;
 pub mod cube;
 pub mod list;
 pub mod minimise;
 pub mod minterm;
 pub mod packed;
+pub mod partition;
 pub mod pla;
 mod transpose;
 
+pub use account::Account;
 pub use bits::Bits;
 pub use columns::Columns;
 pub use cube::{Cover, Cube, Literal};
-pub use list::{Order, list};
-pub use minimise::{Effort, Solution, minimise, minimise_with};
+pub use list::{Order, list, list_within};
+pub use minimise::{Effort, Solution, minimise, minimise_with, minimise_within};
 pub use minterm::Minterm;

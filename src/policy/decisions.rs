@@ -93,6 +93,12 @@ pub fn of_program(
     program: &Program,
     task: Option<Id<Task>>,
 ) -> Result<Policy, Vec<TableError>> {
+    if table.has_sets() {
+        return Err(vec![TableError {
+            span: table.header.clone(),
+            kind: TableErrorKind::Several,
+        }]);
+    }
     let mut unknown = Vec::new();
     let known = names::atoms(program);
     let atoms = table.atoms.iter().filter_map(|(name, place)| {

@@ -74,6 +74,8 @@ pub enum TableErrorKind {
     },
     /// A minterm without a row among the decisions.
     Unseen,
+    /// Rows that allow several behaviours where each has to have one.
+    Several,
     /// A row that stands for too many minterms because of its `-`.
     Wide,
 }
@@ -121,6 +123,9 @@ impl fmt::Display for TableError {
                 )
             }
             TableErrorKind::Unseen => write!(f, "no decision is known in this minterm"),
+            TableErrorKind::Several => {
+                write!(f, "a row allows several behaviours; here each has one")
+            }
             TableErrorKind::Wide => write!(f, "this row stands for too many minterms"),
         }
     }

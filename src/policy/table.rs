@@ -3,7 +3,8 @@
 //! A table has a column for every predicate with `0`, `1`, or `-` for either, one for what is done (`behavior`,
 //! `behaviour` or `action`), and as far as they are known `visits`, `q_gap` and `q:NAME` for the value of each
 //! behaviour. `done(NAME)` and `failed(NAME)` ask the history of a behaviour. Comma-separated text has the names in its
-//! first line; of JSON Lines each line is an object with the names as keys.
+//! first line; of JSON Lines each line is an object with the names as keys. A row may allow several behaviours: `go|dock`, in
+//! JSON a list of names.
 //!
 //! Rows are packed into machine words as they are read: a million rows of 256 atoms take 40 MB.
 
@@ -80,6 +81,8 @@ pub struct Table {
     pub chosen: usize,
     /// The behaviour of each column of values, by its number.
     values: Vec<u32>,
+    /// The sets of several behaviours that rows allow.
+    sets: Vec<Vec<u32>>,
     rows: Rows,
     /// The rows in the order of a policy.
     order: Vec<u32>,
@@ -123,9 +126,30 @@ impl Table {
     pub fn rows(&self) -> impl Iterator<Item = Row> {
         self.order.iter().map(|row| {
             let row = *row as usize;
-            let number = self.rows.behavior.get(row).copied().unwrap_or(0);
-            self.rows.row(row, number as usize, &[])
+            self.rows.row(row, self.first(row) as usize, &[])
         })
+    }
+
+    /// Whether some row allows several behaviours.
+    pub fn has_sets(&self) -> bool {
+        !self.sets.is_empty()
+    }
+
+    /// The behaviours that each row allows, in the order of a policy, by their numbers.
+    pub fn allowed(&self) -> impl Iterator<Item = Vec<usize>> {
+        self.order.iter().map(|row| {
+            let number = self.rows.behavior.get(*row as usize).copied().unwrap_or(0);
+            let set = behaviors::set(number).and_then(|at| self.sets.get(at));
+            let all = set.map_or(vec![number], Clone::clone);
+            all.into_iter().map(|number| number as usize).collect()
+        })
+    }
+
+    /// The number of the first behaviour that a row allows.
+    fn first(&self, row: usize) -> u32 {
+        let number = self.rows.behavior.get(row).copied().unwrap_or(0);
+        let set = behaviors::set(number).and_then(|at| self.sets.get(at));
+        set.and_then(|set| set.first().copied()).unwrap_or(number)
     }
 
     /// The place of the row that stands `at` in the policy.
@@ -151,8 +175,7 @@ impl Table {
         let columns: Vec<Option<usize>> = behaviors.iter().map(column).collect();
         let rows = self.order.iter().map(|row| {
             let row = *row as usize;
-            let number = self.rows.behavior.get(row).copied().unwrap_or(0);
-            let behavior = of(number).map_or(0, Id::index);
+            let behavior = of(self.first(row)).map_or(0, Id::index);
             self.rows.row(row, behavior, &columns)
         });
         let rows: Vec<Row> = rows.collect();
@@ -277,6 +300,18 @@ impl Reading {
         }
     }
 
+    /// Which behaviours a list allows.
+    fn allowed(&mut self, names: &[Cow<str>], place: &Range<usize>) {
+        let named = names.iter();
+        let numbers: Result<Vec<u32>, TableErrorKind> = named
+            .map(|name| self.behaviors.named(name, place))
+            .collect();
+        match numbers {
+            Ok(numbers) => self.draft.behavior = Some(self.behaviors.several(numbers)),
+            Err(kind) => self.report(place, kind),
+        }
+    }
+
     /// A cell that says what it may not.
     fn unknown(&mut self, text: &[u8], cell: &Range<usize>, expected: &'static str) {
         let found = String::from_utf8_lossy(&records::value(text, cell)).into_owned();
@@ -312,6 +347,7 @@ impl Reading {
         Ok(Table {
             atoms: self.atoms,
             behaviors: self.behaviors.names,
+            sets: self.behaviors.sets,
             header: self.header,
             chosen,
             values: self.values,

@@ -4,13 +4,15 @@ use super::words::{self, counted, rows};
 use crate::ir::Program;
 use crate::policy::Policy;
 use crate::tree::Size;
-use crate::tree::decanonicalise::{Decanonicalised, Loosened};
+use crate::tree::decanonicalise::{Decanonicalised, Loosened, Stage};
 
 /// What there is to report of a tree that was made from a table.
 #[derive(Clone, Copy, Debug)]
 pub struct Report<'a> {
     /// The policy of the table.
     pub policy: &'a Policy,
+    /// The rows that allow several behaviours, of which the policy takes one.
+    pub several: usize,
     /// The tree that is equal to the table.
     pub exact: &'a Decanonicalised,
     /// The smaller tree that slack allows, if there is one.
@@ -28,6 +30,11 @@ impl Report<'_> {
                 self.slack,
                 loosened.deviations.len(),
                 rows(self.policy)
+            ),
+            None if self.several > 0 => format!(
+                "Made from {source}: proved to take an allowed behaviour on {}; {} of them allow several.",
+                proved(self.policy, self.exact),
+                self.several
             ),
             None => format!(
                 "Made from {source}: proved on {}.",
@@ -74,10 +81,29 @@ impl Report<'_> {
                 counted(policy.behaviors.len(), "behaviour")
             ),
         );
+        if self.several > 0 {
+            let title = "allowed";
+            line(
+                title,
+                format!("several behaviours in {} of the rows", self.several),
+            );
+        }
         if let Some(paper) = &self.exact.paper_size {
             line("paper", size(paper));
         }
         line("tree", size(&self.exact.size));
+        if !self.exact.unfinished.is_empty() {
+            let stages = self.exact.unfinished.iter().map(|stage| match stage {
+                Stage::Paper => "Algorithm 1",
+                Stage::Memory => "which behaviours memory nodes join",
+                Stage::Search => "the search for smaller trees",
+            });
+            let stages: Vec<&str> = stages.collect();
+            line(
+                "unfinished",
+                format!("{}: a greater effort goes further", stages.join(", ")),
+            );
+        }
         line("proved", format!("on {}", proved(policy, self.exact)));
         match self.loosened {
             Some(loosened) => line(

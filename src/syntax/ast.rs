@@ -17,9 +17,10 @@ pub use block::{AssignOp, Binding, Block, Branch, Else, Stmt, StmtKind};
 pub use declaration::{
     Enum, Event, Let, LetBody, On, Param, Params, Predicate, State, Trigger, TypeExpr, Use, UseWhat,
 };
+pub(super) use expr::chain_depth;
 pub use expr::{
     Arg, ArgKind, Axis, BinaryOp, Choice, Expr, ExprKind, Literal, Otherwise, Ref, UnaryOp, Unit,
-    UnitFactor, Yield,
+    UnitFactor, Yield, chain,
 };
 use std::fmt;
 pub use task::{

@@ -1,11 +1,13 @@
 //! How deep a text nests, before anything recurses into it.
 
+use super::ast::chain_depth;
 use super::tokens::{Kind, Token};
 
 /// How many brackets, prefix operators, powers, guards and `else if`s may stand within each other.
 const LEVELS: usize = 64;
 
-/// How deep the tree of binary operators may be: a sum leans to the left, one level a term.
+/// How deep the tree of binary operators may be: a sum leans to the left, one level a term; long chains of `and` and `or` are
+/// divided.
 const BRANCHES: usize = 1_000;
 
 /// How tightly binary operators bind, loosest first: `or`, `and`, comparisons, sums, terms.
@@ -17,6 +19,16 @@ struct Chain {
     operators: usize,
     /// The depth of the deepest operand that has ended.
     deepest: usize,
+}
+
+impl Chain {
+    /// How deep its operators stand within each other.
+    fn depth(self, strength: usize) -> usize {
+        match strength {
+            0 | 1 => chain_depth(self.operators),
+            _ => self.operators,
+        }
+    }
 }
 
 /// What has stood inside one open bracket so far.
@@ -46,9 +58,12 @@ impl Level {
     /// The depth of what the chains that bind at least as tightly as `strength` hold.
     fn depth_from(&self, strength: usize) -> usize {
         let chains = self.chains.iter().skip(strength).rev();
-        chains.fold(self.operand, |depth, chain| {
-            chain.operators + chain.deepest.max(depth)
-        })
+        let strengths = (strength..STRENGTHS).rev();
+        chains
+            .zip(strengths)
+            .fold(self.operand, |depth, (chain, strength)| {
+                chain.depth(strength) + chain.deepest.max(depth)
+            })
     }
 
     /// The depth of all that has stood inside the bracket.

@@ -1,12 +1,17 @@
 //! Policies to trees (paper, section VII).
 
+mod allowed;
+mod alone;
 mod beam;
+mod children;
 mod list;
 mod memory;
 mod minimiser;
+mod optimum;
 mod orders;
 mod pairs;
 mod paper;
+mod parted;
 mod problem;
 mod rules;
 mod search;
@@ -19,14 +24,17 @@ use super::prove::{Proof, Prover, Refuted};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::{Node, Status};
+use crate::logic::Account;
 use crate::policy::{Minterm, Policy, Row};
-use minimiser::{LARGE, Minimiser};
+use minimiser::Minimiser;
 use problem::Problem;
+use search::Found;
 use serde::Serialize;
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 pub use crate::logic::Order;
+pub use allowed::allowing;
 pub use slack::{Deviation, Loosened, loosen};
 
 /// How the tree is found.
@@ -36,9 +44,7 @@ pub use slack::{Deviation, Loosened, loosen};
 pub enum Method {
     /// Algorithm 1 of the paper.
     Paper,
-    /// The smallest tree that a search finds from there.
-    ///
-    /// Its effort is fixed.
+    /// The smallest tree that a search finds within its effort.
     #[default]
     Search,
 }
@@ -64,8 +70,8 @@ pub struct Options {
     pub care: Care,
     /// The order of the units.
     pub order: Order,
-    /// The work that the search may do beyond the list that it starts from, in millions of units. A unit is one word of a
-    /// set of rows, read once; minimising a row counts as 256.
+    /// The work that the search may do, in units of about a tenth of a second. It is counted in words of sets of rows that
+    /// are read, never timed.
     pub effort: u64,
 }
 
@@ -80,6 +86,24 @@ impl Default for Options {
     }
 }
 
+/// The words that one unit of effort allows to read.
+const EFFORT: u64 = 25_000_000;
+
+/// The most rows with a minterm each that stand in the place of cubes.
+const MINTERMS: usize = 4096;
+
+/// A part of the search.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Stage {
+    /// Algorithm 1.
+    Paper,
+    /// Which behaviours memory nodes join.
+    Memory,
+    /// The search for smaller trees.
+    Search,
+}
+
 /// A tree that takes the decisions of a policy.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Decanonicalised {
@@ -89,8 +113,10 @@ pub struct Decanonicalised {
     pub proof: Proof,
     /// Its size.
     pub size: Size,
-    /// The size of the tree that Algorithm 1 finds; `None` where it was not run because the table is large.
+    /// The size of the tree that Algorithm 1 finds; `None` where it was not run to its end because the table is large.
     pub paper_size: Option<Size>,
+    /// What was left unfinished because the effort was spent.
+    pub unfinished: Vec<Stage>,
     /// Where a greedy transition shows the policy's decision failing, sorted by minterm.
     pub failing: Vec<Failing>,
 }
@@ -118,18 +144,26 @@ pub fn decanonicalise(policy: &Policy, options: &Options) -> Result<Decanonicali
     let policy = &*cared(policy, options.care);
     let split = by_minterms(policy);
     let problem = Problem::new(split.as_ref().unwrap_or(policy));
-    let paper = || paper::tree(&Minimiser::new(&problem, u64::MAX));
-    let runs_paper = options.method == Method::Paper || problem.policy.rows.len() <= LARGE;
-    let first = runs_paper.then(paper);
-    let found = match options.method {
-        Method::Paper => None,
-        Method::Search => {
-            let effort = options.effort.saturating_mul(1_000_000);
-            search::tree(&problem, first.as_ref(), options.order, effort)
+    let account = Account::new(options.effort.saturating_mul(EFFORT));
+    let by_paper = || paper::tree(&Minimiser::new(&problem, Account::unlimited()));
+    let found = match (options.method, options.order) {
+        (Method::Paper, _) => {
+            let paper = by_paper();
+            Found {
+                tree: paper.clone(),
+                paper,
+                unfinished: Vec::new(),
+            }
         }
+        (Method::Search, Order::Learned) => search::tree(&problem, &account),
+        (Method::Search, order) => Found {
+            tree: search::ordered(&problem, order, &account),
+            paper: None,
+            unfinished: Vec::new(),
+        },
     };
-    let paper_size = first.as_ref().map(Size::of);
-    let root = found.or(first).unwrap_or_else(paper);
+    let paper_size = found.paper.as_ref().map(Size::of);
+    let root = found.tree.or_else(by_paper).ok_or(Refuted::Undecided)?;
     let proof = match &split {
         // What was found on minterms is proved on the cubes.
         Some(_) => Prover::new(policy).prove(&root)?,
@@ -138,6 +172,7 @@ pub fn decanonicalise(policy: &Policy, options: &Options) -> Result<Decanonicali
     Ok(Decanonicalised {
         size: Size::of(&root),
         paper_size,
+        unfinished: found.unfinished,
         failing: failing(policy, &proof),
         root,
         proof,
@@ -153,7 +188,7 @@ fn by_minterms(policy: &Policy) -> Option<Policy> {
     }
     let minterms = |free: usize| 1_usize.checked_shl(free as u32).unwrap_or(usize::MAX);
     let all = widths().map(minterms).fold(0, usize::saturating_add);
-    (all <= LARGE).then(|| Policy {
+    (all <= MINTERMS).then(|| Policy {
         rows: policy.minterm_rows(),
         ..policy.clone()
     })

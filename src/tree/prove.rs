@@ -148,7 +148,14 @@ impl<'a> Prover<'a> {
         }
     }
 
-    fn read_by(&self, plan: &Plan, by: Reading) -> Result<(), Refuted> {
+    /// The rows that stand for one minterm in which a tree without memory does not decide as the policy.
+    pub fn wrong(&self, root: &Node) -> Result<Bits, Refuted> {
+        let plan = plan(root, After::Anything, &mut May).map_err(Refuted::Irreducible)?;
+        Ok(self.wrong_by(&plan, Reading::Furthest).0)
+    }
+
+    /// The rows that stand for one minterm in which the tree does not decide as the policy, and what it decides there.
+    fn wrong_by(&self, plan: &Plan, by: Reading) -> (Bits, Vec<(Id<Behavior>, Bits)>) {
         let none = Bits::empty(self.policy.rows.len());
         let plain = self.plain.iter();
         let all = plain.fold(none.clone(), |all, (_, rows)| all.or(rows));
@@ -160,14 +167,19 @@ impl<'a> Prover<'a> {
                 let own = self.plain.iter().find(|(b, _)| *b == behavior);
                 let other = own.map_or_else(|| rows.clone(), |(_, own)| rows.minus(own));
                 if !other.is_empty() {
-                    wrong = wrong.or(&other);
+                    wrong.unite(&other);
                     selected.push((behavior, other));
                 }
             },
         };
         let Ok(Answers { success, failure }) = read(plan, by, all, &mut rows);
         // Where it answers without a behaviour, nothing is selected.
-        if let Some(first) = wrong.or(&success).or(&failure).first() {
+        (wrong.or(&success).or(&failure), selected)
+    }
+
+    fn read_by(&self, plan: &Plan, by: Reading) -> Result<(), Refuted> {
+        let (wrong, selected) = self.wrong_by(plan, by);
+        if let Some(first) = wrong.first() {
             let tree = selected.iter().find(|(_, rows)| rows.contains(first));
             return Err(self.decides(first, None, tree.map(|(behavior, _)| *behavior)));
         }

@@ -39,7 +39,7 @@ fn codes(diagnostics: &[Diagnostic]) -> Vec<Code> {
 }
 
 /// The codes that loading a program does not meet; each has a test below.
-const LATER: [Code; 24] = [
+const LATER: [Code; 25] = [
     Code::E0130,
     Code::E0409,
     Code::E0504,
@@ -57,6 +57,7 @@ const LATER: [Code; 24] = [
     Code::E0819,
     Code::E0821,
     Code::E0822,
+    Code::E0823,
     Code::W0502, // this and those below: what learning finds
     Code::W0503,
     Code::W0504,

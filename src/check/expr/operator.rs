@@ -8,7 +8,15 @@ use crate::diagnostic::Code;
 use crate::ir::Pool;
 use crate::ir::expr::{Binary, ExprId, Unary};
 use crate::source::Span;
-use crate::syntax::ast::{self, BinaryOp, Expr, UnaryOp};
+use crate::syntax::ast::{self, BinaryOp, Expr, ExprKind, UnaryOp};
+
+/// Whether an operator makes a sum or a product.
+pub(super) fn is_arithmetic(op: BinaryOp) -> bool {
+    matches!(
+        op,
+        BinaryOp::Add | BinaryOp::Sub | BinaryOp::Mul | BinaryOp::Div
+    )
+}
 
 impl<'a> Checker<'a> {
     /// `not a`, `-a`, `+a`
@@ -58,11 +66,48 @@ impl<'a> Checker<'a> {
             | BinaryOp::Le
             | BinaryOp::Gt
             | BinaryOp::Ge => Some(self.comparison(op, left, right, span)),
-            BinaryOp::Add => self.sum(Binary::Add, op, left, right, span),
-            BinaryOp::Sub => self.sum(Binary::Sub, op, left, right, span),
-            BinaryOp::Mul => self.product(Binary::Mul, left, right, span),
-            BinaryOp::Div => self.product(Binary::Div, left, right, span),
             BinaryOp::Pow => self.power(left, right, span),
+            BinaryOp::Add | BinaryOp::Sub | BinaryOp::Mul | BinaryOp::Div => {
+                let a = self.expr(left);
+                self.step(op, (left, a), right, span)
+            }
+        }
+    }
+
+    /// Sums and products, which lean to the left: from the left, one operation after the other, however many there are.
+    pub fn arithmetic(&mut self, expr: &'a Expr) -> Option<Typed> {
+        let mut steps = Vec::new();
+        let mut first = expr;
+        while let ExprKind::Binary { op, left, right } = &first.kind
+            && is_arithmetic(op.node)
+        {
+            steps.push((first, *op, &**left, &**right));
+            first = left;
+        }
+        let mut a = self.expr(first);
+        while let Some((whole, op, left, right)) = steps.pop() {
+            let typed = self.step(op, (left, a), right, whole.span);
+            if steps.is_empty() {
+                return typed;
+            }
+            a = self.settled(typed, whole);
+        }
+        None
+    }
+
+    /// A sum or a product of what has been checked and an expression.
+    fn step(
+        &mut self,
+        op: ast::Spanned<BinaryOp>,
+        (left, a): (&'a Expr, Typed),
+        right: &'a Expr,
+        span: Span,
+    ) -> Option<Typed> {
+        match op.node {
+            BinaryOp::Add => self.sum(Binary::Add, op, (left, a), right, span),
+            BinaryOp::Sub => self.sum(Binary::Sub, op, (left, a), right, span),
+            BinaryOp::Mul => self.product(Binary::Mul, &a, right, span),
+            _ => self.product(Binary::Div, &a, right, span),
         }
     }
 
@@ -70,11 +115,11 @@ impl<'a> Checker<'a> {
         &mut self,
         of: Binary,
         op: ast::Spanned<BinaryOp>,
-        left: &'a Expr,
+        (left, a): (&'a Expr, Typed),
         right: &'a Expr,
         span: Span,
     ) -> Option<Typed> {
-        let (a, b) = (self.expr(left), self.expr(right));
+        let b = self.expr(right);
         let (a, b) = self.same_dimension(op, (left, a), (right, b))?;
         let ty = match (&a.ty, &b.ty) {
             (Type::Ratio, _) | (_, Type::Ratio) => Type::Ratio,
@@ -83,15 +128,9 @@ impl<'a> Checker<'a> {
         Some(self.lift_binary(of, ty, &a, &b, span))
     }
 
-    fn product(
-        &mut self,
-        of: Binary,
-        left: &'a Expr,
-        right: &'a Expr,
-        span: Span,
-    ) -> Option<Typed> {
-        let (a, b) = (self.expr(left), self.expr(right));
-        let (x, y) = (self.number(&a), self.number(&b));
+    fn product(&mut self, of: Binary, a: &Typed, right: &'a Expr, span: Span) -> Option<Typed> {
+        let b = self.expr(right);
+        let (x, y) = (self.number(a), self.number(&b));
         let (x, y) = (x?, y?);
         if of == Binary::Div {
             self.no_division_by_zero(&b)?;
@@ -101,7 +140,7 @@ impl<'a> Checker<'a> {
             (Type::Ratio, Type::Ratio) if power == 1 => Type::Ratio,
             _ => Type::Quantity(x.times(y, power)),
         };
-        Some(self.lift_binary(of, ty, &a, &b, span))
+        Some(self.lift_binary(of, ty, a, &b, span))
     }
 
     fn comparison(

@@ -6,6 +6,7 @@ use crate::driver::load::Loaded;
 use crate::driver::table::Recorded;
 use crate::driver::{Refused, Text, table, target};
 use crate::ir::Program;
+use crate::ir::tree::{Node, Status};
 use crate::policy::table::Table;
 use crate::policy::{Minterm, Policy, decisions};
 use crate::report::verdict::{Answer, difference};
@@ -13,6 +14,7 @@ use crate::report::words::{self, counted, rows};
 use crate::source::Span;
 use crate::tree::disagreement::{Compared, compare};
 use crate::tree::prove::Refuted;
+use crate::tree::tick::Runner;
 
 /// The most rows to list that a tree decides otherwise.
 const LISTED: usize = 10;
@@ -37,6 +39,21 @@ pub fn table(
         let history = loaded.program.tasks[task].history;
         policy.history.window = policy.history.window.max(history.window);
     }
+    if read.has_sets() {
+        let root = &loaded.program.trees[id].root;
+        let alone = recorded.is_none() && !root.remembers() && !read.has_cubes();
+        let taken = alone.then(|| taken(&read, &mut policy, root)).flatten();
+        if taken.is_none() {
+            return Err(Refused::text(text, |file| {
+                let span = Span::new(file, read.header.start, read.header.end);
+                let message = "rows that allow several behaviours are compared with trees without memory, minterm by minterm";
+                vec![
+                    Diagnostic::new(Code::E0823, span, message)
+                        .help("choose one behaviour for each row, and write out the rows with `-`"),
+                ]
+            }));
+        }
+    }
     if let Some(recorded) = recorded {
         table::record(&mut policy, &program, recorded)?;
     }
@@ -51,13 +68,35 @@ pub fn table(
     sides.prove()
 }
 
+/// Gives each row that allows several behaviours the one that the tree takes there, if it is allowed; `None` if the tree asks
+/// what the table does not say.
+fn taken(table: &Table, policy: &mut Policy, root: &Node) -> Option<()> {
+    let mut runner = Runner::new(root, &policy.atoms).ok()?;
+    let behaviors = policy.behaviors.clone();
+    for (row, allowed) in policy.rows.iter_mut().zip(table.allowed()) {
+        let mut selected = None;
+        runner.reset();
+        runner.tick(row.minterm.words(), |behavior| {
+            selected = selected.or(Some(behavior));
+            Status::Running
+        });
+        let mut allowed = allowed
+            .into_iter()
+            .filter_map(|number| behaviors.get(number));
+        if let Some(behavior) = selected.filter(|own| allowed.any(|other| other == own)) {
+            row.behavior = behavior;
+        }
+    }
+    Some(())
+}
+
 /// A tree and the table that it is compared with.
 struct Sides<'a> {
     program: &'a Program,
     table: &'a Table,
     text: Text<'a>,
     tree: &'a str,
-    root: &'a crate::ir::tree::Node,
+    root: &'a Node,
     policy: Policy,
 }
 

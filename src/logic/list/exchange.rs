@@ -1,6 +1,7 @@
 //! Neighbours in a list that change places.
 
 use super::{Cost, Entry, union, within};
+use crate::logic::account::Account;
 use crate::logic::bits::Bits;
 use crate::logic::columns::Columns;
 use crate::logic::cube::{Cover, Cube};
@@ -10,16 +11,16 @@ use crate::logic::minimise::Effort;
 ///
 /// Taking the cheapest first may take a class whose cover would be cheaper still after a neighbour that costs the same
 /// before and after.
-pub(super) fn exchange(columns: &Columns, list: &mut [Entry], effort: &Effort) {
+pub(super) fn exchange(columns: &Columns, list: &mut [Entry], effort: &Effort, account: &Account) {
     let mut changed = true;
-    while changed {
+    while changed && !account.is_spent() {
         changed = false;
         let mut after = Bits::empty(columns.rows());
         for at in (1..list.len()).rev() {
             let Some([first, second]) = list.get_mut(at - 1..=at) else {
                 continue;
             };
-            if let Some(exchanged) = exchanged(columns, first, second, &after, effort) {
+            if let Some(exchanged) = exchanged(columns, first, second, &after, effort, account) {
                 (*first, *second) = exchanged;
                 changed = true;
             }
@@ -35,10 +36,11 @@ fn exchanged<'a>(
     second: &Entry<'a>,
     after: &Bits,
     effort: &Effort,
+    account: &Account,
 ) -> Option<(Entry<'a>, Entry<'a>)> {
     let limit = add(first.cost(), second.cost());
     let off = union(columns, [after, first.class.rows].into_iter());
-    let cover = within(columns, second.class, &off, limit, effort)?;
+    let cover = within(columns, second.class, &off, limit, effort, account)?;
     let earlier = Entry {
         cover,
         ..second.clone()
@@ -46,7 +48,7 @@ fn exchanged<'a>(
     let rest = (limit.0.checked_sub(earlier.cost().0)?, usize::MAX);
     let cover = match after.is_empty() {
         true => Cover::new([Cube::default()]),
-        false => within(columns, first.class, after, rest, effort)?,
+        false => within(columns, first.class, after, rest, effort, account)?,
     };
     let later = Entry {
         cover,

@@ -7,6 +7,7 @@
 use super::instance::Instance;
 use super::random::{self, Random};
 use super::{Effort, Solution, solve};
+use crate::logic::account::Account;
 use crate::logic::bits::Bits;
 use crate::logic::columns::Columns;
 
@@ -59,28 +60,36 @@ impl<'a> Core<'a> {
         &self.solution
     }
 
-    /// A solution for all rows under a greater effort, starting from the present core.
-    pub(in crate::logic) fn finish(&self, effort: &'a Effort) -> Solution {
+    /// A solution for all rows under a greater effort, starting from the present core; `None` if the account is spent.
+    pub(in crate::logic) fn finish(
+        &self,
+        effort: &'a Effort,
+        account: &Account,
+    ) -> Option<Solution> {
         let mut core = Self {
             effort,
             rounds: 0,
             ..self.clone()
         };
-        while !core.refine() {}
-        core.solution
+        while !core.refine(account)? {}
+        Some(core.solution)
     }
 
-    /// Solves the core and adds rows for which the cover is wrong; true if there are none.
-    pub(in crate::logic) fn refine(&mut self) -> bool {
+    /// Solves the core and adds rows for which the cover is wrong; true if there are none, `None` if the account is spent.
+    pub(in crate::logic) fn refine(&mut self, account: &Account) -> Option<bool> {
         let rows = |bits: &Bits| bits.iter().collect::<Vec<usize>>();
         let instance = Instance::new(self.columns, &rows(&self.core_on), &rows(&self.core_off));
-        self.solution = solve(&instance, self.effort);
+        // Single bits are gathered.
+        account.spend((instance.rows() * self.columns.atoms()) as u64);
+        self.solution = solve(&instance, self.effort, account)?;
         self.rounds += 1;
         let cover = &self.solution.cover;
+        let words = self.columns.rows().div_ceil(64);
+        account.spend((2 * (1 + cover.literals()) * words) as u64);
         let missed = self.on.minus(&self.columns.cover_rows(cover, self.on));
         let met = self.columns.cover_meets(cover, self.off);
         if missed.is_empty() && met.is_empty() {
-            return true;
+            return Some(true);
         }
         let size = instance.rows();
         self.core_on.unite(&sample(&missed, size / 2));
@@ -90,7 +99,7 @@ impl<'a> Core<'a> {
             self.core_on = self.on.clone();
             self.core_off = self.off.clone();
         }
-        false
+        Some(false)
     }
 }
 

@@ -4,6 +4,7 @@
 
 use super::Effort;
 use super::instance::{Cost, Instance, Pool, Prime};
+use crate::logic::account::Account;
 use crate::logic::bits::Bits;
 use crate::logic::cube::{Cube, Literal};
 use std::cmp::Reverse;
@@ -13,14 +14,24 @@ const PRIMES: usize = 1_500;
 
 /// A cover of fewest cubes, then fewest literals, with the pool of its primes, and whether it is proved to be; `None`
 /// where there are too many rows or primes.
-pub(super) fn exact(instance: &Instance, effort: &Effort) -> Option<(Pool, Vec<usize>, bool)> {
+pub(super) fn exact(
+    instance: &Instance,
+    effort: &Effort,
+    account: &Account,
+) -> Option<(Pool, Vec<usize>, bool)> {
     if instance.rows() > effort.exact_rows {
         return None;
     }
     let mut pool = Pool::default();
-    let mut budget = effort.prime_steps;
+    // A step of this search takes about as long as reading eight words.
+    let affordable = usize::try_from(account.left() / 8).unwrap_or(usize::MAX);
+    let mut budget = effort.prime_steps.min(affordable);
     for seed in 0..instance.on.rows() {
-        for cube in all_through(instance, seed, &mut budget)? {
+        let before = budget;
+        let found = all_through(instance, seed, &mut budget);
+        let differences = instance.words() + instance.off.rows();
+        account.spend((8 * (before - budget) + differences) as u64);
+        for cube in found? {
             pool.add(instance, cube);
         }
         if pool.len() > PRIMES {
@@ -29,7 +40,7 @@ pub(super) fn exact(instance: &Instance, effort: &Effort) -> Option<(Pool, Vec<u
     }
     let step = instance.on.rows() * (1 + pool.len() / 8);
     let steps = (effort.cover_work / step).clamp(20, effort.cover_steps);
-    let (chosen, is_cheapest) = cheapest(instance, &pool, steps);
+    let (chosen, is_cheapest) = cheapest(instance, &pool, steps, account);
     // Several primes may cover a cube together, which the choice does not see.
     let proved = is_cheapest && instance.on.are_minterms();
     Some((pool, chosen, proved))
@@ -141,7 +152,12 @@ impl Hitting<'_> {
 
 /// The cheapest choice of primes that covers all ON rows, found by branch and bound from a greedy one. Whether it is
 /// proved to be the cheapest: the search ended within `budget` steps.
-fn cheapest(instance: &Instance, pool: &Pool, budget: usize) -> (Vec<usize>, bool) {
+fn cheapest(
+    instance: &Instance,
+    pool: &Pool,
+    budget: usize,
+    account: &Account,
+) -> (Vec<usize>, bool) {
     let rows = instance.all_on();
     let best = irredundant(&rows, pool, pool.greedy(&rows));
     let useful = undominated(pool.primes());
@@ -162,6 +178,8 @@ fn cheapest(instance: &Instance, pool: &Pool, budget: usize) -> (Vec<usize>, boo
         complete: true,
     };
     search.branch(&rows, &mut Vec::new(), (0, 0));
+    let step = instance.on.rows() * (1 + pool.len() / 8);
+    account.spend(((1 + budget - search.budget) * step) as u64);
     search.best.sort_unstable();
     (search.best, search.complete)
 }

@@ -2,6 +2,7 @@
 
 use super::instance::{Instance, Pool};
 use super::random::{Random, sample};
+use crate::logic::account::Account;
 use crate::logic::alive::Alive;
 use crate::logic::bits::Bits;
 use crate::logic::cube::{Cube, Literal};
@@ -41,13 +42,21 @@ impl Scoring {
 
 /// A prime of these literals, all of which hold on some rows of `on`. To the cube without literals the one that scores
 /// best is added until no OFF row is met; then literals are dropped as long as none is met again.
-fn expand(instance: &Instance, mut open: Vec<Literal>, on: &Bits, scoring: Scoring) -> Cube {
+fn expand(
+    instance: &Instance,
+    mut open: Vec<Literal>,
+    on: &Bits,
+    scoring: Scoring,
+    account: &Account,
+) -> Cube {
     let (mut kept, mut left) = (Alive::new(on), Alive::new(&instance.all_off()));
     let mut chosen = Vec::new();
     let mut enough = ENOUGH;
     while !left.is_empty() {
         let stride = |rows: &Alive| (rows.count() / enough).max(1);
         let (on_stride, off_stride) = (stride(&kept), stride(&left));
+        let read = 16 + kept.words() / on_stride + left.words() / off_stride;
+        account.spend((open.len() * read) as u64);
         let mut best: Option<((u64, u64), Literal)> = None;
         open.retain(|literal| {
             let (Some(inside), Some(meeting)) = tests(instance, *literal) else {
@@ -79,6 +88,8 @@ fn expand(instance: &Instance, mut open: Vec<Literal>, on: &Bits, scoring: Scori
         open.retain(|l| *l != literal);
         chosen.push(literal);
     }
+    let words = (instance.on.rows() + instance.off.rows()).div_ceil(64);
+    account.spend((chosen.len() * (8 + 4 * words)) as u64);
     prune(instance, Cube::new(chosen), on)
 }
 
@@ -132,7 +143,7 @@ fn idle(instance: &Instance, cube: &Cube) -> Vec<Literal> {
 ///
 /// Literals are weighed on the rows that are still open, so that what few rows share is not drowned by the others. In each
 /// round some open rows are seeds of EXPAND. Of the primes found the widest is taken, then those that cover more than
-/// half as many of the rows left.
+/// half as many of the rows left. `None` if the account is spent.
 pub(super) fn sweep(
     instance: &Instance,
     pool: &mut Pool,
@@ -140,17 +151,23 @@ pub(super) fn sweep(
     seeds: usize,
     scorings: &[Scoring],
     random: &mut Random,
-) -> Vec<usize> {
+    account: &Account,
+) -> Option<Vec<usize>> {
     let mut open = rows.clone();
     let mut cover = Vec::new();
     while !open.is_empty() {
+        if account.is_spent() {
+            return None;
+        }
         let seeds = sample(open.iter(), open.count(), seeds, random);
-        let mut found: Vec<usize> = expansions(instance, &seeds, &open, scorings)
+        let mut found: Vec<usize> = expansions(instance, &seeds, &open, scorings, account)
             .into_iter()
             .map(|cube| pool.add(instance, cube))
             .collect();
         found.sort_unstable();
         found.dedup();
+        let words = open.bound().div_ceil(64);
+        account.spend((found.len() * (8 + 8 * words)) as u64);
         let mut widest = 0;
         while let Some((at, gain)) = pool.widest(found.iter().copied(), &open) {
             if 2 * gain <= widest {
@@ -167,7 +184,7 @@ pub(super) fn sweep(
             break;
         }
     }
-    cover
+    Some(cover)
 }
 
 /// A prime for each seed and scoring, in this order on any number of threads.
@@ -176,10 +193,11 @@ fn expansions(
     seeds: &[usize],
     open: &Bits,
     scorings: &[Scoring],
+    account: &Account,
 ) -> Vec<Cube> {
     let one = |(seed, scoring): (usize, Scoring)| {
         let literals: Vec<Literal> = instance.on.literals_of(seed).collect();
-        expand(instance, literals, open, scoring)
+        expand(instance, literals, open, scoring, account)
     };
     let pairs = seeds
         .iter()

@@ -8,6 +8,7 @@ use super::Effort;
 use super::expand::{Scoring, sweep};
 use super::instance::{Instance, Pool, Prime};
 use super::random::Random;
+use crate::logic::account::Account;
 use crate::logic::bits::Bits;
 use crate::logic::cube::{Cube, Literal};
 use std::cmp::Reverse;
@@ -15,15 +16,27 @@ use std::cmp::Reverse;
 /// The search for one short cube may read the whole problem this many times.
 const SHORTEST: usize = 32;
 
-/// A cover, and the pool of its primes.
-pub(super) fn heuristic(instance: &Instance, effort: &Effort) -> (Pool, Vec<usize>) {
+/// A cover, and the pool of its primes; `None` if the account is spent before there is one.
+pub(super) fn heuristic(
+    instance: &Instance,
+    effort: &Effort,
+    account: &Account,
+) -> Option<(Pool, Vec<usize>)> {
     let mut pool = Pool::default();
     let mut random = Random::new(0);
     let on = instance.all_on();
     let all = &Scoring::ALL;
-    let cover = sweep(instance, &mut pool, &on, effort.seeds, all, &mut random);
-    let cover = improve(instance, &mut pool, cover, effort, &mut random);
-    (pool, cover)
+    let cover = sweep(
+        instance,
+        &mut pool,
+        &on,
+        effort.seeds,
+        all,
+        &mut random,
+        account,
+    )?;
+    let cover = improve(instance, &mut pool, cover, effort, &mut random, account);
+    Some((pool, cover))
 }
 
 /// The number of primes that cover each row.
@@ -70,6 +83,7 @@ fn improve(
     mut cover: Vec<usize>,
     effort: &Effort,
     random: &mut Random,
+    account: &Account,
 ) -> Vec<usize> {
     let rows = instance.on.rows();
     let words = rows.div_ceil(64);
@@ -80,15 +94,24 @@ fn improve(
     let mut left = rounds;
     while left > 0 && cover.len() > 1 {
         left -= 1;
-        match work.checked_sub((pool.len() + cover.len()) * words + 2 * instance.words()) {
-            Some(less) => work = less,
-            None => break,
+        let step = (pool.len() + cover.len()) * words + 2 * instance.words();
+        account.spend((step + 8 * (pool.len() + cover.len())) as u64);
+        match work.checked_sub(step) {
+            Some(less) if !account.is_spent() => work = less,
+            _ => break,
         }
         let mut next = cover.clone();
         let removed = ruin(&mut next, random);
         let mut open = instance.all_on();
         pool.among(&next).for_each(|p| open.subtract(&p.covers));
-        next.extend(recreate(instance, pool, &open, &removed, random, &mut work));
+        let granted = Left {
+            work: &mut work,
+            account,
+        };
+        match recreate(instance, pool, &open, &removed, random, granted) {
+            Some(primes) => next.extend(primes),
+            None => break,
+        }
         irredundant(pool, &mut next, rows);
         next.sort_unstable();
         let reached = pool.cost(&next);
@@ -101,6 +124,12 @@ fn improve(
         }
     }
     cover
+}
+
+/// What may still be spent on one cover, and on all.
+struct Left<'a> {
+    work: &'a mut usize,
+    account: &'a Account,
 }
 
 /// Takes one to three primes out of a cover.
@@ -125,17 +154,17 @@ fn shared(instance: &Instance, rows: &Bits) -> Option<Vec<Literal>> {
 }
 
 /// Primes for the open rows: one for all if there is one shorter than the one removed; else new ones or, if they are
-/// cheaper, those of the pool.
+/// cheaper, those of the pool. `None` if the account is spent.
 fn recreate(
     instance: &Instance,
     pool: &mut Pool,
     open: &Bits,
     removed: &[usize],
     random: &mut Random,
-    work: &mut usize,
-) -> Vec<usize> {
+    Left { work, account }: Left,
+) -> Option<Vec<usize>> {
     let Some(shared) = shared(instance, open) else {
-        return Vec::new();
+        return Some(Vec::new());
     };
     let (_, literals) = pool.cost(removed);
     let limit = match removed {
@@ -146,18 +175,21 @@ fn recreate(
     let mut left = granted;
     let short = shortest(instance, &shared, limit, &mut left);
     *work -= granted - left;
+    account.spend((granted - left) as u64);
     if let Some(cube) = short {
-        return vec![pool.add(instance, cube)];
+        return Some(vec![pool.add(instance, cube)]);
     }
     let all = Scoring::ALL;
     let scoring = random.below(all.len());
     let scoring = all.get(scoring).copied().unwrap_or(Scoring::Ratio);
-    let fresh = sweep(instance, pool, open, 2, &[scoring], random);
+    let fresh = sweep(instance, pool, open, 2, &[scoring], random, account)?;
     let chosen = pool.greedy(open);
-    match pool.cost(&chosen) < pool.cost(&fresh) {
+    let words = 2 + open.bound().div_ceil(64);
+    account.spend(((1 + chosen.len()) * pool.len() * words) as u64);
+    Some(match pool.cost(&chosen) < pool.cost(&fresh) {
         true => chosen,
         false => fresh,
-    }
+    })
 }
 
 /// A shortest cube of these literals, with fewer than `limit`, that meets no OFF row, as far as a search finds it that

@@ -2,16 +2,16 @@
 
 /// The next of a sequence (splitmix64: Steele, Lea and Flood 2014).
 #[derive(Clone, Debug)]
-pub(super) struct Random(u64);
+pub(in crate::logic) struct Random(u64);
 
 impl Random {
     /// The sequence of a seed.
-    pub(super) fn new(seed: u64) -> Self {
+    pub(in crate::logic) fn new(seed: u64) -> Self {
         Self(seed)
     }
 
     /// The next number.
-    pub(super) fn next(&mut self) -> u64 {
+    pub(in crate::logic) fn next(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -20,7 +20,7 @@ impl Random {
     }
 
     /// The next number below `bound`; 0 where nothing is.
-    pub(super) fn below(&mut self, bound: usize) -> usize {
+    pub(in crate::logic) fn below(&mut self, bound: usize) -> usize {
         match bound {
             0 => 0,
             bound => (self.next() % bound as u64) as usize,
@@ -30,7 +30,7 @@ impl Random {
 
 /// `size` of the numbers, spread evenly, or all if there are no more. Of each stretch one is taken at random, so that no
 /// period in the numbers shows.
-pub(super) fn sample(
+pub(in crate::logic) fn sample(
     numbers: impl Iterator<Item = usize>,
     count: usize,
     size: usize,

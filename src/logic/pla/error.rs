@@ -19,6 +19,8 @@ pub enum PlaErrorKind {
     Keyword(String),
     /// A keyword that needs a number.
     Number(String),
+    /// More inputs or outputs than there may be.
+    Many(String, u32),
     /// A size that was given before.
     Again(String),
     /// A type that there is not.
@@ -48,6 +50,7 @@ impl fmt::Display for PlaErrorKind {
         match self {
             Self::Keyword(word) => write!(f, "`{word}` is not known here"),
             Self::Number(word) => write!(f, "`{word}` needs a number"),
+            Self::Many(word, most) => write!(f, "`{word}` is at most {most}"),
             Self::Again(word) => write!(f, "`{word}` was given before"),
             Self::Type(word) => write!(f, "there is no type `{word}`"),
             Self::Names { wanted, found } => {

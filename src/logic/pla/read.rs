@@ -9,8 +9,10 @@ const MISTAKES: usize = 20;
 
 /// The PLA in a text.
 ///
-/// A row stands on a line of its own: inputs `0`, `1`, `-` (also `2` and `~`), then outputs `0`, `1`, `-`, `~` (also `3`
-/// for `0`, `4` for `1`, `2` for `-`); blanks and `|` between them say nothing. Everything after `#` is a comment.
+/// A row begins on a line of its own and may go on in the next: inputs `0`, `1`, `-` (also `2` and `~`), then outputs `0`, `1`,
+/// `-`, `~` (also `3` for `0`, `4` for `1`, `2` for `-`); blanks and `|` between them say nothing. Names may go on in the next
+/// line as well, and the last outputs may have none. Everything after `#` is a comment, and so is, as in Espresso, a line
+/// before the sizes that is no keyword: a title.
 ///
 /// # Errors
 /// Every mistake, with its place; no more than a screenful.
@@ -24,6 +26,7 @@ pub fn read(text: &str) -> Result<Pla, Vec<PlaError>> {
             break;
         }
     }
+    reader.complete();
     if reader.mistakes.is_empty() && !(reader.has_inputs && reader.has_outputs) {
         reader.wrong(0..text.len().min(1), PlaErrorKind::Size);
     }
@@ -40,8 +43,34 @@ struct Reader {
     has_inputs: bool,
     has_outputs: bool,
     ended: bool,
+    /// The row that has begun.
+    open: Option<Open>,
+    /// The names that may go on in the next line.
+    naming: Option<Naming>,
     mistakes: Vec<PlaError>,
 }
+
+/// A row that has begun: where it stands so far, its first word, and how many of its characters are known.
+struct Open {
+    span: Range<usize>,
+    first: usize,
+    found: usize,
+}
+
+/// Whether a line could be a row, or a part of one.
+fn is_row(line: &str) -> bool {
+    let of_a_row = |c| matches!(c, '0'..='4' | '-' | '~' | '|' | ' ' | '\t');
+    line.chars().all(of_a_row)
+}
+
+/// What is being named, and where its keyword stands.
+struct Naming {
+    outputs: bool,
+    span: Range<usize>,
+}
+
+/// The most inputs, and the most outputs.
+const MOST: u32 = 1 << 20;
 
 impl Reader {
     fn wrong(&mut self, span: Range<usize>, kind: PlaErrorKind) {
@@ -56,12 +85,72 @@ impl Reader {
         }
         let at = at + (said.len() - said.trim_start().len());
         if text.starts_with('.') {
+            self.complete();
             self.keyword(text, at);
+        } else if self.goes_on_naming(text) {
+            self.name(text, at);
         } else if self.has_inputs && self.has_outputs {
+            self.named();
             self.row(text, at);
-        } else {
+        } else if is_row(text) {
             self.wrong(at..at + text.len(), PlaErrorKind::Size);
             self.ended = true;
+        }
+    }
+
+    /// Ends what is open: a row, or names.
+    fn complete(&mut self) {
+        self.named();
+        if let Some(open) = self.open.take() {
+            let wanted = self.pla.inputs + self.pla.outputs;
+            let found = open.found;
+            self.wrong(open.span, PlaErrorKind::Width { wanted, found });
+        }
+    }
+
+    /// Whether a line has more names: fewer are known than columns, and it is no row.
+    fn goes_on_naming(&self, text: &str) -> bool {
+        let Some(naming) = &self.naming else {
+            return false;
+        };
+        let (names, columns) = match naming.outputs {
+            true => (self.pla.output_names.len(), self.pla.outputs),
+            false => (self.pla.input_names.len(), self.pla.inputs),
+        };
+        names < columns && !is_row(text)
+    }
+
+    fn name(&mut self, text: &str, at: usize) {
+        let words = text.split_whitespace().map(str::to_owned);
+        if let Some(naming) = &mut self.naming {
+            naming.span.end = at + text.len();
+            match naming.outputs {
+                true => self.pla.output_names.extend(words),
+                false => self.pla.input_names.extend(words),
+            }
+        }
+    }
+
+    /// Ends a list of names. Names of outputs that are missing are made.
+    fn named(&mut self) {
+        let Some(Naming { outputs, span }) = self.naming.take() else {
+            return;
+        };
+        let (found, wanted) = match outputs {
+            true => (self.pla.output_names.len(), self.pla.outputs),
+            false => (self.pla.input_names.len(), self.pla.inputs),
+        };
+        if outputs && (1..wanted).contains(&found) {
+            let names = &mut self.pla.output_names;
+            for output in found..wanted {
+                let mut name = format!("out{output}");
+                while names.contains(&name) {
+                    name.push('_');
+                }
+                names.push(name);
+            }
+        } else if found != wanted {
+            self.wrong(span, PlaErrorKind::Names { wanted, found });
         }
     }
 
@@ -84,11 +173,17 @@ impl Reader {
             }
             ".ilb" if self.has_inputs => {
                 self.pla.input_names = words.map(str::to_owned).collect();
-                self.names(span, self.pla.input_names.len(), self.pla.inputs);
+                self.naming = Some(Naming {
+                    outputs: false,
+                    span,
+                });
             }
             ".ob" if self.has_outputs => {
                 self.pla.output_names = words.map(str::to_owned).collect();
-                self.names(span, self.pla.output_names.len(), self.pla.outputs);
+                self.naming = Some(Naming {
+                    outputs: true,
+                    span,
+                });
             }
             ".ilb" | ".ob" => self.wrong(span, PlaErrorKind::Size),
             ".type" => match words.next().map(|word| (word, Kind::parse(word))) {
@@ -117,35 +212,50 @@ impl Reader {
             self.wrong(span, PlaErrorKind::Again(keyword.to_owned()));
             return None;
         }
-        let number = word.and_then(|word| word.parse::<u32>().ok());
-        if number.is_none() {
-            self.wrong(span, PlaErrorKind::Number(keyword.to_owned()));
+        let digits = word.filter(|word| word.bytes().all(|c| c.is_ascii_digit()));
+        // What is longer than any number that fits is too large.
+        let number = digits.map(|digits| digits.parse::<u32>().unwrap_or(u32::MAX));
+        match number {
+            None => self.wrong(span, PlaErrorKind::Number(keyword.to_owned())),
+            Some(number) if number > MOST => {
+                self.wrong(span, PlaErrorKind::Many(keyword.to_owned(), MOST));
+                // Without the size, no row can be read.
+                self.ended = true;
+            }
+            Some(number) => return Some(number as usize),
         }
-        number.map(|number| number as usize)
-    }
-
-    fn names(&mut self, span: Range<usize>, found: usize, wanted: usize) {
-        if found != wanted {
-            self.wrong(span, PlaErrorKind::Names { wanted, found });
-        }
+        None
     }
 
     fn row(&mut self, text: &str, at: usize) {
-        let inputs = self.pla.inputs;
-        let wanted = inputs + self.pla.outputs;
-        let words = self.pla.words();
-        let first = self.pla.values.len();
-        self.pla.values.resize(first + words, 0);
-        if !self.pla.free.is_empty() {
-            self.pla.free.resize(first + words, 0);
+        let wanted = self.pla.inputs + self.pla.outputs;
+        let blank = |c: &u8| matches!(c, b' ' | b'\t' | b'|');
+        let more = text.bytes().filter(|c| !blank(c)).count();
+        // A row that goes on ends with this line or a later one; else the line is a row of its own.
+        if self
+            .open
+            .as_ref()
+            .is_some_and(|open| open.found + more > wanted)
+        {
+            self.complete();
         }
-        let mut found = 0;
-        for (i, c) in text.bytes().enumerate() {
-            if matches!(c, b' ' | b'\t' | b'|') {
-                continue;
+        let first = self.pla.values.len();
+        let open = self.open.take();
+        let mut open = open.unwrap_or(Open {
+            span: at..at,
+            first,
+            found: 0,
+        });
+        open.span.end = at + text.len();
+        if open.found == 0 {
+            self.pla.values.resize(first + self.pla.words(), 0);
+            if !self.pla.free.is_empty() {
+                self.pla.free.resize(self.pla.values.len(), 0);
             }
-            let known = match found < inputs {
-                true => self.input(c, first, found),
+        }
+        for (i, c) in text.bytes().enumerate().filter(|(_, c)| !blank(c)) {
+            let known = match open.found < self.pla.inputs {
+                true => self.input(c, open.first, open.found),
                 false => self.output(c),
             };
             if !known {
@@ -154,12 +264,18 @@ impl Reader {
                 self.wrong(at + i..at + i + c.len_utf8(), PlaErrorKind::Character(c));
                 return;
             }
-            found += 1;
+            open.found += 1;
         }
-        if found != wanted {
-            self.wrong(at..at + text.len(), PlaErrorKind::Width { wanted, found });
+        if open.found < wanted {
+            self.open = Some(open);
+            return;
         }
-        self.pla.starts.push(u32::try_from(at).unwrap_or(u32::MAX));
+        if open.found > wanted {
+            let found = open.found;
+            self.wrong(open.span.clone(), PlaErrorKind::Width { wanted, found });
+        }
+        let start = u32::try_from(open.span.start).unwrap_or(u32::MAX);
+        self.pla.starts.push(start);
     }
 
     /// Takes an input in; `first` is the first word of its row.

@@ -6,11 +6,31 @@ use crate::spelling::bare;
 use rustc_hash::FxHashMap;
 use std::ops::Range;
 
+/// The bit that a set of behaviours has in its number.
+const SET: u32 = 1 << 31;
+
+/// The place of a set among all by its number; `None` for the number of a behaviour.
+pub(super) fn set(number: u32) -> Option<usize> {
+    (number & SET != 0).then_some((number & !SET) as usize)
+}
+
+/// The names in a cell: `|` divides them, outside of backquotes.
+fn alternatives(text: &str) -> Vec<&str> {
+    let mut quoted = false;
+    let divides = |c: char| {
+        quoted ^= c == '`';
+        c == '|' && !quoted
+    };
+    text.split(divides).map(str::trim).collect()
+}
+
 /// Names with the places where they are met first.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Behaviors {
     pub(super) names: Vec<(String, Range<usize>)>,
     numbers: FxHashMap<String, u32>,
+    /// The sets of several behaviours that rows allow, each sorted, once each.
+    pub(super) sets: Vec<Vec<u32>>,
     /// The last cell that was looked up: neighbours are often alike.
     last: (Vec<u8>, u32),
 }
@@ -27,7 +47,7 @@ impl Behaviors {
         number
     }
 
-    /// The number of the behaviour in a cell.
+    /// The number of what a cell allows: one behaviour, or several with `|` between them.
     ///
     /// # Errors
     /// Nothing can be called so.
@@ -40,12 +60,44 @@ impl Behaviors {
             return Ok(self.last.1);
         }
         let name = std::str::from_utf8(text).map_err(|_| TableErrorKind::NoText)?;
+        let names = alternatives(name).into_iter();
+        let numbers: Result<Vec<u32>, TableErrorKind> =
+            names.map(|name| self.named(name, place)).collect();
+        let number = self.several(numbers?);
+        self.last = (text.to_owned(), number);
+        Ok(number)
+    }
+
+    /// The number of the behaviour of this name.
+    ///
+    /// # Errors
+    /// Nothing can be called so.
+    pub(super) fn named(
+        &mut self,
+        name: &str,
+        place: &Range<usize>,
+    ) -> Result<u32, TableErrorKind> {
         let name = bare(name);
         if !self.numbers.contains_key(name) {
             names::check(name)?;
         }
-        let number = self.number(name, place.clone());
-        self.last = (text.to_owned(), number);
-        Ok(number)
+        Ok(self.number(name, place.clone()))
+    }
+
+    /// The number of a set of behaviours, that of the behaviour itself if it is one alone.
+    pub(super) fn several(&mut self, mut numbers: Vec<u32>) -> u32 {
+        numbers.sort_unstable();
+        numbers.dedup();
+        match numbers.as_slice() {
+            [one] => *one,
+            _ => {
+                let at = self.sets.iter().position(|set| *set == numbers);
+                let at = at.unwrap_or_else(|| {
+                    self.sets.push(numbers);
+                    self.sets.len() - 1
+                });
+                SET | u32::try_from(at).unwrap_or(0)
+            }
+        }
     }
 }

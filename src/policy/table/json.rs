@@ -176,7 +176,10 @@ impl Line<'_> {
                     let name = number.to_string();
                     return reading.decided(name.as_bytes(), &self.place(shown));
                 }
-                _ => "a behaviour",
+                Value::List(Some(names)) if !names.is_empty() => {
+                    return reading.allowed(names, &self.place(shown));
+                }
+                _ => "a behaviour, or a list of some",
             },
             Role::Visits => match value.number(|number| number.as_u64()) {
                 Some(visits) => {
@@ -253,7 +256,7 @@ impl Value<'_> {
                 "-" => Some(Truth::Either),
                 _ => None,
             },
-            Value::Object(_) | Value::List => None,
+            Value::Object(_) | Value::List(_) => None,
         }
     }
 

@@ -203,3 +203,40 @@ pub enum BinaryOp {
     /// `^`
     Pow,
 }
+
+/// As many operands of a chain of `and` or `or` lean to the left.
+const LEANING: usize = 16;
+
+/// Operands joined by `and` or by `or`; `None` without operands. A long chain is divided into halves, so that depth grows with
+/// the logarithm of its length.
+pub fn chain(mut operands: Vec<Expr>, mut signs: Vec<Spanned<BinaryOp>>) -> Option<Expr> {
+    let join = |left: Expr, op: Spanned<BinaryOp>, right: Expr| Expr {
+        span: left.span.to(right.span),
+        kind: ExprKind::Binary {
+            op,
+            left: Box::new(left),
+            right: Box::new(right),
+        },
+    };
+    if operands.len() > LEANING {
+        let half = operands.len() / 2;
+        let right = chain(operands.split_off(half), signs.split_off(half))?;
+        let sign = signs.pop()?;
+        return Some(join(chain(operands, signs)?, sign, right));
+    }
+    let mut operands = operands.into_iter();
+    let first = operands.next()?;
+    let rest = signs.into_iter().zip(operands);
+    Some(rest.fold(first, |left, (op, right)| join(left, op, right)))
+}
+
+/// How deep a chain of so many operators is.
+pub fn chain_depth(operators: usize) -> usize {
+    let mut operands = operators + 1;
+    let mut halved = 0;
+    while operands > LEANING {
+        operands = operands.div_ceil(2);
+        halved += 1;
+    }
+    halved + operands - 1
+}

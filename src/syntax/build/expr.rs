@@ -3,7 +3,7 @@
 use super::Builder;
 use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::source::Span;
-use crate::syntax::ast::{Axis, BinaryOp, Expr, ExprKind, Spanned, UnaryOp};
+use crate::syntax::ast::{Axis, BinaryOp, Expr, ExprKind, Spanned, UnaryOp, chain};
 use crate::syntax::diagnose::unclosed_quote;
 use crate::syntax::grammar::{Node, Parts, Rule};
 
@@ -20,9 +20,8 @@ impl<'i> Builder<'i> {
         let span = self.span(&node);
         let kind = match node.as_rule() {
             Rule::condition => return self.condition(node),
-            Rule::expr | Rule::conjunct | Rule::comparison | Rule::sum | Rule::term => {
-                return self.chain(node);
-            }
+            Rule::expr | Rule::conjunct => return self.junction(node),
+            Rule::comparison | Rule::sum | Rule::term => return self.chain(node),
             Rule::negation | Rule::unary => return self.prefixed(node, span),
             Rule::power => return self.power(node),
             Rule::quantity => return self.quantity(node),
@@ -55,6 +54,19 @@ impl<'i> Builder<'i> {
         self.respell(Code::E0109, place, message, "==");
         self.take_expr(&mut parts);
         self.error_expr(span)
+    }
+
+    /// `a or b or c`
+    fn junction(&mut self, node: Node<'i>) -> Expr {
+        let span = self.span(&node);
+        let mut parts = Parts::of(node);
+        let mut operands = vec![self.take_expr(&mut parts)];
+        let mut signs = Vec::new();
+        while let Some(sign) = parts.next() {
+            signs.push(self.binary(&sign));
+            operands.push(self.take_expr(&mut parts));
+        }
+        chain(operands, signs).unwrap_or_else(|| self.error_expr(span))
     }
 
     /// `a + b - c`, leaning to the left.

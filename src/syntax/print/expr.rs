@@ -88,21 +88,42 @@ impl Printer<'_> {
         .flat()
     }
 
-    /// A chain of `and`, `or`, or `+` and `-`, which leans to the left: on several lines, one operand a line.
+    /// A chain of `and`, `or`, or `+` and `-`: on several lines, one operand a line.
     fn chain<'a>(&self, expr: &'a Expr) -> Doc<'a> {
-        let level = Level::of(expr);
         let mut operands = Vec::new();
+        self.links(expr, Level::of(expr), None, &mut operands);
+        operands.reverse();
+        Doc::row(operands)
+    }
+
+    /// The operands of a chain from the right, the first one behind `lead`. Sums lean to the left; the right side of an `and`
+    /// or an `or` may be a chain of the same.
+    fn links<'a>(
+        &self,
+        expr: &'a Expr,
+        level: Level,
+        lead: Option<BinaryOp>,
+        operands: &mut Vec<Doc<'a>>,
+    ) {
+        let link = |op: BinaryOp, operand| row![Doc::line(), op.spelling(), " ", operand].nested();
         let mut rest = expr;
         while let ExprKind::Binary { op, left, right } = &rest.kind
             && Level::of(rest) == level
         {
-            let right = self.operand(right, Level::sides(op.node).1);
-            operands.push(row![Doc::line(), op.node.spelling(), " ", right].nested());
+            let associates = matches!(op.node, BinaryOp::And | BinaryOp::Or);
+            if associates && Level::of(right) == level {
+                self.links(right, level, Some(op.node), operands);
+            } else {
+                let right = self.operand(right, Level::sides(op.node).1);
+                operands.push(link(op.node, right));
+            }
             rest = left;
         }
-        operands.push(self.operand(rest, level));
-        operands.reverse();
-        Doc::row(operands)
+        let first = self.operand(rest, level);
+        operands.push(match lead {
+            Some(op) => link(op, first),
+            None => first,
+        });
     }
 
     fn choice<'a>(&self, choice: &'a Choice) -> Doc<'a> {

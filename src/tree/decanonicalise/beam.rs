@@ -160,13 +160,12 @@ impl<'a, 'p> Beam<'a, 'p> {
     /// Every child that may stand next: subunits with all of their rows left, rules, and groups.
     fn next(&mut self, left: &Bits, depth: usize) -> Vec<Next> {
         let minimiser = self.stock.minimiser;
-        if self.sole(left).is_some() || !minimiser.affords(0) {
+        if self.sole(left).is_some() || minimiser.account.is_spent() {
             return Vec::new();
         }
-        let subunits = self.stock.subunits;
-        let mut applied = self.stock.rules.applied(minimiser, subunits, left);
+        let mut applied = self.stock.applied(left);
         let mut found = Vec::new();
-        for number in 0..subunits.len() {
+        for number in 0..self.stock.subunits.len() {
             self.whole_subunits(number, left, &applied, depth, &mut found);
         }
         applied.sort_by_cached_key(|applied| self.order(applied));
@@ -219,10 +218,12 @@ impl<'a, 'p> Beam<'a, 'p> {
         }
         let off = left.minus(&own);
         if depth == self.bounds.depth && minimiser.may_minimise(&own, &off) {
-            push(Child::Guarded(number, minimiser.guard(&own, &off)));
-            self.stock
-                .rules
-                .learn(minimiser, &minimiser.cover(&own, &off));
+            if let Some(guard) = minimiser.guard(&own, &off) {
+                push(Child::Guarded(number, guard));
+            }
+            if let Some(cover) = minimiser.cover(&own, &off) {
+                self.stock.rules.learn(minimiser, &cover);
+            }
         }
     }
 
@@ -231,7 +232,7 @@ impl<'a, 'p> Beam<'a, 'p> {
         let mut promising: Vec<(Price, Literal, Bits)> = Vec::new();
         for literal in self.stock.rules.literals_asked() {
             let minimiser = self.stock.minimiser;
-            minimiser.spend(minimiser.words() * 4);
+            minimiser.account.spend(minimiser.words() * 4);
             let mut through = left.clone();
             minimiser.problem.columns().restrict(&mut through, literal);
             if through.is_empty()
@@ -278,10 +279,13 @@ impl<'a, 'p> Beam<'a, 'p> {
         best
     }
 
-    /// The rest of these rows; `None` where the rules do not suffice and the effort is spent.
+    /// The rest of these rows; `None` where the effort is spent.
     fn rest(&mut self, rows: &Bits) -> Option<Rc<List>> {
         if let Some(known) = self.rests.get(rows) {
             return known.clone();
+        }
+        if self.stock.minimiser.account.is_spent() {
+            return None;
         }
         let found = self.greedy(rows).map(Rc::new);
         self.rests.insert(rows.clone(), found.clone());
@@ -289,11 +293,11 @@ impl<'a, 'p> Beam<'a, 'p> {
     }
 
     fn greedy(&self, rows: &Bits) -> Option<List> {
-        let (stock, minimiser) = (&self.stock, self.stock.minimiser);
+        let stock = &self.stock;
         let mut list = List::default();
         let mut left = rows.clone();
         while !left.is_empty() {
-            let applied = || stock.rules.applied(minimiser, stock.subunits, &left);
+            let applied = || stock.applied(&left);
             let (child, rows) = match self.sole(&left) {
                 Some(sole) => (Child::Bare(sole), left.clone()),
                 None => match applied().into_iter().min_by_key(|a| self.order(a)) {
@@ -320,7 +324,7 @@ impl<'a, 'p> Beam<'a, 'p> {
                 true if own != subunit.rows => return None,
                 true => Child::Bare(number),
                 false if !minimiser.may_minimise(&own, &off) => return None,
-                false => Child::Guarded(number, minimiser.guard(&own, &off)),
+                false => Child::Guarded(number, minimiser.guard(&own, &off)?),
             };
             Some((child, own))
         })
@@ -346,6 +350,7 @@ mod tests {
     use super::{Beam, Bounds};
     use crate::ir::Id;
     use crate::ir::tree::{Atom, Guard, Node};
+    use crate::logic::Account;
     use crate::policy::{Minterm, Policy, Row};
     use crate::tree::decanonicalise::minimiser::Minimiser;
     use crate::tree::decanonicalise::problem::Problem;
@@ -389,9 +394,9 @@ mod tests {
     fn the_group_of_the_example_saves_a_literal() {
         let policy = example();
         let problem = Problem::new(&policy);
-        let minimiser = Minimiser::new(&problem, u64::MAX);
+        let minimiser = Minimiser::new(&problem, Account::unlimited());
         let subunits = behaviors(&problem);
-        let rules = Rules::new(&minimiser, std::iter::empty());
+        let rules = Rules::new(&minimiser, std::iter::empty(), std::iter::empty());
         let bounds = Bounds {
             width: 8,
             inner: 2,

@@ -1,15 +1,18 @@
 //! Selectors as the beam builds them: lists of children with their price.
 
 use super::minimiser::{Minimiser, Priced};
-use super::rules::Rules;
+use super::rules::{Applied, Rules};
 use super::subunit::Subunit;
 use crate::ir::tree::Node;
-use crate::logic::Literal;
+use crate::logic::{Bits, Literal};
 use crate::tree::Size;
 use crate::tree::guard;
 use crate::tree::size::Price;
 use crate::tree::unit::{guarded, selector};
 use std::rc::Rc;
+
+/// The most neighbouring rules of one subunit that are tried under one guard.
+const TOGETHER: usize = 12;
 
 /// A child of a selector.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,17 +70,34 @@ pub(super) struct Stock<'a, 'p> {
     pub(super) subunits: &'a [Subunit],
     pub(super) rules: Rules,
     bodies: Vec<Price>,
+    /// The subunit of each row.
+    owners: Vec<usize>,
 }
 
 impl<'a, 'p> Stock<'a, 'p> {
     pub(super) fn new(minimiser: &'a Minimiser<'p>, subunits: &'a [Subunit], rules: Rules) -> Self {
         let body = |subunit: &Subunit| Size::of(&subunit.body).price();
+        let mut owners = vec![0; minimiser.problem.columns().rows()];
+        for (number, subunit) in subunits.iter().enumerate() {
+            for row in subunit.rows.iter() {
+                if let Some(owner) = owners.get_mut(row) {
+                    *owner = number;
+                }
+            }
+        }
         Self {
             minimiser,
             subunits,
             rules,
+            owners,
             bodies: subunits.iter().map(body).collect(),
         }
+    }
+
+    /// The rules that apply among the rows left.
+    pub(super) fn applied(&self, left: &Bits) -> Vec<Applied> {
+        self.rules
+            .applied(self.minimiser, self.subunits, &self.owners, left)
     }
 
     /// The price of a child.
@@ -110,7 +130,7 @@ impl<'a, 'p> Stock<'a, 'p> {
                 else {
                     break;
                 };
-                if a != b {
+                if a != b || rules.len() >= TOGETHER {
                     break;
                 }
                 rules.extend(more);

@@ -76,7 +76,8 @@ impl Joins<'_, '_> {
                     continue;
                 }
                 self.tried.push(bodies);
-                if problem.proves(&canonical(self.minimiser, &joined)) {
+                let root = canonical(self.minimiser, &joined)?;
+                if self.minimiser.proves(&root) {
                     return Some(joined);
                 }
             }

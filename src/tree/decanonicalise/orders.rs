@@ -1,27 +1,27 @@
 //! Decision lists of whole subunits in a given order.
 
-use super::minimiser::{Minimiser, Priced};
+use super::minimiser::Minimiser;
 use super::subunit::Subunit;
 use crate::ir::tree::Node;
-use crate::logic::{Bits, Cover, Effort, Order, list};
-use crate::tree::guard::factored;
+use crate::logic::{Bits, Cover, Effort, Order, list_within};
 use crate::tree::unit::{guarded, selector};
 
-/// The subunits from the left: the number of each, and its cover against those that follow.
+/// The subunits from the left: the number of each, and its cover against those that follow; `None` if the account is spent.
 pub(super) fn in_order(
     minimiser: &Minimiser,
     subunits: &[Subunit],
     order: Order,
-) -> Vec<(usize, Cover)> {
+) -> Option<Vec<(usize, Cover)>> {
     let classes: Vec<Bits> = subunits
         .iter()
         .map(|subunit| subunit.rows.clone())
         .collect();
-    list(
+    list_within(
         minimiser.problem.columns(),
         &classes,
         order,
         &Effort::default(),
+        &minimiser.account,
     )
 }
 
@@ -35,10 +35,10 @@ pub(super) fn tree(minimiser: &Minimiser, subunits: &[Subunit], list: &[(usize, 
         if subunit.guards_itself {
             return Some(subunit.body.clone());
         }
-        let mut guard = Priced::new(factored(cover, &minimiser.problem.policy.atoms));
+        let mut guard = minimiser.factored(cover);
         if cover.cubes().len() > 1 && minimiser.may_minimise(&subunit.rows, &left) {
             let other = minimiser.guard(&subunit.rows, &left);
-            if other.price < guard.price {
+            if let Some(other) = other.filter(|other| other.price < guard.price) {
                 guard = (*other).clone();
             }
         }

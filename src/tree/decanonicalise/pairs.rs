@@ -99,10 +99,10 @@ impl Pair {
         let problem = minimiser.problem;
         let rows = first.rows.or(&second.rows);
         let exact = |(on, off): &Sided| {
-            let cover = minimiser.cover(on, off);
-            problem.columns().cover_rows(&cover, &problem.all()) == rows
+            let cover = minimiser.cover(on, off)?;
+            Some(problem.columns().cover_rows(&cover, &problem.all()) == rows)
         };
-        if !exact(&c_i) && !exact(&c_j) {
+        if !exact(&c_i)? && !exact(&c_j)? {
             return None;
         }
         self.joined(minimiser, subunits)
@@ -126,8 +126,8 @@ impl Pair {
         let (first, second) = self.of(subunits)?;
         let (c_i, c_j) = self.remainders(minimiser, subunits)?;
         let (c_i, c_j) = (
-            minimiser.cover(&c_i.0, &c_i.1),
-            minimiser.cover(&c_j.0, &c_j.1),
+            minimiser.cover(&c_i.0, &c_i.1)?,
+            minimiser.cover(&c_j.0, &c_j.1)?,
         );
         let column = self.column(problem, subunits)?;
         let after = problem.columns().cover_rows(&c_i, column);
@@ -147,7 +147,7 @@ impl Pair {
         if off.is_empty() {
             return None;
         }
-        let guard = minimiser.guard(&on, &off).guard.clone();
+        let guard = minimiser.guard(&on, &off)?.guard.clone();
         let bodies = [first.body.clone(), guarded(guard, second.body.clone())];
         Some(self.memory(first, second, bodies, false))
     }

@@ -16,15 +16,16 @@ const ROUNDS: usize = 32;
 /// The tree that Algorithm 1 finds.
 ///
 /// If the finished tree is refuted, memory nodes are given up, the latest first. Without any, its guards make it right.
-pub(super) fn tree(minimiser: &Minimiser) -> Node {
+/// `None` if the account is spent.
+pub(super) fn tree(minimiser: &Minimiser) -> Option<Node> {
     let mut refused: Vec<(Bits, Bits)> = Vec::new();
     loop {
         let mut joined = Vec::new();
-        let subunits = rewrite(minimiser, &refused, &mut joined);
-        let root = place(minimiser, &subunits);
+        let subunits = rewrite(minimiser, &refused, &mut joined)?;
+        let root = place(minimiser, &subunits)?;
         match joined.pop() {
-            Some(last) if !minimiser.problem.proves(&root) => refused.push(last),
-            _ => return root,
+            Some(last) if !minimiser.proves(&root) => refused.push(last),
+            _ => return Some(root),
         }
     }
 }
@@ -34,19 +35,22 @@ fn rewrite(
     minimiser: &Minimiser,
     refused: &[(Bits, Bits)],
     joined: &mut Vec<(Bits, Bits)>,
-) -> Vec<Subunit> {
+) -> Option<Vec<Subunit>> {
     let mut subunits = behaviors(minimiser.problem);
     if minimiser.problem.wide {
         // A row that leaves a literal free stands on both of its sides.
-        return subunits;
+        return Some(subunits);
     }
     loop {
+        if minimiser.account.is_spent() {
+            return None;
+        }
         let next = memory(minimiser, &subunits, refused, joined, Pair::x)
             .or_else(|| memory(minimiser, &subunits, refused, joined, Pair::y))
             .or_else(|| z(minimiser, &subunits));
         match next {
             Some(next) => subunits = next,
-            None => return subunits,
+            None => return Some(subunits),
         }
     }
 }
@@ -69,7 +73,7 @@ fn memory(
             continue;
         };
         let next = replace(subunits, pair.first, pair.second, subunit);
-        if minimiser.problem.proves(&canonical(minimiser, &next)) {
+        if minimiser.proves(&canonical(minimiser, &next)?) {
             joined.push(key);
             return Some(next);
         }
@@ -112,30 +116,31 @@ fn z(minimiser: &Minimiser, subunits: &[Subunit]) -> Option<Vec<Subunit>> {
 
 /// Lines 16–22: orders the subunits by the length of their guards and minimises them from the left, where what is
 /// already decided is free, until nothing changes.
-fn place(minimiser: &Minimiser, subunits: &[Subunit]) -> Node {
+fn place(minimiser: &Minimiser, subunits: &[Subunit]) -> Option<Node> {
     let against = |subunit: &Subunit, off: &Bits| match subunit.guards_itself {
-        true => Rc::new(Cover::new([Cube::default()])),
+        true => Some(Rc::new(Cover::new([Cube::default()]))),
         false => minimiser.cover(&subunit.rows, off),
     };
-    let mut units: Vec<(Rc<Cover>, &Subunit)> = subunits
-        .iter()
-        .map(|s| (against(s, &minimiser.problem.all().minus(&s.rows)), s))
-        .collect();
+    let all = minimiser.problem.all();
+    let exact = |subunit| Some((against(subunit, &all.minus(&subunit.rows))?, subunit));
+    let units: Option<Vec<(Rc<Cover>, &Subunit)>> = subunits.iter().map(exact).collect();
+    let mut units = units?;
     for _ in 0..ROUNDS {
         let before: Vec<Rc<Cover>> = units.iter().map(|(guard, _)| guard.clone()).collect();
         units.sort_by_key(|(guard, subunit)| match subunit.guards_itself {
             true => Size::of(&subunit.body).literals,
             false => guard.literals(),
         });
-        let mut left = minimiser.problem.all();
+        let mut left = all.clone();
         for (guard, subunit) in &mut units {
             left = left.minus(&subunit.rows);
-            *guard = against(subunit, &left);
+            *guard = against(subunit, &left)?;
         }
         if units.iter().map(|(guard, _)| guard).eq(&before) {
             break;
         }
     }
     let units = units.iter();
-    selector(units.map(|(guard, subunit)| subunit.under(minimiser.problem, guard)))
+    let units = units.map(|(guard, subunit)| subunit.under(minimiser.problem, guard));
+    Some(selector(units))
 }

@@ -59,6 +59,16 @@ impl<'a> Problem<'a> {
         self.prover.column(atom)
     }
 
+    /// The rows of each behaviour.
+    pub(super) fn classes(&self) -> Vec<Bits> {
+        self.on.iter().map(|(_, rows)| rows.clone()).collect()
+    }
+
+    /// The rows in which a tree without memory does not decide as the policy; `None` for no such tree.
+    pub(super) fn wrong(&self, root: &Node) -> Option<Bits> {
+        self.prover.wrong(root).ok()
+    }
+
     /// Whether the tree is proved to take the policy's decisions.
     pub(super) fn proves(&self, root: &Node) -> bool {
         self.prover.proves(root)

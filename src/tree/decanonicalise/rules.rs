@@ -3,7 +3,6 @@
 use super::minimiser::{Minimiser, Priced};
 use super::subunit::Subunit;
 use crate::logic::{Bits, Cover, Cube, Literal};
-use crate::tree::guard::factored;
 use std::collections::BTreeSet;
 
 /// The most literals of cubes that are all made rules.
@@ -11,6 +10,9 @@ const SHORT: usize = 3;
 /// The most short cubes that are made rules; reading them all may take this part of the work.
 const MOST: usize = 600;
 const SHARE: u64 = 1024;
+
+/// The most rules.
+const ALL: usize = 3_000;
 
 /// A cube with its rows.
 #[derive(Clone, Debug)]
@@ -37,11 +39,23 @@ pub(super) struct Rules {
 }
 
 impl Rules {
-    /// The rules of these covers and the short cubes over their atoms.
-    pub(super) fn new<'c>(minimiser: &Minimiser, useful: impl Iterator<Item = &'c Cover>) -> Self {
+    /// The rules of these covers, these cubes, and the short cubes over their atoms.
+    pub(super) fn new<'c>(
+        minimiser: &Minimiser,
+        useful: impl Iterator<Item = &'c Cover>,
+        cubes: impl Iterator<Item = &'c Cube>,
+    ) -> Self {
         let mut rules = Self::default();
         for cover in useful {
             rules.learn(minimiser, cover);
+        }
+        let cubes: Vec<&Cube> = cubes.collect();
+        cubes.iter().for_each(|cube| rules.add(minimiser, cube));
+        // What is left of a cube without a literal may stand in a group behind that literal.
+        for cube in cubes {
+            for literal in cube.literals() {
+                rules.add(minimiser, &cube.without(*literal));
+            }
         }
         let words = minimiser.words();
         let columns = minimiser.problem.columns();
@@ -52,7 +66,9 @@ impl Rules {
             for length in (1..=SHORT).rev() {
                 let count = count_short(atoms.len(), length);
                 if count <= MOST
-                    && minimiser.affords((count as u64).saturating_mul(words).saturating_mul(SHARE))
+                    && minimiser
+                        .account
+                        .affords((count as u64).saturating_mul(words).saturating_mul(SHARE))
                 {
                     rules.add_short(minimiser, &atoms, length);
                     return rules;
@@ -70,11 +86,13 @@ impl Rules {
     }
 
     fn add(&mut self, minimiser: &Minimiser, cube: &Cube) {
-        if cube.literals().is_empty() || self.known.contains(cube) {
+        if cube.literals().is_empty() || self.rules.len() >= ALL || self.known.contains(cube) {
             return;
         }
         let problem = minimiser.problem;
-        minimiser.spend(minimiser.words() * cube.literals().len() as u64);
+        minimiser
+            .account
+            .spend(minimiser.words() * cube.literals().len() as u64);
         let rows = problem.columns().cube_rows(cube, &problem.all());
         self.known.insert(cube.clone());
         let atoms = cube.literals().iter().map(|literal| literal.atom);
@@ -127,18 +145,21 @@ impl Rules {
             .collect()
     }
 
-    /// The rules that apply among the rows left.
+    /// The rules that apply among the rows left; `owners` are the subunits of all rows.
     pub(super) fn applied(
         &self,
         minimiser: &Minimiser,
         subunits: &[Subunit],
+        owners: &[usize],
         left: &Bits,
     ) -> Vec<Applied> {
-        minimiser.spend(self.rules.len() as u64 * 2 * minimiser.words());
+        minimiser
+            .account
+            .spend(self.rules.len() as u64 * 2 * minimiser.words());
         let applied = self.rules.iter().enumerate().filter_map(|(at, rule)| {
             let first = rule.rows.first_of_both(left)?;
-            let own = |(_, subunit): &(usize, &Subunit)| subunit.rows.contains(first);
-            let (number, subunit) = subunits.iter().enumerate().find(own)?;
+            let number = *owners.get(first)?;
+            let subunit = subunits.get(number)?;
             if subunit.guards_itself || !rule.rows.both_within(left, &subunit.rows) {
                 return None;
             }
@@ -190,8 +211,7 @@ impl Rules {
     /// These rules as one guard.
     pub(super) fn guard(&self, minimiser: &Minimiser, rules: &[usize]) -> Priced {
         let cubes = rules.iter().filter_map(|rule| self.get(*rule));
-        let cover = Cover::new(cubes.map(|rule| rule.cube.clone()));
-        Priced::new(factored(&cover, &minimiser.problem.policy.atoms))
+        minimiser.factored(&Cover::new(cubes.map(|rule| rule.cube.clone())))
     }
 }
 

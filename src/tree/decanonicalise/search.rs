@@ -1,61 +1,121 @@
-//! The search for a smaller tree than Algorithm 1 finds.
+//! The search for the smallest tree.
 //!
-//! First it is decided which behaviours memory nodes join ([`super::memory`]). The subunits of each such configuration form
-//! a list in the wanted order ([`super::orders`]). If the order is to be learned, a beam search starts from that list
-//! ([`super::beam`]). Work is counted, not timed, and each search has its own share of it, so that every machine finds
-//! the same tree on any number of threads.
+//! First trees without memory are sought ([`super::alone`]): one of them is held from the beginning. Then it is decided which
+//! behaviours memory nodes join ([`super::memory`]). The subunits of each such configuration form a list in the wanted order
+//! ([`super::orders`]). If the order is to be learned, a beam search starts from that list ([`super::beam`]). All draw on one
+//! account of work, and what runs at the same time has a part of it each, so that every machine finds the same tree on any
+//! number of threads.
 
-use super::beam::{Beam, Bounds};
+use super::alone::{self, BEAMS};
+use super::beam::Beam;
 use super::memory::configurations;
 use super::minimiser::{LARGE, Minimiser};
+use super::optimum::optimum;
 use super::orders::{in_order, tree as listed};
 use super::problem::Problem;
 use super::rules::Rules;
 use super::share::shared;
-use super::subunit::Subunit;
+use super::subunit::{Subunit, behaviors};
+use super::{Stage, paper};
 use crate::ir::tree::Node;
-use crate::logic::Order;
+use crate::logic::{Account, Order};
 use crate::tree::Size;
 use rayon::prelude::*;
 
-/// The beams: one without groups, and one with groups.
-const BEAMS: [Bounds; 2] = [
-    Bounds {
-        width: 24,
-        inner: 1,
-        depth: 1,
-    },
-    Bounds {
-        width: 8,
-        inner: 2,
-        depth: 3,
-    },
-];
 /// The most trees whose proof is tried, smallest first.
 const PROOFS: usize = 256;
 
-/// The smallest tree that was found and proved; `None` if none was proved. If the order is to be learned, the tree of
-/// Algorithm 1 is among them.
-pub(super) fn tree(
-    problem: &Problem,
-    paper: Option<&Node>,
-    order: Order,
-    effort: u64,
-) -> Option<Node> {
-    let configurations = configurations(&Minimiser::new(problem, u64::MAX));
-    let share = effort / configurations.len().max(1) as u64;
-    let found: Vec<Vec<Node>> = configurations
-        .par_iter()
-        .map(|subunits| trees(problem, subunits, order, share))
-        .collect();
-    let mut found: Vec<(Size, Node)> = found
-        .into_iter()
-        .flatten()
-        .map(|node| (Size::of(&node), node))
-        .collect();
-    if let (Order::Learned, Some(paper)) = (order, paper) {
-        found.insert(0, (Size::of(paper), paper.clone()));
+/// What a search came to.
+pub(super) struct Found {
+    /// The smallest tree that was found and proved.
+    pub(super) tree: Option<Node>,
+    /// The tree of Algorithm 1, if it was run to its end.
+    pub(super) paper: Option<Node>,
+    /// What was left unfinished because the effort was spent.
+    pub(super) unfinished: Vec<Stage>,
+}
+
+/// A tree in a wanted order.
+pub(super) fn ordered(problem: &Problem, order: Order, account: &Account) -> Option<Node> {
+    let minimiser = Minimiser::new(problem, Account::unlimited());
+    let mut found: Vec<(Size, Node)> = Vec::new();
+    for subunits in configurations(&Minimiser::new(problem, account.part(2))) {
+        let list = in_order(&minimiser, &subunits, order)?;
+        let node = listed(&minimiser, &subunits, &list);
+        found.push((Size::of(&node), node));
     }
+    smallest(problem, found)
+}
+
+/// The smallest tree that was found and proved.
+pub(super) fn tree(problem: &Problem, account: &Account) -> Found {
+    let mut unfinished = Vec::new();
+    let held = alone::held(problem, account);
+    let mut trees = held.trees.clone();
+    let optimum = optimum(problem, account);
+    let is_small = optimum.is_some();
+    trees.extend(optimum);
+    let mut paper = None;
+    if problem.policy.rows.len() <= LARGE {
+        let minimiser = Minimiser::new(problem, account.part(5));
+        paper = paper::tree(&minimiser);
+        account.settle(&minimiser.account);
+        match &paper {
+            Some(paper) => trees.insert(0, paper.clone()),
+            None => unfinished.push(Stage::Paper),
+        }
+    }
+    let minimiser = Minimiser::new(problem, account.part(5));
+    let configurations = configurations(&minimiser);
+    account.settle(&minimiser.account);
+    if minimiser.account.is_spent() {
+        unfinished.push(Stage::Memory);
+    }
+    let with_memory = configurations.get(1..).unwrap_or_default();
+    let half = match with_memory.is_empty() {
+        // Little is left to find.
+        _ if is_small => account.part(8),
+        true => account.part(1),
+        false => account.part(2),
+    };
+    trees.extend(alone::trees(problem, &held, &half));
+    account.settle(&half);
+    let parts: Vec<(&Vec<Subunit>, Account)> = with_memory
+        .iter()
+        .map(|subunits| (subunits, account.part(with_memory.len())))
+        .collect();
+    let found: Vec<Vec<Node>> = parts
+        .par_iter()
+        .map(|(subunits, part)| joined(problem, subunits, part))
+        .collect();
+    parts.iter().for_each(|(_, part)| account.settle(part));
+    trees.extend(found.into_iter().flatten());
+    if half.is_spent() || parts.iter().any(|(_, part)| part.is_spent()) {
+        unfinished.push(Stage::Search);
+    }
+    let mut tree = smallest(
+        problem,
+        trees
+            .into_iter()
+            .map(|node| (Size::of(&node), node))
+            .collect(),
+    );
+    if tree.is_none() {
+        // No partition of rows that leave atoms free.
+        let minimiser = Minimiser::new(problem, Account::unlimited());
+        let subunits = behaviors(problem);
+        let list = in_order(&minimiser, &subunits, Order::Learned);
+        tree = list.map(|list| listed(&minimiser, &subunits, &list));
+    }
+    Found {
+        tree,
+        paper,
+        unfinished,
+    }
+}
+
+/// The smallest of these that is proved.
+fn smallest(problem: &Problem, mut found: Vec<(Size, Node)>) -> Option<Node> {
     // Stable: of equal sizes the first found stands first.
     found.sort_by_key(|(size, _)| *size);
     found.dedup_by(|a, b| a.1 == b.1);
@@ -63,31 +123,29 @@ pub(super) fn tree(
     smallest.find(|node| problem.proves(node))
 }
 
-/// Trees over the subunits of one configuration.
-fn trees(problem: &Problem, subunits: &[Subunit], order: Order, effort: u64) -> Vec<Node> {
-    let minimiser = Minimiser::new(problem, effort / BEAMS.len() as u64);
-    let searches = order == Order::Learned && !problem.wide;
+/// Trees over the subunits of one configuration with memory nodes.
+fn joined(problem: &Problem, subunits: &[Subunit], account: &Account) -> Vec<Node> {
     // In a small table the search starts from lists in other orders as well.
-    let orders = match searches && problem.policy.rows.len() <= LARGE {
-        true => vec![order, Order::Given, Order::Rarest],
-        false => vec![order],
+    let orders = match problem.policy.rows.len() <= LARGE {
+        true => &[Order::Learned, Order::Given, Order::Rarest][..],
+        false => &[Order::Learned],
     };
-    let lists = orders.into_iter();
-    let lists: Vec<_> = lists
-        .map(|order| in_order(&minimiser, subunits, order))
-        .collect();
+    let minimiser = Minimiser::new(problem, account.part(3));
+    let lists = orders.iter();
+    let lists = lists.filter_map(|order| in_order(&minimiser, subunits, *order));
+    let lists: Vec<_> = lists.collect();
     let bases = lists.iter().map(|list| listed(&minimiser, subunits, list));
     let bases: Vec<Node> = bases.collect();
-    if !searches {
-        return bases;
-    }
+    account.settle(&minimiser.account);
     let searched = BEAMS.par_iter().map(|bounds| {
-        let minimiser = Minimiser::new(problem, effort / BEAMS.len() as u64);
+        let minimiser = Minimiser::new(problem, account.part(BEAMS.len()));
         let useful = lists.iter().flatten().map(|(_, cover)| cover);
-        let rules = Rules::new(&minimiser, useful);
-        Beam::new(&minimiser, subunits, rules, *bounds).trees()
+        let rules = Rules::new(&minimiser, useful, std::iter::empty());
+        let trees = Beam::new(&minimiser, subunits, rules, *bounds).trees();
+        (minimiser.account, trees)
     });
-    let searched: Vec<Vec<Node>> = searched.collect();
-    let all = bases.into_iter().chain(searched.into_iter().flatten());
-    all.map(shared).collect()
+    let searched: Vec<_> = searched.collect();
+    searched.iter().for_each(|(part, _)| account.settle(part));
+    let searched = searched.into_iter().flat_map(|(_, trees)| trees);
+    bases.into_iter().chain(searched).map(shared).collect()
 }

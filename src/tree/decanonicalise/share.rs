@@ -1,7 +1,6 @@
 //! Literals that neighbouring units have in common, once before a selector of them.
 
 use crate::ir::tree::{Composite, Guard, Node};
-use crate::tree::Size;
 use crate::tree::guard::{and, atom, conjuncts};
 use crate::tree::unit::{self, Unit, guarded, selector};
 
@@ -28,43 +27,45 @@ pub(super) fn shared(node: Node) -> Node {
     }
 }
 
-/// The selector of these, the best group made until none helps.
+/// The selector of these, the group that saves most made until none does.
 fn grouped(mut children: Vec<Node>) -> Node {
-    let mut size = Size::of(&selector(children.clone()));
     loop {
-        let mut best: Option<(Size, Vec<Node>)> = None;
-        for start in 0..children.len() {
-            for literal in children.get(start).map(literals).unwrap_or_default() {
-                let run = children.iter().skip(start);
-                let run = run
-                    .take_while(|child| literals(child).contains(&literal))
-                    .count();
-                for end in start + 2..=start + run {
-                    let candidate = group(&children, start, end, &literal);
-                    let smaller = Size::of(&selector(candidate.clone()));
-                    if smaller < best.as_ref().map_or(size, |(size, _)| *size) {
-                        best = Some((smaller, candidate));
-                    }
-                }
-            }
-        }
-        match best {
-            Some(found) => (size, children) = found,
-            None => return selector(children),
-        }
+        let guards: Vec<Vec<Guard>> = children.iter().map(literals).collect();
+        let Some((start, end, literal)) = best(&guards, &children) else {
+            return selector(children);
+        };
+        let run = children.get(start..end).unwrap_or_default();
+        let inside = grouped(run.iter().map(|child| without(child, &literal)).collect());
+        children.splice(start..end, [guarded(literal, inside)]);
     }
 }
 
-/// The children with those from `start` to `end` in one group behind a literal that all of them have.
-fn group(children: &[Node], start: usize, end: usize, literal: &Guard) -> Vec<Node> {
-    let inside = children.iter().take(end).skip(start);
-    let inside = grouped(inside.map(|child| without(child, literal)).collect());
-    let before = children.iter().take(start).cloned();
-    let after = children.iter().skip(end).cloned();
-    before
-        .chain([guarded(literal.clone(), inside)])
-        .chain(after)
-        .collect()
+/// The neighbours that save most behind a literal that all of them have. A group costs a sequence, the literal and a selector;
+/// each unit in it saves the literal, and its sequence if it has no other guard.
+fn best(guards: &[Vec<Guard>], children: &[Node]) -> Option<(usize, usize, Guard)> {
+    let mut best: Option<(usize, (usize, usize, Guard))> = None;
+    for (start, own) in guards.iter().enumerate() {
+        let before = start.checked_sub(1).and_then(|at| guards.get(at));
+        for literal in own {
+            // A run that begins before is longer.
+            if before.is_some_and(|before| before.contains(literal)) {
+                continue;
+            }
+            let run = guards.iter().skip(start);
+            let run = run.take_while(|guards| guards.contains(literal)).count();
+            let units = children.iter().skip(start).take(run);
+            let saved: usize = units.map(|unit| 1 + usize::from(is_behind_one(unit))).sum();
+            if run > 1 && saved >= 3 && best.as_ref().is_none_or(|(most, _)| saved > *most) {
+                best = Some((saved, (start, start + run, literal.clone())));
+            }
+        }
+    }
+    best.map(|(_, found)| found)
+}
+
+/// Whether a unit's guard is a single literal.
+fn is_behind_one(node: &Node) -> bool {
+    unit::parts(node).is_some_and(|(guard, _)| atom(guard).is_some())
 }
 
 /// The literals without which a unit lets nothing through.

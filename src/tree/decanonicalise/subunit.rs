@@ -33,13 +33,15 @@ pub(super) fn behaviors(problem: &Problem) -> Vec<Subunit> {
     .collect()
 }
 
-/// The selector of all subunits, each under its exact guard.
-pub(super) fn canonical(minimiser: &Minimiser, subunits: &[Subunit]) -> Node {
+/// The selector of all subunits, each under its exact guard; `None` if the account is spent.
+pub(super) fn canonical(minimiser: &Minimiser, subunits: &[Subunit]) -> Option<Node> {
     let units = subunits.iter().map(|subunit| {
         let off = minimiser.problem.all().minus(&subunit.rows);
-        subunit.under(minimiser.problem, &minimiser.cover(&subunit.rows, &off))
+        let cover = minimiser.cover(&subunit.rows, &off)?;
+        Some(subunit.under(minimiser.problem, &cover))
     });
-    selector(units)
+    let units: Option<Vec<Node>> = units.collect();
+    units.map(selector)
 }
 
 impl Subunit {

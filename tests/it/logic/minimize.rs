@@ -62,6 +62,34 @@ fn mistakes_have_places() {
     check("minimize.contradiction", &run(text, None).unwrap_err());
 }
 
+/// As published files are: a title, names over two lines and too few of them, rows over several lines.
+#[test]
+fn files_are_read_as_they_are() {
+    let text = "5-input something\n.i 3\n.o 4\n.ilb a\n b c\n.ob x y\n.type fr\n\
+        111\n10\n01\n110 1000\n0 0 0 | 0\n010\n.e\n";
+    let found = run(text, None).unwrap();
+    check("minimize.as_they_are", &found.text);
+}
+
+#[test]
+fn what_cannot_be_is_not_allocated() {
+    for size in ["4000000000", "1048577", "99999999999999999999"] {
+        for text in [
+            format!(".i {size}\n.o 1\n1 1\n"),
+            format!(".i 1\n.o {size}\n1 1\n"),
+        ] {
+            let said = run(&text, None).unwrap_err();
+            assert!(said.contains("is at most 1048576"), "{said}");
+        }
+    }
+}
+
+#[test]
+fn a_row_that_never_ends_is_reported_where_it_begins() {
+    let text = ".i 3\n.o 2\n110 11\n11\n0 1\n001 11\n1\n.e\n";
+    check("minimize.open", &run(text, None).unwrap_err());
+}
+
 /// Random PLAs of every type: the result is 1 and 0 where the input says so.
 #[test]
 fn results_agree_with_their_inputs() {

@@ -202,7 +202,9 @@ fn deep_nests_end_in_a_message() {
             );
             let (_, diagnostics) = parse(FileId(0), &text);
             if let Ok(formatted) = print::format(&text) {
-                assert!(depth <= 1_000 && parse(FileId(0), &formatted).1.is_empty());
+                // A chain of `and` is as deep as the logarithm of its length.
+                assert!(depth <= 1_000 || open == "a and ");
+                assert!(parse(FileId(0), &formatted).1.is_empty());
             } else {
                 assert!(!diagnostics.is_empty());
             }

@@ -12,7 +12,11 @@ use btc::tree::prove::prove;
 use rayon::prelude::*;
 
 /// A table over this many predicates.
-fn table(atoms: usize, behaviors: usize, rows: impl Iterator<Item = (Minterm, usize)>) -> Policy {
+pub(super) fn table(
+    atoms: usize,
+    behaviors: usize,
+    rows: impl Iterator<Item = (Minterm, usize)>,
+) -> Policy {
     let mut rows: Vec<Row> = rows
         .map(|(minterm, does)| Row {
             minterm,
@@ -51,7 +55,7 @@ fn five_rules(seed: u64) -> Policy {
     table(7, 6, rows)
 }
 
-fn searched(policy: &Policy, order: Order, effort: u64) -> Decanonicalised {
+pub(super) fn searched(policy: &Policy, order: Order, effort: u64) -> Decanonicalised {
     let asked = Options {
         order,
         effort,
@@ -85,7 +89,7 @@ fn planted_table(atoms: usize, rows: usize, seed: u64) -> (Policy, usize) {
 fn planted_lists_come_out_with_their_literals_or_fewer() {
     for (atoms, rows, seed) in [(11, 61, 0), (11, 61, 1), (24, 10_000, 0), (128, 10_000, 1)] {
         let (policy, literals) = planted_table(atoms, rows, seed);
-        let found = searched(&policy, Order::Learned, 2);
+        let found = searched(&policy, Order::Learned, 20);
         assert!(
             found.size.literals <= literals,
             "{atoms} × {rows}, seed {seed}: {:?}, planted {literals} literals",

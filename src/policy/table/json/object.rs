@@ -14,8 +14,8 @@ pub(super) enum Value<'t> {
     Number(serde_json::Number),
     Text(Cow<'t, str>),
     Object(Vec<(Cow<'t, str>, Value<'t>)>),
-    /// What a list holds says nothing in a table.
-    List,
+    /// A list of texts; what other lists hold says nothing in a table.
+    List(Option<Vec<Cow<'t, str>>>),
 }
 
 impl Object<'_> {
@@ -32,7 +32,7 @@ impl fmt::Display for Value<'_> {
             Value::Number(number) => number.fmt(f),
             Value::Text(text) => write!(f, "\"{text}\""),
             Value::Object(_) => f.write_str("{…}"),
-            Value::List => f.write_str("[…]"),
+            Value::List(_) => f.write_str("[…]"),
         }
     }
 }
@@ -131,7 +131,70 @@ impl<'de> Visitor<'de> for Anything {
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Self::Value, A::Error> {
+        let mut texts = Some(Vec::new());
+        while let Some(Element(text)) = list.next_element()? {
+            match (text, &mut texts) {
+                (Some(text), Some(texts)) => texts.push(text),
+                _ => texts = None,
+            }
+        }
+        Ok(Value::List(texts))
+    }
+}
+
+/// An element of a list, if it is a text. What lists hold otherwise is not looked into, however deep it is.
+struct Element<'t>(Option<Cow<'t, str>>);
+
+impl<'de: 't, 't> Deserialize<'de> for Element<'t> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(OneText).map(Self)
+    }
+}
+
+struct OneText;
+
+impl<'de> Visitor<'de> for OneText {
+    type Value = Option<Cow<'de, str>>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a value")
+    }
+
+    fn visit_unit<E>(self) -> Result<Self::Value, E> {
+        Ok(None)
+    }
+
+    fn visit_bool<E>(self, _: bool) -> Result<Self::Value, E> {
+        Ok(None)
+    }
+
+    fn visit_u64<E>(self, _: u64) -> Result<Self::Value, E> {
+        Ok(None)
+    }
+
+    fn visit_i64<E>(self, _: i64) -> Result<Self::Value, E> {
+        Ok(None)
+    }
+
+    fn visit_f64<E>(self, _: f64) -> Result<Self::Value, E> {
+        Ok(None)
+    }
+
+    fn visit_borrowed_str<E>(self, text: &'de str) -> Result<Self::Value, E> {
+        Ok(Some(Cow::Borrowed(text)))
+    }
+
+    fn visit_str<E>(self, text: &str) -> Result<Self::Value, E> {
+        Ok(Some(Cow::Owned(text.to_owned())))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
+        while map.next_entry::<IgnoredAny, IgnoredAny>()?.is_some() {}
+        Ok(None)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Self::Value, A::Error> {
         while list.next_element::<IgnoredAny>()?.is_some() {}
-        Ok(Value::List)
+        Ok(None)
     }
 }

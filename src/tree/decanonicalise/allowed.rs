@@ -1,0 +1,132 @@
+//! Tables in which a row may allow several behaviours.
+//!
+//! A row is no exception to any behaviour that it allows. So lists of rules are found for classes of rows that overlap, and
+//! each gives every row one of its behaviours: a policy as any other, which the tree is made of and proved on.
+
+use super::{Decanonicalised, Options, decanonicalise};
+use crate::ir::Id;
+use crate::ir::law::Behavior;
+use crate::logic::covering::{List, lists};
+use crate::logic::{Account, Bits, Columns};
+use crate::policy::{Policy, Row};
+use crate::tree::prove::Refuted;
+
+/// The words that may be read in the search for one rule of one class.
+const REACH: u64 = 40_000;
+
+/// The part of the effort that the choice of behaviours may take, and that the trees that are compared may.
+const PARTS: u64 = 4;
+
+/// The smallest tree found that takes an allowed behaviour in every row, with the policy on which it is proved. `allowed` are the
+/// behaviours that each row allows.
+///
+/// # Errors
+/// The policy has no rows, or the tree that was found is refuted: with the counterexample.
+pub fn allowing(
+    policy: &Policy,
+    allowed: &[Vec<Id<Behavior>>],
+    options: &Options,
+) -> Result<(Policy, Decanonicalised), Refuted> {
+    let classes: Vec<Bits> = policy
+        .behaviors
+        .iter()
+        .map(|behavior| {
+            let rows = allowed.iter().enumerate();
+            let own = rows.filter(|(_, all)| all.contains(behavior));
+            Bits::collect(allowed.len(), own.map(|(row, _)| row))
+        })
+        .collect();
+    let words = |row: &Row| {
+        let free = row.free.as_ref().map(|free| free.words().to_vec());
+        (row.minterm.words().to_vec(), free)
+    };
+    let words: Vec<_> = policy.rows.iter().map(words).collect();
+    let rows = words.iter().map(|(ones, free)| (&**ones, free.as_deref()));
+    let columns = Columns::with_free(policy.atoms.len(), rows);
+    let effort = options.effort.saturating_mul(super::EFFORT) / PARTS;
+    let found = lists(&columns, &classes, REACH, &Account::new(effort));
+    let lists = found.iter().rev();
+    let mut choices: Vec<Vec<usize>> = lists.map(|list| by_list(&columns, list)).collect();
+    choices.push(by_frequency(&classes, allowed.len()));
+    choices.dedup();
+    let policies = choices.iter().map(|choice| chosen(policy, choice));
+    let policies: Vec<Policy> = policies.collect();
+    let quick = Options {
+        effort: options.effort / (PARTS * policies.len().max(1) as u64),
+        ..*options
+    };
+    let mut best: Option<(Policy, Decanonicalised)> = None;
+    for policy in policies {
+        let found = decanonicalise(&policy, &quick)?;
+        if best
+            .as_ref()
+            .is_none_or(|(_, known)| found.size < known.size)
+        {
+            best = Some((policy, found));
+        }
+    }
+    let (policy, first) = best.ok_or(Refuted::Empty)?;
+    let found = decanonicalise(&policy, options)?;
+    let smallest = if found.size < first.size {
+        found
+    } else {
+        first
+    };
+    Ok((policy, smallest))
+}
+
+/// The behaviour of each row by a list, by its number.
+fn by_list(columns: &Columns, list: &List) -> Vec<usize> {
+    let mut choice = vec![list.last; columns.rows()];
+    let mut left = Bits::full(columns.rows());
+    for rule in &list.rules {
+        let decided = columns.cube_rows(&rule.cube, &left);
+        for row in decided.iter() {
+            if let Some(slot) = choice.get_mut(row) {
+                *slot = rule.class;
+            }
+        }
+        left.subtract(&decided);
+    }
+    choice
+}
+
+/// The behaviour of each row with as few behaviours as possible: again and again the one that most rows left allow.
+fn by_frequency(classes: &[Bits], rows: usize) -> Vec<usize> {
+    let mut choice = vec![0; rows];
+    let mut left = Bits::full(rows);
+    while !left.is_empty() {
+        let counts = classes.iter().enumerate();
+        let counts = counts.map(|(class, own)| (own.count_both(&left), std::cmp::Reverse(class)));
+        let Some((1.., std::cmp::Reverse(class))) = counts.max() else {
+            break;
+        };
+        let Some(own) = classes.get(class) else {
+            break;
+        };
+        for row in own.and(&left).iter() {
+            if let Some(slot) = choice.get_mut(row) {
+                *slot = class;
+            }
+        }
+        left.subtract(own);
+    }
+    choice
+}
+
+/// The policy that takes these of its behaviours.
+fn chosen(policy: &Policy, choice: &[usize]) -> Policy {
+    let rows = policy.rows.iter().zip(choice);
+    let rows = rows.map(|(row, class)| Row {
+        behavior: policy
+            .behaviors
+            .get(*class)
+            .copied()
+            .unwrap_or(row.behavior),
+        ..row.clone()
+    });
+    Policy {
+        rows: rows.collect(),
+        ..policy.clone()
+    }
+}

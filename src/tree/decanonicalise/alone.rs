@@ -1,0 +1,230 @@
+//! Trees without memory.
+//!
+//! A partition is held first: it costs little for any table. Then lists of rules and of classes, and a beam search over what they
+//! are made of, look for a smaller tree. In a large table most rows say what others have said, so these work on a *core* of
+//! the rows; the rows on which a tree for the core is wrong join it, until there are none.
+
+use super::beam::{Beam, Bounds};
+use super::children::Children;
+use super::minimiser::Minimiser;
+use super::orders::{in_order, tree as listed};
+use super::parted;
+use super::problem::Problem;
+use super::rules::Rules;
+use super::share::shared;
+use super::subunit::behaviors;
+use crate::ir::tree::Node;
+use crate::logic::covering::{List, Worth, covering, lists};
+use crate::logic::partition::{Impurity, Partition, partition};
+use crate::logic::{Account, Bits, Order};
+use crate::policy::Policy;
+use crate::tree::Size;
+use rayon::prelude::*;
+
+/// The most rows of a table that is its own core, and the rows of the first core of a larger one.
+const WHOLE: usize = 1024;
+const FIRST: usize = 512;
+/// The most rows of a core in which a beam searches.
+const SEARCHED: usize = 4096;
+/// The words that may be read in the search for one rule of one class.
+const REACH: u64 = 40_000;
+
+/// The beams: one without groups, and one with groups.
+pub(super) const BEAMS: [Bounds; 2] = [
+    Bounds {
+        width: 24,
+        inner: 1,
+        depth: 1,
+    },
+    Bounds {
+        width: 8,
+        inner: 2,
+        depth: 3,
+    },
+];
+
+/// Partitions of all rows, and the trees that they come to.
+pub(super) struct Held {
+    partitions: Vec<Partition>,
+    pub(super) trees: Vec<Node>,
+}
+
+/// Partitions by each measure. Only rows with many free atoms may spend an account before there is one.
+pub(super) fn held(problem: &Problem, account: &Account) -> Held {
+    let classes = problem.classes();
+    let unlimited = Account::unlimited();
+    let partitions = Impurity::ALL.into_iter().filter_map(|impurity| {
+        let first = impurity == Impurity::Gini && !problem.wide;
+        let account = if first { &unlimited } else { account };
+        partition(problem.columns(), &classes, impurity, account)
+    });
+    let partitions: Vec<Partition> = partitions.collect();
+    let trees = partitions.iter().map(|p| parted::plain(problem, p).node());
+    Held {
+        trees: trees.collect(),
+        partitions,
+    }
+}
+
+/// Trees that are right on all rows; whether the account was spent before the end.
+pub(super) fn trees(problem: &Problem, held: &Held, account: &Account) -> Vec<Node> {
+    let mut found = Vec::new();
+    let all = problem.all();
+    if problem.policy.rows.len() > WHOLE {
+        // A list of classes looks at a core of its own for each class.
+        let minimiser = Minimiser::new(problem, account.part(3));
+        let subunits = behaviors(problem);
+        let list = in_order(&minimiser, &subunits, Order::Learned);
+        found.extend(list.map(|list| shared(listed(&minimiser, &subunits, &list))));
+        account.settle(&minimiser.account);
+    }
+    for partition in &held.partitions {
+        let part = account.part(6);
+        found.push(parted::with_lists(problem, partition, &all, &part).node());
+        account.settle(&part);
+    }
+    if problem.policy.rows.len() <= WHOLE || problem.wide {
+        found.extend(searched(problem, account));
+        return found;
+    }
+    let mut core = Core::first(problem);
+    // A list is enough to see which rows matter.
+    while core.rows.count() < problem.policy.rows.len() {
+        let policy = core.policy();
+        let part = account.part(4);
+        let sample = Problem::new(&policy);
+        let worth = Worth::plain(sample.on.len(), REACH);
+        let rows = sample.all();
+        let classes = sample.classes();
+        let list = covering(sample.columns(), &classes, &rows, &worth, usize::MAX, &part);
+        account.settle(&part);
+        let Some(list) = list.map(|list| Children::listed(&sample, &list).node()) else {
+            return found;
+        };
+        if core.adopt(&list, account) {
+            found.push(list);
+            break;
+        }
+    }
+    while core.rows.count() <= SEARCHED {
+        let policy = core.policy();
+        let part = account.part(2);
+        let mut best = searched(&Problem::new(&policy), &part);
+        account.settle(&part);
+        best.sort_by_key(Size::of);
+        best.truncate(TRIED);
+        let mut grown = false;
+        for tree in best {
+            match core.adopt(&tree, account) {
+                true => found.push(tree),
+                false => grown = true,
+            }
+            if !grown {
+                return found;
+            }
+        }
+        if !grown || account.is_spent() {
+            return found;
+        }
+    }
+    found
+}
+
+/// Trees for a core that are tried on all rows.
+const TRIED: usize = 4;
+
+/// Some rows of a table.
+struct Core<'a, 'p> {
+    problem: &'a Problem<'p>,
+    rows: Bits,
+}
+
+impl<'a, 'p> Core<'a, 'p> {
+    /// Rows of every behaviour, evenly spread.
+    fn first(problem: &'a Problem<'p>) -> Self {
+        let count = problem.policy.rows.len();
+        let mut rows = Bits::empty(count);
+        for (_, own) in &problem.on {
+            let size = own.count();
+            let wanted = (FIRST * size).div_ceil(count).max(8);
+            let step = size.div_ceil(wanted).max(1);
+            rows.unite(&Bits::collect(count, own.iter().step_by(step)));
+        }
+        Self { problem, rows }
+    }
+
+    fn policy(&self) -> Policy {
+        let whole = self.problem.policy;
+        let rows = self.rows.iter();
+        Policy {
+            atoms: whole.atoms.clone(),
+            behaviors: whole.behaviors.clone(),
+            history: whole.history,
+            rows: rows
+                .filter_map(|row| whole.rows.get(row).cloned())
+                .collect(),
+            ..Policy::default()
+        }
+    }
+
+    /// Whether the tree is right on all rows. Else some rows on which it is wrong join the core.
+    fn adopt(&mut self, tree: &Node, account: &Account) -> bool {
+        let words = 24 + self.problem.columns().rows() as u64 / 64;
+        account.spend(Size::of(tree).nodes as u64 * words);
+        let Some(wrong) = self.problem.wrong(tree) else {
+            return false;
+        };
+        let count = wrong.count();
+        let step = count.div_ceil(self.rows.count() / 2).max(1);
+        self.rows
+            .unite(&Bits::collect(wrong.bound(), wrong.iter().step_by(step)));
+        let all = self.problem.policy.rows.len();
+        if 2 * self.rows.count() > all {
+            self.rows = Bits::full(all);
+        }
+        count == 0
+    }
+}
+
+/// Trees by all methods at once.
+fn searched(problem: &Problem, account: &Account) -> Vec<Node> {
+    let subunits = behaviors(problem);
+    let part = account.part(2);
+    let ruled: Vec<List> = lists(problem.columns(), &problem.classes(), REACH, &part);
+    account.settle(&part);
+    let orders = [Order::Learned, Order::Given, Order::Rarest];
+    let minimisers = orders.map(|_| Minimiser::new(problem, account.part(6)));
+    let in_orders = minimisers.into_iter().zip(orders);
+    let in_orders = in_orders.filter_map(|(minimiser, order)| {
+        let list = in_order(&minimiser, &subunits, order);
+        let found = list.map(|list| (listed(&minimiser, &subunits, &list), list));
+        account.settle(&minimiser.account);
+        found
+    });
+    let in_orders: Vec<_> = in_orders.collect();
+    let node = |list: &List| Children::listed(problem, list).node();
+    let mut found: Vec<Node> = ruled.iter().map(node).collect();
+    found.extend(in_orders.iter().map(|(node, _)| node.clone()));
+    if !problem.wide {
+        let searched = BEAMS.par_iter().map(|bounds| {
+            let minimiser = Minimiser::new(problem, account.part(BEAMS.len()));
+            let useful = in_orders.iter().flat_map(|(_, list)| list);
+            let cubes = ruled.iter().flat_map(|list| &list.rules);
+            let rules = Rules::new(
+                &minimiser,
+                useful.map(|(_, cover)| cover),
+                cubes.map(|rule| &rule.cube),
+            );
+            let mut beam = Beam::new(&minimiser, &subunits, rules, *bounds);
+            let trees = beam.trees();
+            drop(beam);
+            (minimiser.account, trees)
+        });
+        let searched: Vec<_> = searched.collect();
+        for (part, trees) in searched {
+            account.settle(&part);
+            found.extend(trees);
+        }
+    }
+    found.into_iter().map(shared).collect()
+}
