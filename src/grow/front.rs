@@ -9,6 +9,7 @@ use crate::learn::simulated::Purpose;
 use crate::learn::statistics::{Mean, Summary};
 use crate::tree::Size;
 use crate::trial::paired::error;
+use serde::{Deserialize, Serialize};
 
 /// Episodes by which a tree of the front is chosen.
 const CONFIRMING: usize = 200;
@@ -35,7 +36,7 @@ pub enum Choice {
 }
 
 /// The figures of a tree.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Figures {
     /// Its size.
     pub size: Size,
@@ -46,7 +47,7 @@ pub struct Figures {
 }
 
 /// A tree of the front.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Point {
     /// The tree.
     pub root: Node,
@@ -63,7 +64,7 @@ pub struct Point {
 }
 
 /// A grown tree.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Grown {
     /// The tree; the exact one if none was better.
     pub root: Node,
@@ -163,7 +164,7 @@ pub(super) fn choose<W: World>(
         kept: root == starts.exact,
         root,
         front,
-        ticks: judge.ticks + ticks,
+        ticks: judge.seen.ticks + ticks,
     })
 }
 
