@@ -13,7 +13,7 @@ use btc::learn::discount::Discounting;
 use btc::learn::method::{self, Settings};
 use btc::learn::schedule::Schedule;
 use btc::learn::simulated::Purpose;
-use btc::learn::train::{Counts, Course, train};
+use btc::learn::train::{Counts, Course, Trained, train};
 use btc::world::{Simulator, Start};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
@@ -60,9 +60,17 @@ fn learn(loaded: &Loaded, simulator: &Simulator, episodes: u64) -> Counts {
             tick: program.world.as_ref().unwrap().tick,
         },
         dwell: learner.dwell,
-        seed: 1,
     };
-    train(&mut process, method.as_mut(), &course, |_, _| {}, || {}).0
+    let mut trained = Trained::new(1);
+    train(
+        &mut process,
+        method.as_mut(),
+        &course,
+        &mut trained,
+        |_, _| {},
+        |_, _| {},
+    );
+    trained.counts
 }
 
 fn examples(criterion: &mut Criterion) {

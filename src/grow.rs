@@ -17,15 +17,18 @@ pub mod iterate;
 pub mod place;
 pub mod propose;
 pub mod race;
+mod step;
 
+use crate::checkpoint::{Keeper, Part};
 use crate::ir::task::Task;
 use crate::ir::tree::{Atom, Node};
 use crate::ir::{Id, Program};
 use crate::learn::episode::Episode;
-use crate::learn::experiment::{Experiment, Run};
+use crate::learn::experiment::Experiment;
 use crate::learn::greedy;
 use crate::learn::improve::{Improved, Improver};
 use crate::learn::process::{Key, World};
+use crate::learn::run::Run;
 use crate::learn::simulated::Purpose;
 use crate::tree::prune::Requirement;
 pub use front::{Choice, Figures, Grown, Point};
@@ -97,16 +100,36 @@ const IMPROVING: f64 = 0.05;
 const GROWING: f64 = 0.6;
 
 /// Improves the policy of a run by simulation.
-pub fn improve<W: World>(experiment: &Experiment<W>, run: &mut Run, effort: u64) -> Improved {
+pub fn improve<W: World>(
+    experiment: &Experiment<W>,
+    run: &mut Run,
+    effort: u64,
+    keeper: &dyn Keeper,
+) -> Improved {
+    let part = Part::new(keeper, "improved");
+    let (decisions, table, improved) = part.whole(|| {
+        let improved = improve_from(experiment, run, effort, &Part::new(keeper, "policy"));
+        (run.decisions.clone(), run.table.clone(), improved)
+    });
+    (run.decisions, run.table) = (decisions, table);
+    improved
+}
+
+fn improve_from<W: World>(
+    experiment: &Experiment<W>,
+    run: &mut Run,
+    effort: u64,
+    part: &Part,
+) -> Improved {
     let ground = ground(experiment, run.seed);
     let unseen = greedy::unseen(experiment.program, experiment.learner.task);
     let iteration = Iteration {
         ground: &ground,
         unseen,
         least: experiment.evidence,
-        effort: part(effort, ITERATING),
+        effort: share(effort, ITERATING),
     };
-    let iterated = iteration.run(&run.decisions);
+    let iterated = iteration.run(&run.decisions, part);
     let ticks = iterated.ticks;
     let changed = iterated.apply(&mut run.decisions, &mut run.table);
     let improver = Improver {
@@ -115,7 +138,7 @@ pub fn improve<W: World>(experiment: &Experiment<W>, run: &mut Run, effort: u64)
         unseen,
         patience: ground.patience,
         start: ground.episodes(Purpose::Improve, 0),
-        effort: part(effort, IMPROVING),
+        effort: share(effort, IMPROVING),
         harm: |episode: &Episode| ground.harm(episode),
     };
     let improved = improver.improve(&mut run.decisions, &run.table);
@@ -127,10 +150,10 @@ pub fn improve<W: World>(experiment: &Experiment<W>, run: &mut Run, effort: u64)
 
 /// The part of the effort of learning that a search for a tree gets.
 pub fn growing(effort: u64) -> u64 {
-    part(effort, GROWING)
+    share(effort, GROWING)
 }
 
-fn part(effort: u64, part: f64) -> u64 {
+fn share(effort: u64, part: f64) -> u64 {
     (effort as f64 * part) as u64
 }
 
@@ -153,8 +176,16 @@ pub fn grow<W: World>(
     ground: &Ground<W>,
     starts: &Starts,
     settings: &Settings,
+    keeper: &dyn Keeper,
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Grown, Atom> {
-    let found = Grower::new(ground, settings, progress).run(starts)?;
-    front::choose(found, starts, settings)
+    let whole = Part::new(keeper, "grown");
+    if let Some(grown) = whole.resume() {
+        return Ok(grown);
+    }
+    let part = Part::new(keeper, "tree");
+    let found = Grower::new(ground, settings, progress).run(starts, &part)?;
+    let grown = front::choose(found, starts, settings)?;
+    whole.save(|| &grown);
+    Ok(grown)
 }

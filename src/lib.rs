@@ -187,6 +187,8 @@ pub mod eval;
 
 pub mod world;
 
+pub mod checkpoint;
+
 pub mod learn;
 
 pub mod environment;

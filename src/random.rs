@@ -3,17 +3,19 @@
 mod ziggurat;
 use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
+use serde::{Deserialize, Serialize};
 use ziggurat::Ziggurat;
 
 /// A generator (xoshiro256++, Blackman and Vigna 2021) that is a function of a seed, a stream and an episode alone.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Random {
     bits: Bits,
+    #[serde(skip, default = "Ziggurat::get")]
     ziggurat: &'static Ziggurat,
 }
 
 /// The source of random bits.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Bits(Xoshiro256PlusPlus);
 
 impl Bits {

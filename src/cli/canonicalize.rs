@@ -1,8 +1,9 @@
 //! `btc canonicalize`
 
-use super::Failure;
 use super::files::{self, STDIN};
 use super::report::{Reporter, tell};
+use super::store::file;
+use super::{Failure, paths};
 use crate::driver::canonicalize::{self, Form};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -36,11 +37,8 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
         _ if arguments.file == STDIN => None,
         None => Some(arguments.file.clone()),
         Some(output) => {
-            let folder = output
-                .parent()
-                .filter(|folder| !folder.as_os_str().is_empty());
-            let folder = folder.unwrap_or_else(|| Path::new("."));
-            Some(files::from_folder(folder, Path::new(&arguments.file))?)
+            let folder = file::folder_of(output);
+            Some(paths::used_from(folder, Path::new(&arguments.file))?)
         }
     };
     let form = match arguments.emit {

@@ -1,11 +1,11 @@
 //! `btc check`
 
 use super::report::Reporter;
-use super::{Failure, files};
+use super::results::Found;
+use super::{Failure, files, results};
 use crate::diagnostic::{Applicability, Code, Diagnostic, render};
 use crate::driver::load::Loaded;
 use crate::driver::{check, load};
-use crate::facade::disk::Disk;
 use crate::source::{Sources, Span};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -48,21 +48,21 @@ enum Form {
 }
 
 /// What was found in one program.
-struct Found {
+struct Checked {
     name: String,
     sources: Sources,
     diagnostics: Vec<Diagnostic>,
 }
 
 pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {
-    let mut all: Vec<Found> = Vec::new();
+    let mut all: Vec<Checked> = Vec::new();
     for path in &arguments.files {
         for path in programs(path) {
             all.push(found(arguments, &path)?);
         }
     }
     let wrong = |found: &Diagnostic| found.is_error() || arguments.deny_warnings;
-    let clean = |found: &Found| !found.diagnostics.iter().any(wrong);
+    let clean = |found: &Checked| !found.diagnostics.iter().any(wrong);
     match arguments.format {
         Form::Sarif => {
             let parts = all.iter();
@@ -131,8 +131,8 @@ fn programs(path: &str) -> Vec<String> {
 }
 
 /// What is found in the program at a path, after its fixes if they are to be applied.
-fn found(arguments: &Arguments, path: &str) -> Result<Found, Failure> {
-    let (name, bytes) = match files::bytes(path) {
+fn found(arguments: &Arguments, path: &str) -> Result<Checked, Failure> {
+    let (name, bytes) = match files::bytes(path, load::MOST as u64) {
         Ok(bytes) => {
             let called = arguments.stdin_file_path.as_deref();
             let called = called.filter(|_| path == files::STDIN);
@@ -142,23 +142,26 @@ fn found(arguments: &Arguments, path: &str) -> Result<Found, Failure> {
             let message = format!("{path}: {why}");
             let mut unread = Diagnostic::new(Code::E0208, Span::default(), message);
             unread.labels.clear();
-            return Ok(Found {
+            return Ok(Checked {
                 name: path.to_owned(),
                 sources: Sources::default(),
                 diagnostics: vec![unread],
             });
         }
     };
-    let mut loaded = load::load(&name, bytes, &mut Disk);
+    let mut reader = Found::of(&name);
+    let mut loaded = load::load(&name, bytes, &mut reader);
     if arguments.fix && path != files::STDIN {
         for _ in 0..ROUNDS {
             let Some(text) = fixed(&loaded) else { break };
             files::write(Path::new(path), &text)?;
-            loaded = load::load(&name, text.into(), &mut Disk);
+            loaded = load::load(&name, text.into(), &mut reader);
         }
     }
     loaded.diagnostics.extend(check::worlds(&loaded));
-    Ok(Found {
+    loaded.diagnostics.extend(reader.changed());
+    loaded.diagnostics.extend(results::torn(&name));
+    Ok(Checked {
         name,
         sources: loaded.sources,
         diagnostics: loaded.diagnostics,

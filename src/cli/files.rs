@@ -1,12 +1,17 @@
 //! Reading programs, writing results.
 
 use super::report::{Reporter, tell};
-use super::{Failure, interrupt};
+use super::results::Found;
+use super::store::{Folder, System, file};
+use super::{Failure, interrupt, results};
+use crate::diagnostic::{Diagnostic, render};
 use crate::driver::Text;
 use crate::driver::load::{self, Loaded};
-use crate::facade::disk::Disk;
-use std::io::{self, Read, Write};
-use std::path::{Component, Path, PathBuf};
+use crate::facade::disk::{TABLE, bounded};
+use crate::source::Sources;
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+use std::path::Path;
 
 /// The name that stands for standard input.
 pub(super) const STDIN: &str = "-";
@@ -29,9 +34,17 @@ impl File {
     }
 }
 
-/// Reads a file, or standard input.
+/// Reads a table, or standard input. A file of a result that is not whole is refused.
 pub(super) fn read(path: &str) -> Result<File, Failure> {
-    let bytes = bytes(path).map_err(|error| {
+    match results::torn(path) {
+        Some(torn) => Err(refuse(&torn)),
+        None => read_alone(path, TABLE),
+    }
+}
+
+/// Reads a file, or standard input, for itself: of more than `most` bytes, one more.
+pub(super) fn read_alone(path: &str, most: u64) -> Result<File, Failure> {
+    let bytes = bytes(path, most).map_err(|error| {
         let place = if path == STDIN {
             "standard input"
         } else {
@@ -49,18 +62,40 @@ pub(super) fn shown(path: &str) -> &str {
 }
 
 /// The bytes of a file, or of standard input.
-pub(super) fn bytes(path: &str) -> io::Result<Vec<u8>> {
-    if path != STDIN {
-        return std::fs::read(path);
+pub(super) fn bytes(path: &str, most: u64) -> io::Result<Vec<u8>> {
+    if path == STDIN {
+        return bounded(io::stdin().lock(), most);
     }
-    let mut bytes = Vec::new();
-    io::stdin().read_to_end(&mut bytes)?;
-    Ok(bytes)
+    let file = std::fs::File::open(path)?;
+    // A device may give bytes without end.
+    let most = match is_device(file.metadata()?.file_type()) {
+        true => most.min(load::MOST as u64),
+        false => most,
+    };
+    bounded(file, most)
+}
+
+#[cfg(unix)]
+fn is_device(kind: std::fs::FileType) -> bool {
+    use std::os::unix::fs::FileTypeExt;
+    kind.is_char_device() || kind.is_block_device()
+}
+
+#[cfg(not(unix))]
+fn is_device(_: std::fs::FileType) -> bool {
+    false
 }
 
 /// Reads a file, if one is named.
 pub(super) fn read_optional(path: Option<&str>) -> Result<Option<File>, Failure> {
     path.map(read).transpose()
+}
+
+/// A mistake with a code that has no place in a text.
+pub(super) fn refuse(mistake: &Diagnostic) -> Failure {
+    let text = render::human(&Sources::default(), std::slice::from_ref(mistake), false);
+    tell(text.trim_end());
+    Failure::Input
 }
 
 /// A mistake that has no place in a text.
@@ -71,8 +106,13 @@ pub(super) fn complain(message: &str) -> Failure {
 
 /// Loads a program and writes its diagnostics; a program with errors is a failure.
 pub(super) fn load(path: &str, say: &Reporter) -> Result<Loaded, Failure> {
-    let file = read(path)?;
-    let loaded = load::load(&file.name, file.bytes, &mut Disk);
+    if let Some(torn) = results::torn(path) {
+        return Err(refuse(&torn));
+    }
+    let file = read_alone(path, load::MOST as u64)?;
+    let mut found = Found::of(&file.name);
+    let mut loaded = load::load(&file.name, file.bytes, &mut found);
+    loaded.diagnostics.extend(found.changed());
     say.all(&loaded.sources, &loaded.diagnostics);
     if loaded.has_errors() {
         say.count(&loaded.diagnostics);
@@ -81,38 +121,24 @@ pub(super) fn load(path: &str, say: &Reporter) -> Result<Loaded, Failure> {
     Ok(loaded)
 }
 
-/// Writes a whole file or nothing: to a temporary name beside it, synced and renamed. An existing file keeps its
-/// permissions, a link stays a link, and a device or a pipe is written to directly.
+/// Writes a whole file or nothing. A device or a pipe is written to directly.
 pub(super) fn write(path: &Path, text: &str) -> Result<(), Failure> {
-    let attempt = || -> io::Result<()> {
-        let path = &path.canonicalize().unwrap_or_else(|_| path.to_owned());
-        let old = std::fs::metadata(path).ok();
-        if old.as_ref().is_some_and(|old| !old.is_file()) {
-            return std::fs::write(path, text);
-        }
-        let folder = path
-            .parent()
-            .filter(|parent| !parent.as_os_str().is_empty());
-        let folder = folder.unwrap_or_else(|| Path::new("."));
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(".btc-");
-        // Only the owner may read a temporary file; anyone may read a result.
-        #[cfg(unix)]
-        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
-        let mut file = interrupt::begin(|| builder.tempfile_in(folder))?;
-        file.write_all(text.as_bytes())?;
-        if let Some(old) = old {
-            file.as_file().set_permissions(old.permissions())?;
-        }
-        file.as_file().sync_all()?;
-        interrupt::end(file, path)
+    let irregular = std::fs::metadata(path).is_ok_and(|found| !found.is_file());
+    let written = match irregular {
+        true => std::fs::write(path, text),
+        false => interrupt::uninterrupted(|| file::write(&System, path, text.as_bytes())),
     };
-    attempt().map_err(|error| complain(&format!("{}: {error}", path.display())))
+    written.map_err(|error| complain(&format!("{}: {error}", path.display())))
 }
 
-/// Makes a folder, with those that it stands in.
-pub(super) fn make_folder(path: &Path) -> Result<(), Failure> {
-    std::fs::create_dir_all(path).map_err(|error| complain(&format!("{}: {error}", path.display())))
+/// Writes files to a folder as one result, of a program whose files have these hashes.
+pub(super) fn write_all(
+    folder: &Folder,
+    files: &[(String, String)],
+    program: BTreeMap<String, String>,
+) -> Result<(), Failure> {
+    interrupt::uninterrupted(|| folder.replace(&System, files, program))
+        .map_err(|error| complain(&error.to_string()))
 }
 
 /// Writes to a file, or to standard output.
@@ -132,24 +158,4 @@ pub(super) fn print(text: &str) -> Result<(), Failure> {
         }
         _ => Ok(()),
     }
-}
-
-/// The path of a file from a folder, with `/` between its parts, after all links are followed.
-pub(super) fn from_folder(folder: &Path, file: &Path) -> Result<String, Failure> {
-    let whole = |path: &Path| {
-        path.canonicalize()
-            .map_err(|error| complain(&format!("{}: {error}", path.display())))
-    };
-    let (folder, file) = (whole(folder)?, whole(file)?);
-    let parts = |path: &PathBuf| -> Vec<String> {
-        path.components()
-            .filter(|part| !matches!(part, Component::RootDir))
-            .map(|part| part.as_os_str().to_string_lossy().into_owned())
-            .collect()
-    };
-    let (folder, file) = (parts(&folder), parts(&file));
-    let shared = folder.iter().zip(&file).take_while(|(a, b)| a == b).count();
-    let up = folder.iter().skip(shared).map(|_| "..".to_owned());
-    let down = file.iter().skip(shared).cloned();
-    Ok(up.chain(down).collect::<Vec<_>>().join("/"))
 }

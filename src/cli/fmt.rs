@@ -4,6 +4,7 @@ use super::Failure;
 use super::files::{self, STDIN};
 use super::report::{Reporter, tell};
 use crate::driver::format::format;
+use crate::driver::load::MOST;
 use clap::Args;
 use std::path::Path;
 
@@ -20,7 +21,7 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {
     let mut fine = true;
     for path in &arguments.files {
-        let Ok(file) = files::read(path) else {
+        let Ok(file) = files::read_alone(path, MOST as u64) else {
             fine = false;
             continue;
         };

@@ -3,14 +3,21 @@
 use super::files::{self, STDIN};
 use super::progress::Progress;
 use super::report::{Reporter, tell};
-use super::{Failure, PLAYED};
+use super::store::checkpoint::{Run, Unlike};
+use super::store::{Checkpoint, Folder, System};
+use super::{Failure, PLAYED, interrupt, paths};
+use crate::checkpoint::Forgetful;
+use crate::diagnostic::render;
 use crate::driver::learn::{self, Learned, Options, Shape};
 use crate::driver::load::Loaded;
+use crate::driver::tune::Outcome;
 use crate::driver::{target, tune, verify};
 use crate::grow::Choice;
 use crate::tree::decanonicalise::{Care, Method};
-use clap::Args;
+use clap::{Args, ValueEnum};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
@@ -64,9 +71,43 @@ pub(super) struct Arguments {
     /// Write the whole report, and not only its five lines on the tree.
     #[arg(long)]
     report: bool,
+    /// How often the state of the run is kept in the folder of the results, such as `60s` or `10min`; or `never`.
+    #[arg(long, value_name = "TIME", default_value = "60s", value_parser = every)]
+    checkpoint: Every,
+    /// Go on where a run with the same options was stopped; the results are those of a run that was not.
+    #[arg(long)]
+    resume: bool,
     /// Then search for better values of the numbers that may be tuned, and learn again under them; see `btc tune`.
     #[arg(long)]
     tune: bool,
+}
+
+/// How often states are kept.
+#[derive(Clone, Copy, Debug)]
+struct Every(Option<Duration>);
+
+/// A time between two states: `60s`, `10min`, `1h`, or `never`.
+fn every(text: &str) -> Result<Every, String> {
+    if text == "never" {
+        return Ok(Every(None));
+    }
+    let split = text.find(|c: char| c.is_ascii_alphabetic());
+    let (digits, unit) = text.split_at(split.unwrap_or(text.len()));
+    let scale = match unit {
+        "ms" => 0.001,
+        "s" => 1.0,
+        "m" | "min" => 60.0,
+        "h" => 3600.0,
+        _ => f64::NAN,
+    };
+    let time = digits.trim().parse().map(|number: f64| number * scale).ok();
+    let time = time.and_then(|time| Duration::try_from_secs_f64(time).ok());
+    match time {
+        Some(time) => Ok(Every(Some(time))),
+        None => Err(
+            "a time between two checkpoints is such as `60s`, `10min`, `1h` or `never`".to_owned(),
+        ),
+    }
 }
 
 /// A part of a return: `1%` or `0.01`.
@@ -113,7 +154,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     if arguments.tune {
         tune::something(&loaded).map_err(|refused| say.refused(&refused))?;
     }
-    let folder = match &arguments.output {
+    let place = match &arguments.output {
         Some(folder) => folder.clone(),
         None => {
             let name = Path::new(&arguments.file).file_stem().unwrap_or_default();
@@ -121,17 +162,20 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
         }
     };
     // Whether the results can be written shows before hours of learning; a run that is refused or killed leaves no folder.
-    let found = folder.exists();
-    files::make_folder(&folder)?;
-    let source = files::from_folder(&folder, Path::new(&arguments.file));
-    if !found {
-        let _ = std::fs::remove_dir(&folder);
-    }
-    let source = source?;
-    if source == "learned.bt" {
-        let message =
-            "is the program itself, and would be overwritten; name another folder with `-o`";
-        return Err(files::complain(&format!("{}: {message}", arguments.file)));
+    let folder = Folder::new(&place);
+    let missing = folder.missing();
+    let whole = interrupt::uninterrupted(|| folder.probe(&System, &learn::NAMES))
+        .map_err(|error| files::complain(&error.to_string()))?;
+    let source = paths::used_from(&whole, Path::new(&arguments.file))?;
+    let program = paths::program_of(&loaded, &whole)?;
+    if let Some(own) = learn::NAMES
+        .iter()
+        .find(|name| program.contains_key(**name))
+    {
+        let message = format!(
+            "`{own}` there is part of the program itself, and would be overwritten; name another folder with `-o`"
+        );
+        return Err(files::complain(&format!("{}: {message}", place.display())));
     }
     let options = Options {
         learner: arguments.learner.as_deref(),
@@ -154,16 +198,37 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
             .tests
             .unwrap_or(if arguments.seeds > 1 { 1000 } else { 0 }),
         source: &source,
+        keeper: &Forgetful,
     };
-    let bar = Progress::new();
-    let learned = learn::learn(&loaded, &options, &|stage| bar.show(stage));
-    bar.finish();
-    let learned = learned.map_err(|refused| say.refused(&refused))?;
-    files::print(&learned.text)?;
-    files::make_folder(&folder)?;
-    for (name, text) in &learned.files {
-        files::write(&folder.join(name), text)?;
+    let mut checkpoint = Checkpoint::new(
+        &System,
+        &whole,
+        run_of(&options, arguments.tune, &program),
+        arguments.checkpoint.0,
+        interrupt::guard,
+    );
+    begin(&mut checkpoint, arguments.resume, &place)?;
+    let options = Options {
+        keeper: &checkpoint,
+        ..options
+    };
+    let made = make(&loaded, &options, arguments.tune, say);
+    if let Some(why) = checkpoint.trouble() {
+        tell(&format!("warning: no checkpoint could be kept: {why}"));
     }
+    let Ok((learned, tuned)) = made else {
+        checkpoint.remove();
+        Folder::unmake(&System, &missing);
+        return Err(Failure::Input);
+    };
+    let files = learned
+        .files
+        .iter()
+        .map(|(name, text)| ((*name).to_owned(), text.clone()));
+    let more = tuned.iter().flat_map(tuned_files);
+    files::write_all(&folder, &files.chain(more).collect::<Vec<_>>(), program)?;
+    // Whoever reads this may have gone: all is written.
+    let printed = files::print(&learned.text);
     let lines = match arguments.report {
         true => &learned.report,
         false => &learned.headline,
@@ -177,36 +242,115 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     for claim in &claims {
         tell(&claim.text);
     }
-    if arguments.tune {
-        tuned(&loaded, &learned, &options, &folder, say)?;
+    if let Some(tuned) = &tuned {
+        tell(tuned.human.trim_end());
+        if let Some(text) = &tuned.text {
+            tell(text.trim_end());
+        }
     }
-    tell(&format!("written to {}", folder.display()));
-    super::verify::verdict(&claims)
+    tell(&format!(
+        "written to {}",
+        render::visible(&place.to_string_lossy())
+    ));
+    printed.and(super::verify::verdict(&claims))
 }
 
-/// Tunes the tree that was learned. The program and the tree that were written stay those of the values in use.
-fn tuned(
+/// Learns, and tunes what was learned if that is asked for. The tree that is written is that of the values in use.
+fn make(
     loaded: &Loaded,
-    learned: &Learned,
     options: &Options,
-    folder: &Path,
+    tunes: bool,
     say: &Reporter,
-) -> Result<(), Failure> {
+) -> Result<(Learned, Option<Outcome>), Failure> {
+    let bar = Progress::new();
+    let learned = learn::learn(loaded, options, &|stage| bar.show(stage));
+    bar.finish();
+    let learned = learned.map_err(|refused| say.refused(&refused))?;
+    if !tunes {
+        return Ok((learned, None));
+    }
     let bar = Progress::new();
     let search = tune::Options::default();
-    let tuned = tune::of_learned(loaded, learned, options, &search, &|stage| match stage {
+    let tuned = tune::of_learned(loaded, &learned, options, &search, &|stage| match stage {
         tune::Stage::Learning(stage) => bar.show(stage),
         tune::Stage::Tuning(_) => bar.stage("tuning"),
     });
     bar.finish();
     let tuned = tuned.map_err(|refused| say.refused(&refused))?;
-    tell(tuned.human.trim_end());
-    if let Some(text) = &tuned.text {
-        tell(text.trim_end());
-    }
-    files::write(&folder.join("tune.json"), &tuned.json)?;
-    for (name, picture) in &tuned.pictures {
-        files::write(&folder.join(name), picture)?;
+    Ok((learned, Some(tuned)))
+}
+
+/// The files of a search for better values.
+pub(super) fn tuned_files(tuned: &Outcome) -> impl Iterator<Item = (String, String)> {
+    let report = ("tune.json".to_owned(), tuned.json.clone());
+    std::iter::once(report).chain(tuned.pictures.iter().cloned())
+}
+
+/// Looks for the states of this run, and goes on from them if that is asked for.
+fn begin(checkpoint: &mut Checkpoint, resume: bool, place: &Path) -> Result<(), Failure> {
+    let place = place.to_string_lossy();
+    let place = render::visible(&place);
+    match (resume, checkpoint.found()) {
+        (true, Ok(())) => checkpoint.resume(),
+        (true, Err(Unlike::Nothing)) => tell(&format!(
+            "note: there is no checkpoint in {place}: learning begins at the beginning"
+        )),
+        (true, Err(Unlike::Other(differences))) => {
+            let failure = files::complain(&format!("the checkpoint in {place} is of another run"));
+            for [what, there, here] in differences {
+                let or_none = |value: String| match value.is_empty() {
+                    true => "nothing".to_owned(),
+                    false => value,
+                };
+                let (there, here) = (or_none(there), or_none(here));
+                tell(&render::visible(&format!(
+                    "  {what}: {there} there, {here} here"
+                )));
+            }
+            tell("  ask for the same, or leave out `--resume` to begin anew");
+            return Err(failure);
+        }
+        (false, Ok(())) => tell(&format!(
+            "note: {place} has a checkpoint of this run; `--resume` would have gone on from there"
+        )),
+        (false, Err(_)) => {}
     }
     Ok(())
+}
+
+/// All that the result depends on.
+fn run_of(options: &Options, tunes: bool, program: &BTreeMap<String, String>) -> Run {
+    let files = program.iter();
+    let mut run: Run = files
+        .map(|(path, hash)| (format!("program {path}"), hash.clone()))
+        .collect();
+    let mut add = |name: &str, value: String| run.insert(name.to_owned(), value);
+    add("btc", env!("CARGO_PKG_VERSION").to_owned());
+    add("--learner", options.learner.unwrap_or_default().to_owned());
+    add(
+        "--seed",
+        options.seed.map_or(String::new(), |seed| seed.to_string()),
+    );
+    add("--seeds", options.seeds.to_string());
+    add(
+        "--episodes",
+        options.episodes.map_or(String::new(), |n| n.to_string()),
+    );
+    add("--evidence", options.evidence.to_string());
+    add("--method", named(&options.method));
+    add("--care", named(&options.care));
+    add("--shape", named(&options.shape));
+    add("the tree that is taken", format!("{:?}", options.choice));
+    add("--front", options.front.to_string());
+    add("--effort", options.effort.to_string());
+    add("--roll-outs", options.roll_outs.to_string());
+    add("--tests", options.tests.to_string());
+    add("--tune", tunes.to_string());
+    run
+}
+
+/// The value of an option as it is written.
+fn named(value: &impl ValueEnum) -> String {
+    let value = value.to_possible_value();
+    value.map_or_else(String::new, |value| value.get_name().to_owned())
 }

@@ -1,7 +1,8 @@
 //! Arguments, files, progress, exit codes: one file per command.
 //!
 //! Results go to standard output, diagnostics and reports to standard error. Exit codes: 0 for success, 1 for a program
-//! with mistakes or a refuted claim, 2 for a bad command line, 3 for a claim that is undecided, 130 for an interrupt.
+//! with mistakes or a refuted claim, 2 for a bad command line, 3 for a claim that is undecided, 128 and the number of the signal for a
+//! run that a signal ended.
 
 mod canonicalize;
 mod check;
@@ -14,10 +15,13 @@ mod interrupt;
 mod learn;
 mod minimize;
 mod new;
+mod paths;
 mod progress;
 mod report;
+mod results;
 mod run;
 mod size;
+pub mod store;
 mod tune;
 mod verify;
 
@@ -36,6 +40,9 @@ struct Arguments {
     /// Threads to use; the results are the same on any number.
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
+    /// A folder that programs may use files of, besides their own and the current one; it may be given several times.
+    #[arg(long, global = true, value_name = "DIR")]
+    root: Vec<std::path::PathBuf>,
     /// When to colour diagnostics.
     #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
     color: report::Color,
@@ -101,6 +108,7 @@ pub fn main() -> ExitCode {
         let _ = pool.build_global();
     }
     interrupt::watch();
+    results::allow(&arguments.root);
     let say = report::Reporter::new(arguments.color);
     let result = match arguments.command {
         Command::New(arguments) => new::run(&arguments),

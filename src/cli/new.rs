@@ -20,7 +20,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     for (path, text) in FILES {
         let path = folder.join(path);
         if let Some(parent) = path.parent() {
-            files::make_folder(parent)?;
+            std::fs::create_dir_all(parent)
+                .map_err(|error| files::complain(&format!("{}: {error}", parent.display())))?;
         }
         files::write(&path, text)?;
     }

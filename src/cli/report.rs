@@ -29,7 +29,7 @@ pub(super) enum Format {
 
 /// Writes a line to standard error. If nobody reads it, that is no failure: the result matters, not the report.
 pub(super) fn tell(line: &str) {
-    let _ = writeln!(std::io::stderr().lock(), "{line}");
+    let _ = writeln!(std::io::stderr().lock(), "{}", render::visible(line));
 }
 
 /// Writes diagnostics to standard error.

@@ -1,9 +1,11 @@
 //! `btc tune`
 
 use super::files::{self, STDIN};
+use super::learn::tuned_files;
 use super::progress::Progress;
 use super::report::{Format, Reporter, tell};
-use super::{Failure, PLAYED};
+use super::store::{Folder, System};
+use super::{Failure, PLAYED, interrupt};
 use crate::driver::tune::{self, Options};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -58,6 +60,18 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     });
     bar.finish();
     let tuned = tuned.map_err(|refused| say.refused(&refused))?;
+    if let Some(folder) = &arguments.output {
+        let folder = Folder::new(folder);
+        let files: Vec<(String, String)> = tuned_files(&tuned).collect();
+        interrupt::uninterrupted(|| folder.add(&System, &files))
+            .map_err(|error| files::complain(&error.to_string()))?;
+    }
+    if arguments.fix {
+        for (name, text) in &tuned.fixed {
+            files::write(Path::new(name), text)?;
+            tell(&format!("written to {name}"));
+        }
+    }
     match arguments.format {
         Format::Human => {
             files::print(&tuned.human)?;
@@ -66,19 +80,6 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
             }
         }
         Format::Json => files::print(&tuned.json)?,
-    }
-    if let Some(folder) = &arguments.output {
-        files::make_folder(folder)?;
-        files::write(&folder.join("tune.json"), &tuned.json)?;
-        for (name, picture) in &tuned.pictures {
-            files::write(&folder.join(name), picture)?;
-        }
-    }
-    if arguments.fix {
-        for (name, text) in &tuned.fixed {
-            files::write(Path::new(name), text)?;
-            tell(&format!("written to {name}"));
-        }
     }
     Ok(())
 }

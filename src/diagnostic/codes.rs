@@ -71,6 +71,7 @@ codes! {
     E0129 "a comment of another language",
     E0130 "a file that is not text",
     E0131 "a letter that a name cannot have",
+    E0132 "too much text",
 
     E0201 "declared twice",
     E0202 "not declared",
@@ -82,6 +83,8 @@ codes! {
     E0208 "a file that cannot be read",
     E0209 "definitions within definitions without end",
     E0210 "files that use each other in a circle",
+    E0211 "not the file that is named",
+    E0212 "a folder that is not one result",
 
     E0301 "units do not match",
     E0302 "types do not match",
@@ -146,8 +149,11 @@ codes! {
     E0822 "a time that the robot's library cannot keep",
     E0823 "rows that allow several behaviours",
 
+    W0101 "a character that is not seen",
+
     W0201 "a name that nothing reads",
     W0202 "a state that is set and never read",
+    W0203 "a program that has changed since",
     W0301 "a plain number for a ratio",
     W0302 "a region that is never reached",
 

@@ -1,5 +1,6 @@
 //! The renderers of diagnostics, one file each.
 
+mod excerpt;
 mod human;
 mod json;
 mod sarif;
@@ -10,4 +11,4 @@ pub use human::human;
 pub use json::json;
 pub use sarif::sarif;
 pub use short::{github, short};
-pub use visible::visible;
+pub use visible::{hidden, visible};

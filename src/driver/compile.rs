@@ -7,6 +7,7 @@ use super::target;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::emit;
 use crate::emit::form::TreeForm;
+use crate::emit::steps::Steps;
 use crate::ir::Id;
 use crate::ir::name;
 use crate::ir::tree::Tree;
@@ -35,6 +36,19 @@ impl From<TreeForm> for Form {
 /// # Errors
 /// There is no such tree, there are several and none is named, or a robot's library has no counterpart for a node.
 pub fn emit(loaded: &Loaded, form: Form, tree: Option<&str>) -> Result<String, Refused> {
+    emit_in_steps(loaded, form, tree, Steps::default())
+}
+
+/// The same with steps of its own.
+///
+/// # Errors
+/// As [`emit`].
+pub fn emit_in_steps(
+    loaded: &Loaded,
+    form: Form,
+    tree: Option<&str>,
+    steps: Steps,
+) -> Result<String, Refused> {
     let program = &loaded.program;
     let named = tree.map(|name| target::tree(loaded, name)).transpose()?;
     match (form, named) {
@@ -45,7 +59,9 @@ pub fn emit(loaded: &Loaded, form: Form, tree: Option<&str>) -> Result<String, R
             Ok(print::file(&loaded.ast, text))
         }
         (Form::Tree(TreeForm::Json), None) => Ok(emit::json::program(program)),
-        (Form::Tree(form), named) => export::of_program(loaded, one_tree(loaded, named)?, form),
+        (Form::Tree(form), named) => {
+            export::of_program(loaded, one_tree(loaded, named)?, (form, steps))
+        }
     }
 }
 

@@ -6,6 +6,7 @@ use super::target;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::emit::form::TreeForm;
 use crate::emit::refusal::{Reason, Refusal};
+use crate::emit::steps::Steps;
 use crate::ir::tree::Tree;
 use crate::ir::{Id, Program};
 use crate::source::Span;
@@ -22,7 +23,20 @@ pub fn tree(
     form: TreeForm,
     place: impl Fn(&[usize]) -> Span,
 ) -> Result<String, Diagnostic> {
-    let written = form.write(program, tree);
+    in_steps(program, tree, (form, Steps::default()), place)
+}
+
+/// The same with steps of its own.
+///
+/// # Errors
+/// A node that the form has no counterpart for.
+pub fn in_steps(
+    program: &Program,
+    tree: &Tree,
+    (form, steps): (TreeForm, Steps),
+    place: impl Fn(&[usize]) -> Span,
+) -> Result<String, Diagnostic> {
+    let written = form.write(program, tree, steps);
     written.map_err(|refusal| refused(&refusal, place(&refusal.path)))
 }
 
@@ -30,10 +44,14 @@ pub fn tree(
 ///
 /// # Errors
 /// A node that the form has no counterpart for.
-pub fn of_program(loaded: &Loaded, id: Id<Tree>, form: TreeForm) -> Result<String, Refused> {
+pub fn of_program(
+    loaded: &Loaded,
+    id: Id<Tree>,
+    form: (TreeForm, Steps),
+) -> Result<String, Refused> {
     let exported = &loaded.program.trees[id];
     let place = |path: &[usize]| place(loaded, exported, path);
-    tree(&loaded.program, exported, form, place)
+    in_steps(&loaded.program, exported, form, place)
         .map_err(|mistake| Refused::program(loaded, [mistake]))
 }
 

@@ -8,6 +8,7 @@ mod warnings;
 use super::load::Loaded;
 use super::refused::Refused;
 use super::{target, world};
+use crate::checkpoint::{Forgetful, Keeper};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::grow::Choice;
 use crate::ir::Id;
@@ -23,6 +24,23 @@ pub use pipeline::Unlearned;
 
 /// The ticks of a search for a tree, if nothing else is said.
 pub const EFFORT: u64 = 60_000_000;
+
+/// The names of the files that `btc learn` writes; what grows and what is tuned adds others.
+pub const NAMES: [&str; 13] = [
+    "learned.bt",
+    "learned.dot",
+    "learned.svg",
+    "learned.xml",
+    "learned.py",
+    "policy.csv",
+    "transitions.csv",
+    "q.csv",
+    "curve.csv",
+    "curve.svg",
+    "metrics.json",
+    "front.svg",
+    "tune.json",
+];
 
 /// The tree that is wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,6 +83,8 @@ pub struct Options<'o> {
     pub tests: u64,
     /// The path of the source from the folder of the results.
     pub source: &'o str,
+    /// Where the run keeps its states.
+    pub keeper: &'o dyn Keeper,
 }
 
 impl Default for Options<'_> {
@@ -84,6 +104,7 @@ impl Default for Options<'_> {
             roll_outs: 2000,
             tests: 0,
             source: "program.bt",
+            keeper: &Forgetful,
         }
     }
 }

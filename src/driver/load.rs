@@ -1,12 +1,13 @@
 //! A program with everything that it uses.
 
+use super::digest::sha256;
 use super::text::{Text, decode};
 use crate::check::{self, Input};
-use crate::diagnostic::{self, Code, Diagnostic};
+use crate::diagnostic::{self, Code, Diagnostic, render};
 use crate::ir::{Name, Program};
 use crate::source::{FileId, Source, Sources, Span};
 use crate::syntax;
-use crate::syntax::ast::{self, ItemKind, UseWhat};
+use crate::syntax::ast::{self, ItemKind, Spanned, UseWhat};
 use std::collections::BTreeMap;
 
 /// The embedded library.
@@ -14,6 +15,18 @@ const LIBRARY: &str = include_str!("../library/std.bt");
 
 /// The name of the library in diagnostics.
 const LIBRARY_NAME: &str = "std";
+
+/// The most bytes of a program, with all that it uses.
+pub const MOST: usize = 1_000_000;
+
+/// The most characters that are not seen that are told of a file.
+const UNSEEN: usize = 100;
+
+/// The mistake of a program that is larger.
+pub(super) fn too_large(at: Span) -> Diagnostic {
+    let message = format!("a program has at most {} MB of text", MOST / 1_000_000);
+    Diagnostic::new(Code::E0132, at, message)
+}
 
 /// Where the files of a program come from.
 pub trait Reader {
@@ -114,9 +127,19 @@ pub fn load(name: &str, text: Vec<u8>, reader: &mut dyn Reader) -> Loaded {
         tables: Vec::new(),
         diagnostics: Vec::new(),
         depth: 0,
+        bytes: text.len(),
         incomplete: false,
     };
-    let main = loader.file(name, &text, false);
+    let main = match text.len() > MOST {
+        false => loader.file(name, &text, false),
+        true => {
+            let main = loader.file(name, b"", false);
+            let start = Span::new(main, 0, 0);
+            let mistake = too_large(start).label("this file alone has more");
+            loader.diagnostics.push(mistake);
+            main
+        }
+    };
     let inputs: Vec<Input> = loader.parsed.iter().map(Parsed::input).collect();
     let checked = check::check(&inputs);
     let mut diagnostics = loader.diagnostics;
@@ -160,8 +183,8 @@ fn follows(asts: &[&ast::File], found: &Diagnostic) -> bool {
         return true;
     }
     let misses = matches!(found.code, Code::E0402 | Code::E0502);
-    let item = ast.items.iter().find(|item| touches(at, item.span));
-    misses && item.is_some_and(|item| places.iter().any(|place| touches(*place, item.span)))
+    let item = || ast.items.iter().find(|item| touches(at, item.span));
+    misses && item().is_some_and(|item| places.iter().any(|place| touches(*place, item.span)))
 }
 
 /// Whether what trees are made of has the same ids in both programs.
@@ -205,6 +228,8 @@ struct Loader<'r> {
     tables: Vec<(FileId, Span)>,
     diagnostics: Vec<Diagnostic>,
     depth: usize,
+    /// The bytes of all files but tables so far.
+    bytes: usize,
     /// Whether a program that is used cannot be read, or something without a name was not understood.
     incomplete: bool,
 }
@@ -217,9 +242,15 @@ impl Loader<'_> {
         let broken = mistake.is_some();
         self.diagnostics.extend(mistake);
         let text = self.sources.get(file).map(|source| source.text.clone());
-        let (ast, mistakes) = syntax::parse(file, &text.unwrap_or_default());
+        let (ast, mistakes) = syntax::parse(file, text.as_deref().unwrap_or_default());
         if !broken {
             self.diagnostics.extend(mistakes);
+        }
+        if !library {
+            let hidden = unseen(file, text.as_deref().unwrap_or_default());
+            let hidden = hidden.take(UNSEEN);
+            let hidden: Vec<Diagnostic> = hidden.filter(|found| !self.is_told(found)).collect();
+            self.diagnostics.extend(hidden);
         }
         self.incomplete |= ast.lost.unnamed;
         self.depth += 1;
@@ -227,7 +258,9 @@ impl Loader<'_> {
             if let ItemKind::Use(used) = &item.kind {
                 match &used.what.node {
                     UseWhat::Std => self.library(),
-                    UseWhat::Path(path) => self.used(name, path, used.what.span),
+                    UseWhat::Path(path) => {
+                        self.used(name, path, used.what.span, used.pin.as_ref());
+                    }
                 }
             }
         }
@@ -237,13 +270,21 @@ impl Loader<'_> {
         file
     }
 
+    /// Whether something else is told of the same place.
+    fn is_told(&self, found: &Diagnostic) -> bool {
+        let at = found.span();
+        let touches =
+            |other: Span| other.file == at.file && other.start < at.end && at.start < other.end;
+        self.diagnostics.iter().any(|other| touches(other.span()))
+    }
+
     fn library(&mut self) {
         if !self.known.iter().any(|known| known == LIBRARY_NAME) {
             self.file(LIBRARY_NAME, LIBRARY.as_bytes(), true);
         }
     }
 
-    fn used(&mut self, from: &str, path: &str, span: Span) {
+    fn used(&mut self, from: &str, path: &str, span: Span, pin: Option<&Spanned<String>>) {
         let resolved = beside(from, path);
         let table = path.ends_with(".csv");
         if self.open.contains(&resolved) {
@@ -266,7 +307,11 @@ impl Loader<'_> {
             self.diagnostics.push(diagnostic);
             return;
         }
-        match self.reader.read(&resolved) {
+        let read = self.reader.read(&resolved);
+        if let (Ok(bytes), Some(pin)) = (&read, pin) {
+            self.diagnostics.extend(unlike(path, bytes, pin));
+        }
+        match read {
             Ok(bytes) if table => {
                 let text = Text {
                     name: &resolved,
@@ -278,7 +323,13 @@ impl Loader<'_> {
                     self.tables.push((file, span));
                 }
             }
+            Ok(bytes) if self.bytes + bytes.len() > MOST => {
+                self.incomplete = true;
+                let label = "with this file it has more";
+                self.diagnostics.push(too_large(span).label(label));
+            }
             Ok(bytes) => {
+                self.bytes += bytes.len();
                 self.file(&resolved, &bytes, false);
             }
             Err(why) => {
@@ -291,6 +342,38 @@ impl Loader<'_> {
             }
         }
     }
+}
+
+/// The characters of a text that nobody sees or that turn the direction of writing: the first of each line.
+fn unseen(file: FileId, text: &str) -> impl Iterator<Item = Diagnostic> {
+    let mut line = 0..0;
+    render::hidden(text).filter_map(move |(at, letter)| {
+        if line.contains(&at) {
+            return None;
+        }
+        let rest = text.get(at..).unwrap_or_default();
+        line = at..at + rest.find('\n').unwrap_or(rest.len());
+        let code = u32::from(letter);
+        let message = format!("a character that is not seen, U+{code:04X}");
+        let span = Span::new(file, at, at + letter.len_utf8());
+        let label = match letter.is_control() {
+            true => "a terminal would take this for a command",
+            false => "this may turn the order in which the line is shown",
+        };
+        Some(Diagnostic::new(Code::W0101, span, message).label(label))
+    })
+}
+
+/// The mistake in the hash that a `use` gives, if the file has another.
+fn unlike(path: &str, bytes: &[u8], pin: &Spanned<String>) -> Option<Diagnostic> {
+    let hash = sha256(bytes);
+    (hash != pin.node).then(|| {
+        let message = format!("`{path}` is not the file that is named here");
+        Diagnostic::new(Code::E0211, pin.span, message)
+            .label("its SHA-256 is another")
+            .note(format!("it is {hash}: the file was edited, or comes from another run"))
+            .help("learn again; or drop `sha256:…` if the change is meant, but then nothing is proved of it yet")
+    })
 }
 
 /// The path of a file that `from` names: relative to the folder of `from`, `.` and `..` taken out where they can be.

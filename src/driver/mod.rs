@@ -6,6 +6,7 @@ pub mod canonicalize;
 pub mod check;
 pub mod compile;
 pub mod decanonicalize;
+pub mod digest;
 pub mod environment;
 pub mod explain;
 pub mod export;

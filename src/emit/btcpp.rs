@@ -4,10 +4,14 @@
 //! start over when they finish and when they are halted. (`SequenceWithMemory` does not.) A guard is a condition under
 //! a reactive node, so that it is asked in every tick; the attributes `_skipIf`, `_failureIf` and their like are asked
 //! only where the node is idle.
+//!
+//! Both nodes with memory begin their next child in the tick in which one ends, btc in the next one. Between them stands
+//! an `AsyncSequence` of two nodes that succeed at once: it runs for one tick.
 
 use super::leaves::{Leaves, Subject, Words};
 use super::notes;
 use super::refusal::{self, Reason, Refusal, answers_at_once};
+use super::steps::{self, Drives, Steps};
 use super::xml::Xml;
 use crate::ir::Program;
 use crate::ir::task::History;
@@ -45,6 +49,7 @@ pub const RESERVED: &[&str] = &[
     "ReactiveSequence",
     "Repeat",
     "RetryUntilSuccessful",
+    "Root",
     "RunOnce",
     "Script",
     "ScriptCondition",
@@ -67,6 +72,7 @@ pub const RESERVED: &[&str] = &[
     "Undefined",
     "UnsetBlackboard",
     "WaitValueUpdate",
+    "WhileDoElse",
     "WasEntryUpdated",
     // Attributes that every node has.
     "ID",
@@ -83,7 +89,7 @@ pub const RESERVED: &[&str] = &[
 ///
 /// # Errors
 /// The first node that has no counterpart there.
-pub fn tree(program: &Program, tree: &Tree) -> Result<String, Refusal> {
+pub fn tree(program: &Program, tree: &Tree, steps: Steps) -> Result<String, Refusal> {
     let tick = notes::tick(program);
     if let Some(refused) = refusal::first(&tree.root, &|node| reason(node, tick)) {
         return Err(refused);
@@ -91,14 +97,17 @@ pub fn tree(program: &Program, tree: &Tree) -> Result<String, Refusal> {
     let mut words = Words::new(RESERVED);
     let leaves = Leaves::of(tree, program, &mut words);
     let id = words.new_id(&tree.name.family);
-    let writer = Writer {
+    let mut writer = Writer {
         program,
         leaves: &leaves,
         tick: tick.unwrap_or_default(),
+        steps,
+        keys: 0,
+        marks: Vec::new(),
     };
     let mut xml = Xml::default();
     xml.line("<?xml version=\"1.0\" encoding=\"UTF-8\"?>");
-    xml.comment(&remarks(tree, tick));
+    xml.comment(&remarks(tree, tick, steps));
     let format = ("BTCPP_format", "4".to_owned());
     xml.open("root", &[format, ("main_tree_to_execute", id.clone())]);
     xml.open("BehaviorTree", &[("ID", id)]);
@@ -131,7 +140,7 @@ fn reason(node: &Node, tick: Option<f64>) -> Option<Reason> {
 }
 
 /// What a reader of the file has to know.
-fn remarks(tree: &Tree, tick: Option<f64>) -> Vec<String> {
+fn remarks(tree: &Tree, tick: Option<f64>, steps: Steps) -> Vec<String> {
     let mut lines = tree.docs.clone();
     if !lines.is_empty() {
         lines.push(String::new());
@@ -143,15 +152,20 @@ fn remarks(tree: &Tree, tick: Option<f64>) -> Vec<String> {
     if let Some(tick) = tick {
         lines.push(format!("Tick it every {tick} ms."));
     }
-    if notes::moves_on(&tree.root) {
+    let moves_on = notes::moves_on(&tree.root);
+    let counts = |kind| matches!(kind, Decorator::Retry(_) | Decorator::Repeat(_));
+    let counts = notes::has_decorator(&tree.root, &counts);
+    if steps == Steps::Exact && (moves_on || counts) {
+        lines.push("An AsyncSequence stands for the next tick: call tickExactlyOnce().".into());
+    }
+    if steps == Steps::SameTick && moves_on {
         lines.push(
             "Sequence and Fallback go on to their next child in the tick in which one ends, btc"
                 .into(),
         );
         lines.push("in the next one: here each such step comes one tick earlier.".into());
     }
-    let counts = |kind| matches!(kind, Decorator::Retry(_) | Decorator::Repeat(_));
-    if notes::has_decorator(&tree.root, &counts) {
+    if steps == Steps::SameTick && counts {
         lines.push(
             "RetryUntilSuccessful and Repeat may start over in the tick in which their child"
                 .into(),
@@ -169,18 +183,34 @@ struct Writer<'a> {
     leaves: &'a Leaves,
     /// The length of a tick in milliseconds; no `timeout` is written where it is unknown.
     tick: f64,
+    steps: Steps,
+    /// The entries of the blackboard that are in use.
+    keys: usize,
+    /// Those in which the behaviours at hand note that they have ended.
+    marks: Vec<String>,
 }
 
 /// A tag with its attributes.
 type Tag = (&'static str, Vec<(&'static str, String)>);
 
 impl Writer<'_> {
-    fn node(&self, drawing: &Drawing, xml: &mut Xml) {
+    fn node(&mut self, drawing: &Drawing, xml: &mut Xml) {
+        if self.steps == Steps::Exact {
+            match drawing.shape {
+                Shape::Composite(kind, true) => return self.step_by_step(kind, drawing, xml),
+                Shape::Decorator(Decorator::Retry(times)) if times > 1 => {
+                    return self.retry(times, drawing, xml);
+                }
+                Shape::Decorator(Decorator::Repeat(times)) if times > 1 => {
+                    return self.repeat(times, drawing, xml);
+                }
+                _ => {}
+            }
+        }
         let (tag, attributes): Tag = match drawing.shape {
             Shape::Composite(Composite::Selector, false) => ("ReactiveFallback", Vec::new()),
             Shape::Composite(Composite::Sequence, false) => ("ReactiveSequence", Vec::new()),
-            Shape::Composite(Composite::Selector, true) => ("Fallback", Vec::new()),
-            Shape::Composite(Composite::Sequence, true) => ("Sequence", Vec::new()),
+            Shape::Composite(kind, true) => (resuming(kind), Vec::new()),
             Shape::Parallel(successes) => {
                 // It fails when the children that have not failed are too few.
                 let children = u32::try_from(drawing.children.len()).unwrap_or(u32::MAX);
@@ -207,6 +237,87 @@ impl Writer<'_> {
         xml.close();
     }
 
+    /// A node with memory, which waits for the next tick behind each child that has driven.
+    fn step_by_step(&mut self, kind: Composite, drawing: &Drawing, xml: &mut Xml) {
+        xml.open(resuming(kind), &[]);
+        let last = drawing.children.len().saturating_sub(1);
+        for (at, child) in drawing.children.iter().enumerate() {
+            match steps::drives(child, kind) {
+                Drives::Sometimes if at < last => self.noted(kind, child, xml),
+                Drives::Always if at < last => {
+                    self.node(child, xml);
+                    as_going_on(kind, xml, next_tick);
+                }
+                _ => self.node(child, xml),
+            }
+        }
+        xml.close();
+    }
+
+    /// A child that may have driven or only asked: its behaviours note that they have ended, and what stands behind it
+    /// waits if one has.
+    fn noted(&mut self, kind: Composite, child: &Drawing, xml: &mut Xml) {
+        let key = self.key("drove");
+        xml.open("ReactiveSequence", &[]);
+        script(&format!("{key} := 0"), xml);
+        self.marks.push(key.clone());
+        self.node(child, xml);
+        self.marks.pop();
+        xml.close();
+        as_going_on(kind, xml, |xml| {
+            xml.open("Fallback", &[]);
+            asked(&format!("{key} == 0"), xml);
+            next_tick(xml);
+            xml.close();
+        });
+    }
+
+    /// `retry`, which waits for the next tick behind each failure but the last.
+    fn retry(&mut self, times: u32, drawing: &Drawing, xml: &mut Xml) {
+        let key = self.key("failures");
+        xml.open("Sequence", &[]);
+        script(&format!("{key} := 0"), xml);
+        xml.open(
+            "RetryUntilSuccessful",
+            &[("num_attempts", times.to_string())],
+        );
+        xml.open("Fallback", &[]);
+        drawing
+            .children
+            .iter()
+            .for_each(|child| self.node(child, xml));
+        xml.open("Sequence", &[]);
+        script(&format!("{key} += 1"), xml);
+        asked(&format!("{key} < {times}"), xml);
+        next_tick(xml);
+        xml.leaf("AlwaysFailure", &[]);
+        (0..4).for_each(|_| xml.close());
+    }
+
+    /// `repeat`, which waits for the next tick behind each success but the last.
+    fn repeat(&mut self, times: u32, drawing: &Drawing, xml: &mut Xml) {
+        let key = self.key("successes");
+        xml.open("Sequence", &[]);
+        script(&format!("{key} := 0"), xml);
+        xml.open("Repeat", &[("num_cycles", times.to_string())]);
+        xml.open("Sequence", &[]);
+        drawing
+            .children
+            .iter()
+            .for_each(|child| self.node(child, xml));
+        script(&format!("{key} += 1"), xml);
+        xml.open("Fallback", &[]);
+        asked(&format!("{key} == {times}"), xml);
+        next_tick(xml);
+        (0..4).for_each(|_| xml.close());
+    }
+
+    /// An entry of the blackboard that nothing else uses.
+    fn key(&mut self, what: &str) -> String {
+        self.keys += 1;
+        format!("btc_{what}_{}", self.keys)
+    }
+
     fn decorator(&self, kind: Decorator) -> Tag {
         let counted = |tag, count, n: String| (tag, vec![(count, n)]);
         match kind {
@@ -216,7 +327,8 @@ impl Writer<'_> {
             Decorator::Retry(n) => counted("RetryUntilSuccessful", "num_attempts", n.to_string()),
             Decorator::Repeat(n) => counted("Repeat", "num_cycles", n.to_string()),
             Decorator::Timeout(ticks) => {
-                let time = (ticks as f64 * self.tick).round();
+                // It has to have fired when the next tick comes.
+                let time = ((ticks as f64 - 0.5) * self.tick).round().max(1.0);
                 counted("Timeout", "msec", time.to_string())
             }
         }
@@ -233,8 +345,50 @@ impl Writer<'_> {
         let values = values.into_iter();
         attributes
             .extend(values.map(|(parameter, value)| (parameter.id.as_str(), value.to_owned())));
+        if matches!(subject, Subject::Action(_)) && !self.marks.is_empty() {
+            let marks: Vec<String> = self.marks.iter().map(|key| format!("{key} := 1")).collect();
+            let marks = marks.join("; ");
+            attributes.push(("_onSuccess", marks.clone()));
+            attributes.push(("_onFailure", marks));
+        }
         xml.leaf(&family.id, &attributes);
     }
+}
+
+/// The library's node with memory.
+fn resuming(kind: Composite) -> &'static str {
+    match kind {
+        Composite::Selector => "Fallback",
+        Composite::Sequence => "Sequence",
+    }
+}
+
+/// A node that succeeds, as one on which a composite goes on.
+fn as_going_on(kind: Composite, xml: &mut Xml, node: impl Fn(&mut Xml)) {
+    let inverts = kind == Composite::Selector;
+    if inverts {
+        xml.open("Inverter", &[]);
+    }
+    node(xml);
+    if inverts {
+        xml.close();
+    }
+}
+
+/// What runs for one tick, and succeeds in the next.
+fn next_tick(xml: &mut Xml) {
+    xml.open("AsyncSequence", &[("name", "next tick".to_owned())]);
+    xml.leaf("AlwaysSuccess", &[]);
+    xml.leaf("AlwaysSuccess", &[]);
+    xml.close();
+}
+
+fn script(code: &str, xml: &mut Xml) {
+    xml.leaf("Script", &[("code", code.to_owned())]);
+}
+
+fn asked(code: &str, xml: &mut Xml) {
+    xml.leaf("ScriptCondition", &[("code", code.to_owned())]);
 }
 
 /// What the robot has to register, with its ports.

@@ -1,6 +1,7 @@
 //! The forms that trees are written in: the one list, and what writes each.
 
 use super::refusal::Refusal;
+use super::steps::Steps;
 use super::{bt, btcpp, dot, json, py_trees, svg};
 use crate::ir::Program;
 use crate::ir::tree::Tree;
@@ -26,18 +27,18 @@ pub enum TreeForm {
 }
 
 impl TreeForm {
-    /// Writes a tree of a program.
+    /// Writes a tree of a program; `steps` is for the libraries of robots.
     ///
     /// # Errors
     /// The first node that the form has no counterpart for.
-    pub fn write(self, program: &Program, tree: &Tree) -> Result<String, Refusal> {
+    pub fn write(self, program: &Program, tree: &Tree, steps: Steps) -> Result<String, Refusal> {
         match self {
             Self::Bt => Ok(bt::tree(program, tree)),
             Self::Dot => Ok(dot::tree(program, tree)),
             Self::Json => Ok(json::tree(program, tree)),
             Self::Svg => Ok(svg::tree::tree(program, tree)),
-            Self::BtCpp => btcpp::tree(program, tree),
-            Self::PyTrees => py_trees::tree(program, tree),
+            Self::BtCpp => btcpp::tree(program, tree, steps),
+            Self::PyTrees => py_trees::tree(program, tree, steps),
         }
     }
 }

@@ -11,5 +11,6 @@ mod leaves;
 mod notes;
 pub mod py_trees;
 pub mod refusal;
+pub mod steps;
 pub mod svg;
 mod xml;

@@ -9,6 +9,7 @@ mod module;
 use super::leaves::{Leaves, Subject, Words};
 use super::notes;
 use super::refusal::{self, Reason, Refusal};
+use super::steps::{self, Drives, Steps};
 use crate::ir::Program;
 use crate::ir::tree::{Composite, Decorator, Node, Tree};
 use crate::tree::drawing::{Drawing, Shape};
@@ -64,7 +65,7 @@ pub const RESERVED: &[&str] = &[
 ///
 /// # Errors
 /// The first node that has no counterpart there.
-pub fn tree(program: &Program, tree: &Tree) -> Result<String, Refusal> {
+pub fn tree(program: &Program, tree: &Tree, steps: Steps) -> Result<String, Refusal> {
     let tick = notes::tick(program);
     if let Some(refused) = refusal::first(&tree.root, &|node| reason(node, tick)) {
         return Err(refused);
@@ -75,13 +76,17 @@ pub fn tree(program: &Program, tree: &Tree) -> Result<String, Refusal> {
         leaves: &leaves,
         tick: tick.unwrap_or_default(),
         imports: Imports::default(),
+        steps,
+        notes: false,
     };
     let root = writer.node(&Drawing::of(&tree.root), Some(&tree.name.family));
     let history = tree.task.map(|task| program.tasks[task].history);
     let parts = module::Parts {
         leaves: &leaves,
         history,
+        notes: writer.notes,
         imports: writer.imports,
+        steps,
     };
     Ok(parts.module(tree, tick, &root))
 }
@@ -107,6 +112,9 @@ struct Writer<'a> {
     /// The length of a tick in milliseconds; no `timeout` is written where it is unknown.
     tick: f64,
     imports: Imports,
+    steps: Steps,
+    /// Whether a node has to see if a behaviour was ticked under it.
+    notes: bool,
 }
 
 impl Writer<'_> {
@@ -120,6 +128,11 @@ impl Writer<'_> {
                     Composite::Sequence => "Sequence",
                 };
                 self.imports.take("composites", class);
+                let steps = memory && self.steps == Steps::Exact;
+                let children = match steps {
+                    true => self.step_by_step(kind, drawing),
+                    false => self.children(drawing),
+                };
                 let memory = if memory {
                     "memory=True"
                 } else {
@@ -128,7 +141,7 @@ impl Writer<'_> {
                 let arguments = vec![
                     string(name.unwrap_or(word)),
                     Code::Plain(memory.to_owned()),
-                    self.children(drawing),
+                    children,
                 ];
                 Code::call(class, arguments)
             }
@@ -174,6 +187,37 @@ impl Writer<'_> {
         Code::list("children", children.collect())
     }
 
+    /// The children of a node with memory; behind each that has driven, it waits for the next tick.
+    fn step_by_step(&mut self, kind: Composite, drawing: &Drawing) -> Code {
+        let last = drawing.children.len().saturating_sub(1);
+        let goes_on = match kind {
+            Composite::Selector => "Status.FAILURE",
+            Composite::Sequence => "Status.SUCCESS",
+        };
+        let mut children = Vec::new();
+        for (at, child) in drawing.children.iter().enumerate() {
+            let code = self.node(child, None);
+            match steps::drives(child, kind) {
+                Drives::Sometimes if at < last => {
+                    self.notes = true;
+                    self.imports.take("common", "Status");
+                    self.imports.take("decorators", "Decorator");
+                    let on = Code::Plain(goes_on.to_owned());
+                    children.push(Code::call("Step", vec![string("step"), code, on]));
+                }
+                Drives::Always if at < last => {
+                    self.imports.take("common", "Status");
+                    self.imports.take("behaviours", "TickCounter");
+                    let rest = format!("duration=1, completion_status={goes_on}");
+                    let waits = vec![string("next tick"), Code::Plain(rest)];
+                    children.extend([code, Code::call("TickCounter", waits)]);
+                }
+                _ => children.push(code),
+            }
+        }
+        Code::list("children", children)
+    }
+
     fn decorator(&mut self, kind: Decorator, name: Option<&str>, child: Option<Code>) -> Code {
         let word = kind.word();
         let (class, words, setting) = match kind {
@@ -190,12 +234,17 @@ impl Writer<'_> {
                 ("Repeat", format!("{word}({times})"), Some(successes))
             }
             Decorator::Timeout(ticks) => {
-                let seconds = ticks as f64 * self.tick / 1e3;
+                self.imports.take("common", "Status");
+                // It has to be over when the next tick comes.
+                let seconds = (ticks as f64 - 0.5) * self.tick / 1e3;
                 let duration = format!("duration={seconds:?}");
-                ("Timeout", format!("{word}({ticks} ticks)"), Some(duration))
+                ("Limit", format!("{word}({ticks} ticks)"), Some(duration))
             }
         };
-        self.imports.take("decorators", class);
+        self.imports.take(
+            "decorators",
+            if class == "Limit" { "Timeout" } else { class },
+        );
         let mut arguments = vec![string(name.unwrap_or(&words))];
         arguments.extend(child);
         arguments.extend(setting.map(Code::Plain));

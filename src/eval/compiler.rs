@@ -18,7 +18,7 @@ pub struct TooLarge;
 impl fmt::Display for TooLarge {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(
-            "the program has more variables, constants and values than the machine has registers",
+            "the program has more variables, constants and walls that are asked for than fit 4096 registers",
         )
     }
 }

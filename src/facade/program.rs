@@ -1,6 +1,6 @@
 //! Programs.
 
-use super::disk::Disk;
+use super::disk::{Disk, bounded};
 use super::{Error, Learned, PolicyTable, Tree};
 use crate::diagnostic::Diagnostic;
 use crate::driver::load::{self, Loaded};
@@ -10,6 +10,7 @@ use crate::ir;
 use crate::report::episodes::Episodes;
 use crate::syntax::print;
 use std::fmt;
+use std::fs::File;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -28,7 +29,8 @@ impl Program {
     /// The file cannot be read, or the program has mistakes: all of them, not only the first.
     pub fn from_file(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
-        let text = std::fs::read(path).map_err(|error| Error::file(path, error))?;
+        let text = File::open(path).and_then(|file| bounded(file, load::MOST as u64));
+        let text = text.map_err(|error| Error::file(path, error))?;
         Self::checked(&path.to_string_lossy(), text)
     }
 

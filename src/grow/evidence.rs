@@ -12,6 +12,7 @@ use crate::random::Random;
 use crate::world::{self, Start, Tick};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
+use serde::{Deserialize, Serialize};
 
 /// A decision with its outcome.
 #[derive(Clone, Copy, Debug)]
@@ -46,7 +47,7 @@ pub enum Sight {
 }
 
 /// One choice in one minterm.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Cell {
     /// How many decisions are counted.
     pub count: f64,
@@ -109,7 +110,7 @@ const CAUTIONS: usize = 2;
 const FAR: f64 = 0.3;
 
 /// Counted decisions.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Evidence {
     choices: usize,
     discounts: [Discounting; 2],

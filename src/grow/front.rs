@@ -10,6 +10,7 @@ use crate::learn::simulated::Purpose;
 use crate::learn::statistics::{Mean, Summary};
 use crate::tree::Size;
 use crate::trial::paired::error;
+use serde::{Deserialize, Serialize};
 
 /// For each stage of the choice, the episodes up to which its trees play, and the most that stay after it.
 const STAGES: [(usize, usize); 3] = [(60, 7), (160, 3), (500, 3)];
@@ -36,7 +37,7 @@ pub enum Choice {
 }
 
 /// The figures of a tree.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Figures {
     /// Its size.
     pub size: Size,
@@ -47,7 +48,7 @@ pub struct Figures {
 }
 
 /// A tree of the front.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Point {
     /// The tree.
     pub root: Node,
@@ -64,7 +65,7 @@ pub struct Point {
 }
 
 /// A grown tree.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Grown {
     /// The tree; the exact one if none was better.
     pub root: Node,
@@ -187,7 +188,7 @@ pub(super) fn choose<W: World>(
         ],
         root,
         front,
-        ticks: judge.ticks + ticks,
+        ticks: judge.seen.ticks + ticks,
     })
 }
 

@@ -7,7 +7,9 @@ use super::field::{Aim, Field};
 use super::ground::Ground;
 use super::propose::{Proposal, Proposer};
 use super::race::{Entrant, Judge};
+use super::step::{Climb, Cover, Halted, Refine, Step};
 use super::{Progress, Settings, Starts};
+use crate::checkpoint::Part;
 use crate::ir::tree::{Atom, Node};
 use crate::learn::process::{Key, World};
 use crate::learn::simulated::Purpose;
@@ -18,6 +20,7 @@ use crate::trial::play::Ticked;
 use crate::trial::trace::Paths;
 use crate::world::Start;
 use rustc_hash::{FxHashMap, FxHashSet};
+use serde::{Deserialize, Serialize};
 
 /// The part of what there is to gain that a node must bring.
 const PRICE: f64 = 0.003;
@@ -40,6 +43,8 @@ const COLLECTED: f64 = 0.006;
 const BEST: usize = 20;
 const RANDOM: usize = 20;
 const MEMORIES: usize = 8;
+/// The stages of climbing: the part of a node's price, and whether trees only get smaller.
+const CLIMBS: [(f64, bool); 3] = [(1.0, false), (0.5, false), (1.0, true)];
 /// Races without a better tree before a stage ends.
 const FAILURES: usize = 3;
 /// The part of the effort that is kept for choosing and measuring.
@@ -52,7 +57,7 @@ const SHOWN: usize = 64;
 const PRUNED: usize = 120;
 
 /// A tree that was the best of its time.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Visited {
     /// The tree.
     pub root: Node,
@@ -107,16 +112,27 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
         }
     }
 
-    /// Searches.
+    /// Searches, from where a run before was stopped.
     ///
     /// # Errors
     /// The exact tree asks an atom that the world does not know.
-    pub fn run(mut self, starts: &Starts) -> Result<Found<'g, 'w, W>, Atom> {
-        let base = self.begin(starts)?;
-        let base = self.cover(base);
-        let base = self.sprout(base, starts);
-        let base = self.climb(base);
-        self.refine(base);
+    pub fn run(mut self, starts: &Starts, part: &Part) -> Result<Found<'g, 'w, W>, Atom> {
+        let (mut base, mut step) = match part.resume::<Halted>() {
+            Some(halted) => self.go_on(halted),
+            None => (self.begin(starts)?, Step::Begun),
+        };
+        while !matches!(step, Step::Done) {
+            (base, step) = match step {
+                Step::Begun => self.begin_covers(base),
+                Step::Cover(cover) => self.cover(base, cover),
+                Step::Sprout(round) => self.sprout(base, round, starts),
+                Step::Climb(climb) => self.climb(base, climb),
+                Step::Refine(refine) => self.refine(base, refine),
+                Step::Done => (base, Step::Done),
+            };
+            part.keep(|| self.halted(&base, &step));
+        }
+        part.save(|| self.halted(&base, &step));
         Ok(Found {
             judge: self.judge,
             visited: self.visited,
@@ -124,14 +140,40 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
         })
     }
 
+    /// Where the search stands.
+    fn halted(&self, base: &Node, step: &Step) -> Halted {
+        Halted {
+            evidence: self.evidence.clone(),
+            random: self.random.clone(),
+            collected: self.collected,
+            price: self.price,
+            visited: self.visited.clone(),
+            single: self.single.clone(),
+            seen: self.judge.seen,
+            base: base.clone(),
+            step: step.clone(),
+        }
+    }
+
+    fn go_on(&mut self, halted: Halted) -> (Node, Step) {
+        self.evidence = halted.evidence;
+        self.random = halted.random;
+        self.collected = halted.collected;
+        self.price = halted.price;
+        self.visited = halted.visited;
+        self.single = halted.single;
+        self.judge.seen = halted.seen;
+        (halted.base, halted.step)
+    }
+
     fn spent(&self, part: f64) -> bool {
-        self.judge.ticks as f64 >= part * self.settings.effort as f64
+        self.judge.seen.ticks as f64 >= part * self.settings.effort as f64
     }
 
     fn report(&self, root: &Node) {
         (self.progress)(Progress {
             nodes: Size::of(root).nodes,
-            ticks: self.judge.ticks,
+            ticks: self.judge.seen.ticks,
             of: self.settings.effort,
         });
     }
@@ -213,45 +255,62 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
         let (visits, used) =
             self.evidence
                 .collect(self.ground, &Ticked(runner), (explore, start), ticks);
-        self.judge.ticks += used;
+        self.judge.seen.ticks += used;
         visits
     }
 
-    /// Trees that decide as the base does where it matters, from few of its decisions to all, raced.
-    fn cover(&mut self, base: Node) -> Node {
+    /// Whether there is anything to gain from smaller trees that decide as the base does.
+    fn begin_covers(&mut self, base: Node) -> (Node, Step) {
         let nodes = Size::of(&base).nodes;
-        let Some(mut tree) = self.single.clone().filter(|_| nodes > COVERED) else {
-            return base;
+        let Some(tree) = self.single.clone().filter(|_| nodes > COVERED) else {
+            return (base, Step::Sprout(0));
         };
         let mut visits = self.collect(&base, 0.05);
         add(&mut visits, self.collect(&base, 0.2));
-        let mut kept: FxHashMap<Key, usize> = FxHashMap::default();
-        let mut trees: Vec<Node> = Vec::new();
-        while !self.spent(COVERS) {
-            self.report(&tree);
-            let aim = Aim::Of(&base);
-            let field = Field::new(self.ground, &self.evidence, Sight::Far, &visits, aim);
-            let most = (kept.len() / 5).max(2);
-            let before = kept.len();
-            kept.extend(cover::missed(&field, &tree, &base, most));
-            if kept.len() == before {
-                break;
-            }
-            let Some(next) = cover::tree(self.ground, &kept) else {
-                break;
-            };
-            tree = next;
-            if Size::of(&tree).nodes * 5 > nodes * 4 {
-                break;
-            }
-            // Where the trees before went still counts, less and less.
-            visits.values_mut().for_each(|weight| *weight *= 0.6);
-            add(&mut visits, self.collect(&tree, 0.05));
-            if !trees.contains(&tree) {
-                trees.push(tree.clone());
-            }
+        let cover = Cover {
+            tree,
+            visits,
+            kept: FxHashMap::default(),
+            trees: Vec::new(),
+        };
+        (base, Step::Cover(cover))
+    }
+
+    /// One more tree that decides as the base does where it matters, from few of its decisions to all; then a race.
+    fn cover(&mut self, base: Node, mut cover: Cover) -> (Node, Step) {
+        if !self.spent(COVERS) && self.covers_more(&base, &mut cover) {
+            return (base, Step::Cover(cover));
         }
-        self.best_of(base, trees, RUNS)
+        (self.best_of(base, cover.trees, RUNS), Step::Sprout(0))
+    }
+
+    /// Adds a tree, if there is one more to add.
+    fn covers_more(&mut self, base: &Node, cover: &mut Cover) -> bool {
+        self.report(&cover.tree);
+        let aim = Aim::Of(base);
+        let field = Field::new(self.ground, &self.evidence, Sight::Far, &cover.visits, aim);
+        let most = (cover.kept.len() / 5).max(2);
+        let before = cover.kept.len();
+        let missed = cover::missed(&field, &cover.tree, base, most);
+        cover.kept.extend(missed);
+        if cover.kept.len() == before {
+            return false;
+        }
+        let Some(next) = cover::tree(self.ground, &cover.kept) else {
+            return false;
+        };
+        cover.tree = next;
+        if Size::of(&cover.tree).nodes * 5 > Size::of(base).nodes * 4 {
+            return false;
+        }
+        // Where the trees before went still counts, less and less.
+        cover.visits.values_mut().for_each(|weight| *weight *= 0.6);
+        let met = self.collect(&cover.tree, 0.05);
+        add(&mut cover.visits, met);
+        if !cover.trees.contains(&cover.tree) {
+            cover.trees.push(cover.tree.clone());
+        }
+        true
     }
 
     /// The best of these trees, pruned, if it is better than the base; again against what was found, so many races long.
@@ -260,90 +319,90 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
             let others = trees.iter().filter(|tree| **tree != base).cloned();
             let (found, _) = self.judge.race(&base, others.collect(), self.price);
             let Some(found) = found else { break };
-            base = self.pruned(&found.root.clone(), &found);
-            self.visit(&base);
+            base = self.taken(found);
         }
         base
     }
 
     /// Trees grown by the counts alone, from a single behaviour and from the best tree, raced; several times.
-    fn sprout(&mut self, mut base: Node, starts: &Starts) -> Node {
-        for round in 0..ROUNDS {
-            if self.spent(SPROUTS) {
-                break;
-            }
-            self.report(&base);
-            let mut visits = self.collect(&base, 0.1);
-            let wider = self.collect(&base, 0.3);
-            self.collect(&base, 0.8);
-            if round == 0 {
-                // Where the other trees go.
-                for other in starts.others.iter().chain([&starts.exact]) {
-                    if *other != base {
-                        add(&mut visits, self.collect(other, 0.1));
-                    }
-                }
-            }
-            add(&mut visits, wider);
-            let sight = if round % 2 == 0 {
-                Sight::Far
-            } else {
-                Sight::Learner
-            };
-            let bodies = bodies::bodies(self.ground, &self.evidence);
-            let aim = match round % 2 == 0 {
-                true => Aim::Of(&base),
-                false => Aim::Best,
-            };
-            let field = Field::new(self.ground, &self.evidence, sight, &visits, aim);
-            let mut trees: Vec<Node> = Vec::new();
-            for factor in [1.0, 3.0, 1.0 / 3.0] {
-                let proposer = Proposer {
-                    field: &field,
-                    bodies: &bodies,
-                    requirements: self.settings.requirements,
-                    price: self.price * factor,
-                };
-                let mut stems: Vec<Node> = single(&field, &bodies).into_iter().collect();
-                if Size::of(&base).nodes <= STEM {
-                    stems.push(base.clone());
-                }
-                for stem in stems {
-                    for tree in sprouts(&proposer, stem) {
-                        if !trees.contains(&tree) && tree != base {
-                            trees.push(tree);
-                        }
-                    }
-                }
-            }
-            base = self.best_of(base, trees, 1);
+    fn sprout(&mut self, base: Node, round: usize, starts: &Starts) -> (Node, Step) {
+        if round >= ROUNDS || self.spent(SPROUTS) {
+            return (base, Step::Climb(Climb::default()));
         }
-        base
+        self.report(&base);
+        let mut visits = self.collect(&base, 0.1);
+        let wider = self.collect(&base, 0.3);
+        self.collect(&base, 0.8);
+        if round == 0 {
+            // Where the other trees go.
+            for other in starts.others.iter().chain([&starts.exact]) {
+                if *other != base {
+                    add(&mut visits, self.collect(other, 0.1));
+                }
+            }
+        }
+        add(&mut visits, wider);
+        let sight = if round.is_multiple_of(2) {
+            Sight::Far
+        } else {
+            Sight::Learner
+        };
+        let bodies = bodies::bodies(self.ground, &self.evidence);
+        let aim = match round.is_multiple_of(2) {
+            true => Aim::Of(&base),
+            false => Aim::Best,
+        };
+        let field = Field::new(self.ground, &self.evidence, sight, &visits, aim);
+        let mut trees: Vec<Node> = Vec::new();
+        for factor in [1.0, 3.0, 1.0 / 3.0] {
+            let proposer = Proposer {
+                field: &field,
+                bodies: &bodies,
+                requirements: self.settings.requirements,
+                price: self.price * factor,
+            };
+            let mut stems: Vec<Node> = single(&field, &bodies).into_iter().collect();
+            if Size::of(&base).nodes <= STEM {
+                stems.push(base.clone());
+            }
+            for stem in stems {
+                for tree in sprouts(&proposer, stem) {
+                    if !trees.contains(&tree) && tree != base {
+                        trees.push(tree);
+                    }
+                }
+            }
+        }
+        (self.best_of(base, trees, 1), Step::Sprout(round + 1))
     }
 
-    /// One change after another, proposed by the counts and by chance, kept if a race says so.
-    fn climb(&mut self, mut base: Node) -> Node {
-        for (factor, only) in [(1.0, false), (0.5, false), (1.0, true)] {
-            let mut failures = 0;
-            let mut tried: FxHashSet<String> = FxHashSet::default();
-            while failures < FAILURES && !self.spent(1.0 - KEPT) {
-                self.report(&base);
-                let price = self.price * factor;
-                let trees = self.proposals(&base, price, only, &mut tried);
-                if trees.is_empty() {
-                    break;
-                }
-                match self.judge.race(&base, trees, price).0 {
-                    Some(found) => {
-                        base = self.pruned(&found.root.clone(), &found);
-                        self.visit(&base);
-                        tried.clear();
-                        failures = 0;
-                    }
-                    None => failures += 1,
-                }
+    /// One change, proposed by the counts and by chance, kept if a race says so.
+    fn climb(&mut self, base: Node, mut climb: Climb) -> (Node, Step) {
+        let Some((factor, only)) = CLIMBS.get(climb.stage) else {
+            return (base, Step::Refine(Refine::default()));
+        };
+        if climb.failures >= FAILURES || self.spent(1.0 - KEPT) {
+            return (base, Step::Climb(Climb::of(climb.stage + 1)));
+        }
+        self.report(&base);
+        let price = self.price * factor;
+        let trees = self.proposals(&base, price, *only, &mut climb.tried);
+        if trees.is_empty() {
+            return (base, Step::Climb(Climb::of(climb.stage + 1)));
+        }
+        match self.judge.race(&base, trees, price).0 {
+            Some(found) => (self.taken(found), Step::Climb(Climb::of(climb.stage))),
+            None => {
+                climb.failures += 1;
+                (base, Step::Climb(climb))
             }
         }
+    }
+
+    /// The tree that has won, pruned.
+    fn taken(&mut self, found: Entrant) -> Node {
+        let base = self.pruned(&found.root, &found);
+        self.visit(&base);
         base
     }
 
@@ -418,24 +477,25 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
     }
 
     /// Smaller trees that cost little, for the front.
-    fn refine(&mut self, mut base: Node) {
+    fn refine(&mut self, base: Node, mut refine: Refine) -> (Node, Step) {
         if !self.settings.front {
-            return;
+            return (base, Step::Done);
         }
-        for factor in DEARER {
-            let mut tried = FxHashSet::default();
-            while !self.spent(1.0) {
-                let trees = self.proposals(&base, self.price * factor, true, &mut tried);
-                let (found, _) = self.judge.race(&base, trees, self.price * factor);
-                let Some(found) = found else { break };
-                base = self.pruned(&found.root.clone(), &found);
-                self.visit(&base);
+        let Some(factor) = DEARER.get(refine.stage) else {
+            // However few nodes are asked for, there is a tree.
+            if let Some(single) = self.single.clone() {
+                self.visit(&single);
+            }
+            return (base, Step::Done);
+        };
+        if !self.spent(1.0) {
+            let price = self.price * factor;
+            let trees = self.proposals(&base, price, true, &mut refine.tried);
+            if let Some(found) = self.judge.race(&base, trees, price).0 {
+                return (self.taken(found), Step::Refine(refine));
             }
         }
-        // However few nodes are asked for, there is a tree.
-        if let Some(single) = self.single.clone() {
-            self.visit(&single);
-        }
+        (base, Step::Refine(Refine::of(refine.stage + 1)))
     }
 
     /// The tree without what it never showed in its episodes: it plays them alike.

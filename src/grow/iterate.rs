@@ -7,6 +7,7 @@
 
 use super::evidence::{Cell, Evidence, Sight};
 use super::ground::Ground;
+use crate::checkpoint::Part;
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::learn::episode::{Episode, play};
@@ -22,6 +23,7 @@ use crate::trial::paired::error;
 use crate::world::Start;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
+use serde::{Deserialize, Serialize};
 
 /// The decisions by which counts are doubted: so many more are supposed that go as badly as any in the minterm.
 const DOUBTS: [f64; 3] = [4.0, 15.0, 40.0];
@@ -108,6 +110,17 @@ pub struct Iteration<'g, 'w, W> {
     pub effort: u64,
 }
 
+/// Where the iteration stands between two rounds.
+#[derive(Serialize, Deserialize)]
+struct Halted {
+    choices: Choices,
+    evidence: Evidence,
+    random: Random,
+    ticks: u64,
+    failures: usize,
+    round: u64,
+}
+
 /// A policy with the episodes that it has played.
 struct Candidate {
     choices: Choices,
@@ -115,17 +128,29 @@ struct Candidate {
 }
 
 impl<W: World> Iteration<'_, '_, W> {
-    /// Improves a policy.
-    pub fn run(&self, decisions: &Decisions) -> Iterated {
+    /// Improves a policy, from where a run before was stopped.
+    pub fn run(&self, decisions: &Decisions, part: &Part) -> Iterated {
         let choices = decisions.iter();
-        let mut base = Candidate {
+        let halted = part.resume().unwrap_or_else(|| Halted {
             choices: choices.map(|(key, it)| (*key, it.choice)).collect(),
+            evidence: Evidence::new(self.ground),
+            random: Random::new(self.ground.seed, 1 << 42, 0),
+            ticks: 0,
+            failures: 0,
+            round: 0,
+        });
+        let Halted {
+            mut evidence,
+            mut random,
+            mut ticks,
+            mut failures,
+            mut round,
+            choices,
+        } = halted;
+        let mut base = Candidate {
+            choices,
             played: Vec::new(),
         };
-        let mut evidence = Evidence::new(self.ground);
-        let mut random = Random::new(self.ground.seed, 1 << 42, 0);
-        let (mut ticks, mut failures) = (0, 0);
-        let mut round = 0;
         while ticks < self.effort && failures < FAILURES {
             round += 1;
             if failures % STALE == 0 {
@@ -148,6 +173,14 @@ impl<W: World> Iteration<'_, '_, W> {
                 }
                 None => failures += 1,
             }
+            part.keep(|| Halted {
+                choices: base.choices.clone(),
+                evidence: evidence.clone(),
+                random: random.clone(),
+                ticks,
+                failures,
+                round,
+            });
         }
         Iterated {
             choices: base.choices,

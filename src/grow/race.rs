@@ -7,6 +7,7 @@ use crate::learn::simulated::Purpose;
 use crate::learn::statistics::Mean;
 use crate::tree::Size;
 use crate::trial::paired::{Contender, Trials, error};
+use serde::{Deserialize, Serialize};
 
 /// For each stage, the episodes up to which its trees play, and the most that stay after it.
 const STAGES: [(usize, usize); 4] = [(2, 14), (8, 6), (24, 3), (64, 2)];
@@ -32,19 +33,26 @@ pub struct Entrant {
     pub contender: Contender,
 }
 
+/// What a judge has seen so far.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub struct Seen {
+    /// Ticks simulated.
+    pub ticks: u64,
+    /// Races held.
+    races: u64,
+    /// Whether harm was met in any episode.
+    harmed: bool,
+    /// The mean length of an episode.
+    length: u64,
+}
+
 /// The judge of races.
 #[derive(Debug)]
 pub struct Judge<'g, 'w, W> {
     /// Where races are held.
     pub ground: &'g Ground<'w, W>,
-    /// Ticks simulated so far.
-    pub ticks: u64,
-    /// Races held so far.
-    races: u64,
-    /// Whether harm was met in any episode.
-    harmed: bool,
-    /// The mean length of an episode so far.
-    length: u64,
+    /// What was seen so far.
+    pub seen: Seen,
 }
 
 impl<'g, 'w, W: World> Judge<'g, 'w, W> {
@@ -52,17 +60,19 @@ impl<'g, 'w, W: World> Judge<'g, 'w, W> {
     pub fn new(ground: &'g Ground<'w, W>) -> Self {
         Self {
             ground,
-            ticks: 0,
-            races: 0,
-            harmed: false,
-            length: ground.start.limit,
+            seen: Seen {
+                ticks: 0,
+                races: 0,
+                harmed: false,
+                length: ground.start.limit,
+            },
         }
     }
 
     /// A number that no race had.
     pub fn fresh(&mut self) -> u64 {
-        self.races += 1;
-        self.races
+        self.seen.races += 1;
+        self.seen.races
     }
 
     /// A tree that has not played; `None` if it asks what the world does not know.
@@ -76,7 +86,7 @@ impl<'g, 'w, W: World> Judge<'g, 'w, W> {
 
     /// The episodes of a stage: more where they are short.
     pub fn scaled(&self, episodes: usize) -> usize {
-        let factor = LENGTH.div_ceil(self.length.max(1)).clamp(1, 8);
+        let factor = LENGTH.div_ceil(self.seen.length.max(1)).clamp(1, 8);
         episodes * factor as usize
     }
 
@@ -91,11 +101,12 @@ impl<'g, 'w, W: World> Judge<'g, 'w, W> {
         let contenders = entrants.iter_mut().map(|entrant| &mut entrant.contender);
         let mut contenders: Vec<&mut Contender> = contenders.collect();
         let known = known.map(|known| &known.contender);
-        self.ticks += trials.play(&mut contenders, episodes, known);
+        self.seen.ticks += trials.play(&mut contenders, episodes, known);
         let first = entrants.first().map(|entrant| entrant.contender.length());
-        self.length = first.filter(|length| *length > 0).unwrap_or(self.length);
+        let first = first.filter(|length| *length > 0);
+        self.seen.length = first.unwrap_or(self.seen.length);
         let harmed = entrants.iter().any(|entrant| self.harms(entrant) > 0);
-        self.harmed = self.harmed || harmed;
+        self.seen.harmed = self.seen.harmed || harmed;
     }
 
     /// What went wrong in a tree's episodes.
@@ -179,7 +190,7 @@ impl<'g, 'w, W: World> Judge<'g, 'w, W> {
         let ready = trees.iter().filter_map(|root| self.entrant(&trials, root));
         let mut entrants: Vec<Entrant> = ready.collect();
         let mut stages = STAGES.to_vec();
-        if self.harmed {
+        if self.seen.harmed {
             stages.push((RARE, 2));
         }
         for (episodes, stay) in stages {

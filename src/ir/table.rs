@@ -1,11 +1,14 @@
 //! Vectors that are indexed by ids of their own.
 
+use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::hash::{Hash, Hasher};
 use std::marker::PhantomData;
 use std::ops::{Index, IndexMut};
 
 /// The index of a `T` in the [`Table`] that made it.
+#[derive(Serialize, Deserialize)]
+#[serde(bound = "")]
 pub struct Id<T>(u32, PhantomData<fn() -> T>);
 
 impl<T> Id<T> {

@@ -7,6 +7,7 @@ use super::program::{Event, Predicate, State};
 use super::table::Id;
 use super::tree::{Status, Tree};
 use super::world::Robot;
+use serde::{Deserialize, Serialize};
 
 /// What is worth doing, and when an episode starts and ends.
 #[derive(Clone, Debug, PartialEq)]
@@ -197,7 +198,7 @@ pub enum Objective {
 }
 
 /// How future reward counts.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Discount {
     /// This factor a decision.
     PerDecision(f64),

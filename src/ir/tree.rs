@@ -5,6 +5,7 @@ use super::name::Name;
 use super::program::Predicate;
 use super::table::Id;
 use super::task::Task;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// A named tree.
@@ -33,7 +34,7 @@ impl Tree {
 }
 
 /// What a guard can ask: a predicate, or what the history window says of a behaviour.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Atom {
     /// An observed predicate.
     Predicate(Id<Predicate>),
@@ -60,7 +61,7 @@ impl Atom {
 }
 
 /// A boolean formula over atoms.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Guard {
     /// Always, or never.
     Const(bool),
@@ -88,7 +89,7 @@ impl Guard {
 }
 
 /// What a node of a tree, or a behaviour, answers to a tick.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Status {
     /// It has reached its goal.
     Success,
@@ -112,7 +113,7 @@ impl Status {
 /// A node.
 ///
 /// `guard => node` is a reactive sequence of a condition and the node: there is no node of its own for it.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Node {
     /// Answers at once.
     Condition(Guard),
@@ -144,7 +145,7 @@ pub enum Node {
 }
 
 /// The two composites.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Composite {
     /// Tries its children until one does not fail.
     Selector,
@@ -165,7 +166,7 @@ impl Composite {
 }
 
 /// The decorators.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Decorator {
     /// Exchanges success and failure.
     Invert,

@@ -2,9 +2,10 @@
 
 use super::bootstrap::{interquartile_mean, interval95};
 use super::statistics::Mean;
+use serde::{Deserialize, Serialize};
 
 /// One point of the curve.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Point {
     /// Episodes learned from so far.
     pub episodes: u64,

@@ -1,9 +1,10 @@
 //! The discount of what follows a decision that took its time.
 
 use crate::ir::task::Discount;
+use serde::{Deserialize, Serialize};
 
 /// A discount in a world of a given tick.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Discounting {
     /// How future reward counts.
     pub discount: Discount,

@@ -5,6 +5,7 @@ use super::method::{Decision, Method, Settings};
 use super::process::Key;
 use super::q_table::{Admission, QTable};
 use super::schedule::Schedule;
+use crate::checkpoint::{decode, encode};
 use crate::random::Random;
 
 /// Q_A(s, a) ← Q_A(s, a) + α [r + γ Q_B(s′, argmax Q_A(s′, ·)) − Q_A(s, a)], or with A and B exchanged, by the toss of a
@@ -76,5 +77,14 @@ impl Method for DoubleQ<'_> {
             mean.q = q;
             mean.squares += target * target;
         }
+    }
+
+    fn state(&self) -> Vec<u8> {
+        encode(&(&self.tables, &self.mean, &self.coin)).unwrap_or_default()
+    }
+
+    fn restore(&mut self, state: &[u8]) -> bool {
+        let found = decode(state).map(|state| (self.tables, self.mean, self.coin) = state);
+        found.is_some()
     }
 }

@@ -1,9 +1,10 @@
 //! Which of several policies is the best: by simulation, on episodes that none of them was learned from.
 
-use super::experiment::{Experiment, Run};
+use super::experiment::Experiment;
 use super::extract::{self, Decided, Decisions};
 use super::process::{Key, World};
 use super::q_table::QTable;
+use super::run::Run;
 use super::simulated::Purpose;
 use super::statistics::Summary;
 

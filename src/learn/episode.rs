@@ -3,6 +3,7 @@
 use super::process::{Earned, Process};
 use crate::world::{End, Start};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// What decides in each tick what a robot does.
 pub trait Controller {
@@ -19,7 +20,7 @@ pub trait Controller {
 }
 
 /// The figures of an episode.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Episode {
     /// Its length.
     pub ticks: u64,

@@ -1,42 +1,17 @@
 //! A learner with the world that it learns in: what trains policies and measures them.
 
 use super::average;
-use super::curve::{self, Point};
 use super::discount::Discounting;
-use super::extract::{self, Decided, Decisions};
+use super::extract::{Decided, Decisions};
 use super::greedy;
-use super::method::{self, Settings};
 use super::process::World;
-use super::q_table::QTable;
-use super::record::Record;
 use super::rollout::{Frozen, RollOut, roll_out};
-use super::schedule::Schedule;
 use super::simulated::Purpose;
-use super::statistics::{Mean, Summary};
-use super::train::{Counts, Course, train};
+use super::statistics::Summary;
 use crate::ir::program::Event;
 use crate::ir::task::{ClaimKind, Learner, Objective, Task, TreeRef};
 use crate::ir::{Id, Program};
-use crate::world::{BuildError, End, Simulator, Start};
-use rayon::prelude::*;
-use std::sync::{Mutex, PoisonError};
-
-/// One run of learning.
-#[derive(Clone, Debug)]
-pub struct Run {
-    /// Its seed.
-    pub seed: u64,
-    /// The action values, with their evidence.
-    pub table: QTable,
-    /// The policy.
-    pub decisions: Decisions,
-    /// How much was simulated.
-    pub counts: Counts,
-    /// What was met in training.
-    pub record: Record,
-    /// The learning curve.
-    pub points: Vec<Point>,
-}
+use crate::world::{BuildError, Simulator, Start};
 
 /// A learner with the world that it learns in.
 #[derive(Clone, Debug)]
@@ -58,7 +33,7 @@ pub struct Experiment<'a, W = Simulator> {
 }
 
 /// The learner's start lines, in the simulator's lists.
-const EXPLORING: usize = 0;
+pub(super) const EXPLORING: usize = 0;
 
 /// The task's start lines.
 const OWN: usize = 1;
@@ -135,7 +110,7 @@ impl<'a, W> Experiment<'a, W> {
         }
     }
 
-    fn frozen<'p>(&'p self, decisions: &'p Decisions) -> Frozen<'p> {
+    pub(super) fn frozen<'p>(&'p self, decisions: &'p Decisions) -> Frozen<'p> {
         let unseen = greedy::unseen(self.program, self.learner.task);
         let choice = self.task.choose.iter().position(|&choice| choice == unseen);
         Frozen {
@@ -166,101 +141,6 @@ impl<'a, W> Experiment<'a, W> {
 }
 
 impl<W: World> Experiment<'_, W> {
-    /// Learns with `count` seeds from `seed` on, on all threads. `episode` is called after each episode of any run.
-    pub fn learn_all(&self, seed: u64, count: u64, episode: impl Fn() + Sync) -> Vec<Run> {
-        let seeds = seed..seed.saturating_add(count);
-        seeds
-            .into_par_iter()
-            .map(|seed| self.learn(seed, &episode))
-            .collect()
-    }
-
-    /// Learns with one seed. Of a method that proposes a policy in each round, the best by validation is taken.
-    pub fn learn(&self, seed: u64, episode: impl FnMut()) -> Run {
-        let pool = &self.program.pool;
-        let learner = self.learner;
-        let choices = self.task.choose.len();
-        let mut method = method::of(
-            learner.method,
-            &Settings {
-                choices,
-                initial: learner.initial,
-                rate: Schedule::new(pool, learner.rate),
-                average: matches!(learner.objective, Objective::Average(_)),
-                seed,
-            },
-        );
-        let course = Course {
-            choices: &self.task.choose,
-            patience: self.task.patience,
-            start: Start {
-                lines: EXPLORING,
-                ..Purpose::Learn.start(seed, learner.episode_ticks)
-            },
-            episodes: self.episodes,
-            explore: Schedule::new(pool, learner.explore),
-            discounting: self.discounting(),
-            dwell: learner.dwell,
-            seed,
-        };
-        let mut process = self.world.process();
-        let proposes = method.proposes();
-        // Rounds are measured on other threads while learning goes on.
-        let measured: Mutex<Vec<(Point, Option<QTable>)>> = Mutex::default();
-        let (counts, record) = rayon::in_place_scope(|scope| {
-            let measured = &measured;
-            let round = |table: &QTable, counts: &Counts| {
-                let (table, counts) = (table.clone(), *counts);
-                scope.spawn(move |_| {
-                    let point = self.point(&table, &counts, seed);
-                    let mut measured = measured.lock().unwrap_or_else(PoisonError::into_inner);
-                    measured.push((point, proposes.then_some(table)));
-                });
-            };
-            train(&mut process, method.as_mut(), &course, round, episode)
-        });
-        let mut measured = measured
-            .into_inner()
-            .unwrap_or_else(PoisonError::into_inner);
-        measured.sort_by_key(|(point, _)| point.episodes);
-        let proposed = |(point, table): &mut (Point, Option<QTable>)| {
-            table.take().map(|table| (point.total.mean, table))
-        };
-        let proposals = measured.iter_mut().filter_map(proposed).collect();
-        let points = measured.into_iter().map(|(point, _)| point).collect();
-        let elected = self.elect_proposal(proposals, seed);
-        let (decisions, table) = elected.unwrap_or_else(|| {
-            let table = method.table();
-            (extract::greedy(table, self.evidence), table.clone())
-        });
-        Run {
-            seed,
-            decisions,
-            table,
-            counts,
-            record,
-            points,
-        }
-    }
-
-    /// A point of the curve, measured on episodes of its own.
-    fn point(&self, table: &QTable, counts: &Counts, seed: u64) -> Point {
-        let decisions = extract::greedy(table, self.evidence);
-        let start = self.measured(Purpose::Curve, seed);
-        let policy = self.frozen(&decisions);
-        let met = roll_out(curve::EPISODES, &policy, start, || self.world.process());
-        let ended = met.episodes.iter().filter(|e| e.end != End::Cut);
-        let totals: Vec<f64> = met.episodes.iter().map(|e| e.total).collect();
-        Point {
-            episodes: counts.episodes,
-            decisions: counts.decisions,
-            ticks: counts.ticks,
-            minterms: decisions.len(),
-            total: Mean::of(&totals),
-            ended: ended.count() as u64,
-        }
-    }
-
     /// Plays a policy from the task's own starts: what it met, and the figures of its episodes.
     pub fn roll_out(
         &self,

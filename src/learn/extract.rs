@@ -7,9 +7,10 @@ use crate::ir::task::Task;
 use crate::ir::tree::Atom;
 use crate::policy::{Minterm, Policy, Row, Transition, Value};
 use rustc_hash::FxHashMap;
+use serde::{Deserialize, Serialize};
 
 /// The decision in a minterm.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Decided {
     /// The number of the behaviour among those of the task.
     pub choice: usize,

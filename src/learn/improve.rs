@@ -15,6 +15,7 @@ use crate::ir::law::Behavior;
 use crate::world::Start;
 use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
+use serde::{Deserialize, Serialize};
 
 /// Episodes that show where the policy goes.
 const SHOWN: u64 = 60;
@@ -51,7 +52,7 @@ pub struct Improver<'w, W, H> {
 }
 
 /// What came of it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Improved {
     /// The decisions that were changed.
     pub changed: usize,

@@ -36,6 +36,12 @@ pub trait Method {
     fn proposes(&self) -> bool {
         false
     }
+
+    /// All that was learned, for [`Method::restore`].
+    fn state(&self) -> Vec<u8>;
+
+    /// Takes over what another of its kind has learned; whether that could be read.
+    fn restore(&mut self, state: &[u8]) -> bool;
 }
 
 /// A decision with its outcome.

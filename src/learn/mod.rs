@@ -26,6 +26,7 @@ pub mod q_table;
 pub mod rate;
 pub mod record;
 pub mod rollout;
+pub mod run;
 pub mod schedule;
 pub mod simulated;
 pub mod solve;

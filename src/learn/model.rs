@@ -10,9 +10,11 @@ use super::method::{Decision, Method, Settings};
 use super::process::Key;
 use super::q_table::{Admission, QTable};
 use super::solve::{Outlook, Problem};
+use crate::checkpoint::{decode, encode};
+use serde::{Deserialize, Serialize};
 
 /// The transitions seen of one choice in one minterm; the counts are real because they fade.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Seen {
     count: f64,
     /// The sums of rewards, of ticks, and of the factors on what follows, by the row that was found.
@@ -157,5 +159,15 @@ impl Method for Model {
 
     fn proposes(&self) -> bool {
         true
+    }
+
+    fn state(&self) -> Vec<u8> {
+        encode(&(&self.table, &self.seen, &self.policy, &self.starts)).unwrap_or_default()
+    }
+
+    fn restore(&mut self, state: &[u8]) -> bool {
+        let found =
+            decode(state).map(|state| (self.table, self.seen, self.policy, self.starts) = state);
+        found.is_some()
     }
 }

@@ -4,6 +4,7 @@ use super::method::{Decision, Method, Settings};
 use super::process::Key;
 use super::q_table::{Admission, QTable};
 use super::schedule::Schedule;
+use crate::checkpoint::{decode, encode};
 
 /// Q(s, a) ← Q(s, a) + α [r + γ max Q(s′, ·) − Q(s, a)]
 #[derive(Clone, Debug)]
@@ -43,5 +44,13 @@ impl Method for QLearning<'_> {
             cell.q += rate * (target - cell.q);
             cell.squares += target * target;
         }
+    }
+
+    fn state(&self) -> Vec<u8> {
+        encode(&self.table).unwrap_or_default()
+    }
+
+    fn restore(&mut self, state: &[u8]) -> bool {
+        decode(state).map(|table| self.table = table).is_some()
     }
 }

@@ -2,9 +2,10 @@
 
 use super::process::Key;
 use rustc_hash::FxHashMap;
+use serde::{Deserialize, Serialize};
 
 /// The evidence for one behaviour in one minterm.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Cell {
     /// The decisions that its value rests on, see [`QTable::admits`].
     pub visits: u64,
@@ -28,7 +29,7 @@ pub enum Admission {
 }
 
 /// Q(minterm, choice).
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct QTable {
     /// The average reward a tick that the values are relative to; 0 for discounted ones.
     pub gain: f64,

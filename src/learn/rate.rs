@@ -2,12 +2,13 @@
 
 use super::poisson::interval95;
 use super::statistics::{Mean, Z};
+use serde::{Deserialize, Serialize};
 
 /// Counts below this are too few for the normal approximation alone.
 const FEW: u64 = 20;
 
 /// The rate of an event, pooled over the ticks of all episodes.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Rate {
     /// How often the event happened.
     pub count: u64,

@@ -2,9 +2,10 @@
 
 use super::process::{End, Step};
 use crate::ir::tree::Status;
+use serde::{Deserialize, Serialize};
 
 /// What was met in training.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Record {
     /// For each choice, the decisions for it.
     pub tried: Vec<Tried>,
@@ -19,7 +20,7 @@ pub struct Record {
 }
 
 /// The decisions for a choice.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Tried {
     /// How many there were.
     pub count: u64,

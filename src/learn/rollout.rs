@@ -9,6 +9,7 @@ use crate::ir::law::Behavior;
 use crate::ir::tree::Status;
 use crate::world::{self, Start};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// A policy to roll out.
@@ -30,7 +31,7 @@ pub struct Frozen<'p> {
 pub type Taken = (Key, usize, Status, Option<Key>);
 
 /// The value of an episode at its start.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Worth {
     /// The minterm there.
     pub start: Key,
@@ -43,7 +44,7 @@ pub struct Worth {
 }
 
 /// What decisions in one minterm led to that found the same minterm after them, or ended their episodes.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Outcome {
     /// How many there were.
     pub count: u64,
@@ -65,7 +66,7 @@ impl Outcome {
 }
 
 /// What a policy met, with counts.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RollOut {
     /// The minterms in which episodes started.
     pub starts: BTreeMap<Key, u64>,

@@ -1,9 +1,10 @@
 //! Finite semi-Markov decision problems, solved exactly (Howard 1960; Puterman 1994, chapters 6 and 11).
 
 use nalgebra::{DMatrix, DVector};
+use serde::{Deserialize, Serialize};
 
 /// What a choice is expected to bring.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Outlook {
     /// The expected reward.
     pub reward: f64,

@@ -3,13 +3,13 @@
 use super::episode::Episode;
 use super::rate::Rate;
 use crate::world::End;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The 97.5 % point of the standard normal distribution.
 pub(super) const Z: f64 = 1.959_963_984_540_054;
 
 /// A mean with its 95 % interval (normal approximation: mean ± 1.96 s/√n).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Mean {
     /// The mean.
     pub mean: f64,
@@ -39,7 +39,7 @@ impl Mean {
 }
 
 /// The figures of several episodes.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
     /// The number of episodes.
     pub episodes: u64,

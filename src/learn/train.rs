@@ -11,7 +11,7 @@ use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::random::Random;
 use crate::world::Start;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The settings of training that hold for every method.
 #[derive(Clone, Copy, Debug)]
@@ -30,12 +30,10 @@ pub struct Course<'a> {
     pub discounting: Discounting,
     /// The least ticks for which a choice is kept.
     pub dwell: u64,
-    /// The seed of the exploration.
-    pub seed: u64,
 }
 
 /// How much was simulated so far.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Counts {
     /// Episodes begun.
     pub episodes: u64,
@@ -50,35 +48,53 @@ pub struct Counts {
 /// The stream of the exploration's random numbers, apart from those of the world.
 const EXPLORATION: u64 = u64::MAX;
 
-/// Learns. [`curve::due`] cuts the episodes into rounds; after each the method refits, and `round` gets its table.
-/// `progress` is called after every episode.
+/// How far training has come, beside what the method has learned.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Trained {
+    /// How much was simulated.
+    pub counts: Counts,
+    /// What was met.
+    pub record: Record,
+    /// The random numbers of the exploration.
+    random: Random,
+}
+
+impl Trained {
+    /// Not begun.
+    pub fn new(seed: u64) -> Self {
+        Self {
+            counts: Counts::default(),
+            record: Record::default(),
+            random: Random::new(seed, EXPLORATION, 0),
+        }
+    }
+}
+
+/// Learns, from where training stands. [`curve::due`] cuts the episodes into rounds; after each the method refits, and
+/// `round` gets its table. `after` is called after every episode.
 pub fn train(
     process: &mut impl Process,
     method: &mut dyn Method,
     course: &Course,
+    trained: &mut Trained,
     mut round: impl FnMut(&QTable, &Counts),
-    mut progress: impl FnMut(),
-) -> (Counts, Record) {
-    let mut counts = Counts::default();
-    let mut record = Record::default();
-    let mut random = Random::new(course.seed, EXPLORATION, 0);
-    for episode in 0..course.episodes {
+    mut after: impl FnMut(&dyn Method, &Trained),
+) {
+    for episode in trained.counts.episodes..course.episodes {
         let share = episode as f64 / course.episodes as f64;
         process.start(Start {
             episode,
             ..course.start
         });
-        counts.episodes += 1;
-        let met = (&mut counts, &mut record);
-        play(process, method, course, share, &mut random, met);
-        record.episode(process.events());
+        trained.counts.episodes += 1;
+        play(process, method, course, share, trained);
+        trained.record.episode(process.events());
         if curve::due(episode, course.episodes) {
             method.refit();
-            round(method.table(), &counts);
+            round(method.table(), &trained.counts);
         }
-        progress();
+        after(method, trained);
     }
-    (counts, record)
 }
 
 /// Plays the episode that has started.
@@ -87,9 +103,13 @@ fn play(
     method: &mut dyn Method,
     course: &Course,
     progress: f64,
-    random: &mut Random,
-    (counts, record): (&mut Counts, &mut Record),
+    trained: &mut Trained,
 ) {
+    let Trained {
+        counts,
+        record,
+        random,
+    } = trained;
     let mut row = method.row(process.key());
     method.begin(row);
     loop {

@@ -3,9 +3,10 @@
 use crate::grow::Grown;
 use crate::learn::agreement::Agreement;
 use crate::learn::curve::Point;
-use crate::learn::experiment::{Experiment, Run};
+use crate::learn::experiment::Experiment;
 use crate::learn::improve::Improved;
 use crate::learn::rollout::RollOut;
+use crate::learn::run::Run;
 use crate::learn::statistics::Summary;
 use crate::policy::{Minterm, Policy};
 use crate::tree::Size;

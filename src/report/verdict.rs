@@ -4,7 +4,7 @@ use super::words;
 use crate::ir::law::Behavior;
 use crate::ir::task::History;
 use crate::ir::{Id, Name, Program};
-use crate::tree::equivalence::{Environment, Trace, Verdict};
+use crate::tree::equivalence::{Environment, Means, Trace, Verdict};
 use std::fmt::Display;
 
 /// What a proof or a test says.
@@ -79,10 +79,22 @@ pub fn text(
             let along = format!("in an environment consistent with {window}");
             difference(program, (left, right), &along, trace)
         }
-        (Verdict::Undecided(explored), _) => format!(
-            "undecided: `{left}` and `{right}` agree on the {} states explored, and there are more",
-            explored.states
-        ),
+        (Verdict::Undecided(explored), greedy) => {
+            let settles = match greedy {
+                Some(_) => "fewer transitions would settle it",
+                None => {
+                    "`use` of recorded transitions, or less memory in the trees, would settle it"
+                }
+            };
+            let explored = match explored.means {
+                Means::Solver { atoms } => format!("are one hard question over {atoms} atoms"),
+                _ => format!(
+                    "agree on the {} states explored, and there are more",
+                    explored.states
+                ),
+            };
+            format!("undecided: `{left}` and `{right}` {explored}; {settles}")
+        }
     }
 }
 

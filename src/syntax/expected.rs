@@ -123,6 +123,7 @@ fn name(rule: Rule) -> Option<(Rank, &'static str)> {
         Rule::range_to => (More, "`..`"),
         Rule::link => (More, "`of`, `per` or `->`"),
         Rule::string => (Part, "a path in quotes"),
+        Rule::pin => (More, "`sha256:` with 64 hexadecimal digits"),
         Rule::name | Rule::learner_name | Rule::family => (Part, "a name"),
         Rule::field | Rule::setting | Rule::named => (Part, "a name"),
         Rule::params | Rule::typed_params => (More, "parameters"),

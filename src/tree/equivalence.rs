@@ -51,6 +51,8 @@ pub enum Means {
         /// How many there are.
         atoms: usize,
     },
+    /// The two are the same tree.
+    Identity,
     /// Neither side has memory: by a SAT solver.
     Solver {
         /// How many there are.
@@ -83,6 +85,7 @@ impl Explored {
     pub fn means_text(&self) -> String {
         match self.means {
             Means::Paths => format!("{} states explored", self.states),
+            Means::Identity => "they are the same tree".to_owned(),
             Means::Table { atoms: 0 } => "both reduce to the same circuit".to_owned(),
             Means::Table { atoms } => format!("by a truth table over {atoms} predicates"),
             Means::Solver { atoms } => format!("by a SAT solver over {atoms} predicates"),
@@ -142,6 +145,12 @@ impl std::error::Error for Unknown {}
 /// An atom that a tree asks and the environment's table does not have.
 pub fn compare(left: Side, right: Side, environment: Environment) -> Result<Verdict, Unknown> {
     match (left, right, environment) {
+        (Side::Tree(left), Side::Tree(right), Environment::Any(_)) if left == right => {
+            Ok(Verdict::Equal(Explored {
+                means: Means::Identity,
+                ..Explored::default()
+            }))
+        }
         (Side::Tree(left), Side::Tree(right), Environment::Any(history)) => {
             symbolic::explore(left, right, history)
         }

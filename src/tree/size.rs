@@ -3,12 +3,14 @@
 use super::drawing::{Drawing, Shape};
 use super::guard::View;
 use crate::ir::tree::{Composite, Guard, Node};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::iter::Sum;
 use std::ops::Add;
 
 /// The size of a tree as it is drawn; smaller ones come first: by nodes, then literals, then depth.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize,
+)]
 pub struct Size {
     /// Composites, decorators, behaviour leaves, literals in guards, and the composites that join literals.
     pub nodes: usize,

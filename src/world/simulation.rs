@@ -16,9 +16,10 @@ use crate::ir::expr;
 use crate::ir::law::Behavior;
 use crate::ir::program::{Event, State};
 use crate::ir::tree::Status;
+use serde::{Deserialize, Serialize};
 
 /// Why an episode ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum End {
     /// This line of the task's `end on`, counted from zero.
     On(usize),

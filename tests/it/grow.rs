@@ -1,6 +1,7 @@
 //! Trees that grow: the moves, and the search that simulation judges.
 
 use crate::program::NoFiles;
+use btc::checkpoint::Forgetful;
 use btc::driver::load::{self, Loaded};
 use btc::driver::target;
 use btc::emit;
@@ -44,7 +45,7 @@ fn grown(tree: &str, choice: Choice) -> (Loaded, Grown) {
         choice,
         front: choice != Choice::Knee,
     };
-    let found = grow::grow(&ground, &starts, &settings, &|_| {}).unwrap();
+    let found = grow::grow(&ground, &starts, &settings, &Forgetful, &|_| {}).unwrap();
     (loaded, found)
 }
 

@@ -1,10 +1,11 @@
 //! Diagnostics for a person at a terminal.
 
+use super::excerpt::Excerpt;
 use super::visible::{in_place, visible};
 use crate::diagnostic::{Diagnostic, Fix, Severity};
 use crate::source::Sources;
 use codespan_reporting::diagnostic as report;
-use codespan_reporting::files::{Error, Files};
+use codespan_reporting::files::{Error, Files, column_index};
 use codespan_reporting::term::{self, Config, termcolor};
 use std::borrow::Cow;
 use std::ops::Range;
@@ -21,23 +22,42 @@ pub fn human(sources: &Sources, diagnostics: &[Diagnostic], color: bool) -> Stri
         tab_width: 4,
         ..Config::default()
     };
-    let files = SourceFiles {
-        sources,
-        texts: sources
-            .iter()
-            .map(|(_, source)| in_place(&source.text))
-            .collect(),
-        names: sources
-            .iter()
-            .map(|(_, source)| visible(&source.name))
-            .collect(),
-    };
-    for diagnostic in diagnostics {
+    let files = SourceFiles::of(sources);
+    for diagnostic in diagnostics.iter().take(SHOWN) {
         // Writing into memory does not fail, and a place outside its file shows no line.
-        let _ =
-            term::emit_to_write_style(&mut buffer, &config, &files, &reported(sources, diagnostic));
+        let _ = match Excerpt::of(sources, diagnostic) {
+            None => {
+                let report = reported(sources, diagnostic);
+                term::emit_to_write_style(&mut buffer, &config, &files, &report)
+            }
+            Some(excerpt) => {
+                let mut files = SourceFiles::of(&excerpt.sources);
+                files.cut = Some((&excerpt, sources));
+                let report = reported(&excerpt.sources, &excerpt.diagnostic);
+                term::emit_to_write_style(&mut buffer, &config, &files, &report)
+            }
+        };
     }
-    String::from_utf8_lossy(buffer.as_slice()).into_owned()
+    let mut text = String::from_utf8_lossy(buffer.as_slice()).into_owned();
+    if let more @ 1.. = diagnostics.len().saturating_sub(SHOWN) {
+        text.push_str(&format!("… and {more} more, which are not shown\n\n"));
+    }
+    text
+}
+
+/// The most diagnostics that are shown.
+const SHOWN: usize = 100;
+
+/// The most characters of a message.
+const MESSAGE: usize = 600;
+
+/// A message that can be read, however long the names in it are.
+fn told(message: &str) -> String {
+    let message = visible(message);
+    match message.char_indices().nth(MESSAGE) {
+        None => message.into_owned(),
+        Some((end, _)) => format!("{}…", message.get(..end).unwrap_or_default()),
+    }
 }
 
 fn reported(sources: &Sources, diagnostic: &Diagnostic) -> report::Diagnostic<usize> {
@@ -57,7 +77,7 @@ fn reported(sources: &Sources, diagnostic: &Diagnostic) -> report::Diagnostic<us
                 report::LabelStyle::Secondary
             };
             report::Label::new(style, label.span.file.0 as usize, label.span.range())
-                .with_message(visible(&label.message))
+                .with_message(told(&label.message))
         })
         .collect();
     let notes = diagnostic.notes.iter().map(|note| format!("note: {note}"));
@@ -72,13 +92,13 @@ fn reported(sources: &Sources, diagnostic: &Diagnostic) -> report::Diagnostic<us
         .filter_map(|fix| offered(sources, fix, said));
     report::Diagnostic::new(severity)
         .with_code(diagnostic.code)
-        .with_message(visible(&diagnostic.message))
+        .with_message(told(&diagnostic.message))
         .with_labels(labels)
         .with_notes(
             notes
                 .chain(help)
                 .chain(fixes)
-                .map(|note| visible(&note).into_owned())
+                .map(|note| told(&note))
                 .collect(),
         )
 }
@@ -141,6 +161,20 @@ struct SourceFiles<'a> {
     texts: Vec<Cow<'a, str>>,
     /// What each is called.
     names: Vec<Cow<'a, str>>,
+    /// What was cut from them, with the sources as they were.
+    cut: Option<(&'a Excerpt, &'a Sources)>,
+}
+
+impl<'a> SourceFiles<'a> {
+    fn of(sources: &'a Sources) -> Self {
+        let all = || sources.iter().map(|(_, source)| source);
+        Self {
+            sources,
+            texts: all().map(|source| in_place(&source.text)).collect(),
+            names: all().map(|source| visible(&source.name)).collect(),
+            cut: None,
+        }
+    }
 }
 
 impl SourceFiles<'_> {
@@ -175,6 +209,13 @@ impl<'a> Files<'a> for SourceFiles<'a> {
     fn line_index(&'a self, id: usize, offset: usize) -> Result<usize, Error> {
         let offset = u32::try_from(offset).unwrap_or(u32::MAX);
         Ok(SourceFiles::source(self, id)?.line(offset).0)
+    }
+
+    fn column_number(&'a self, id: usize, line: usize, offset: usize) -> Result<usize, Error> {
+        let source = Files::source(self, id)?;
+        let range = self.line_range(id, line)?;
+        let missing = self.cut.map_or(0, |(cut, all)| cut.missing(all, id, line));
+        Ok(column_index(source, range, offset) + 1 + missing)
     }
 
     fn line_range(&'a self, id: usize, line: usize) -> Result<Range<usize>, Error> {

@@ -18,6 +18,11 @@ pub fn visible(text: &str) -> Cow<'_, str> {
     Cow::Owned(shown)
 }
 
+/// The characters that would, each with its place.
+pub fn hidden(text: &str) -> impl Iterator<Item = (usize, char)> {
+    text.char_indices().filter(|(_, letter)| is_hidden(*letter))
+}
+
 /// The text with a stand-in of the same length in bytes for each such character, so that places stay what they are.
 pub(super) fn in_place(text: &str) -> Cow<'_, str> {
     if !text.contains(is_hidden) {

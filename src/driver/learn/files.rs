@@ -2,6 +2,7 @@
 
 use super::{Learned, Options, warnings};
 use crate::driver::Refused;
+use crate::driver::digest::sha256;
 use crate::driver::export;
 use crate::driver::load::Loaded;
 use crate::driver::target;
@@ -13,7 +14,6 @@ use crate::ir::{Id, Name};
 use crate::policy::{decisions, evidence, transitions};
 use crate::report::results::Results;
 use crate::report::{self, curve, grown, metrics};
-use sha2::{Digest, Sha256};
 
 /// The tree as an item, the files, and the report.
 ///
@@ -36,10 +36,12 @@ pub(super) fn written(
         task: Some(learner.task),
         root: root.clone(),
     };
+    let table = transitions::write(&results.policy, program);
     let mut text = format!(
         "//! Written by `btc learn`. The table is what the greedy policy met; proofs go along its paths.\n\
-         use \"{}\"\nuse \"transitions.csv\"\n\n",
-        options.source
+         use \"{}\"\nuse \"transitions.csv\" sha256:{}\n\n",
+        options.source,
+        sha256(table.as_bytes())
     );
     let mut docs = vec![results.origin(file)];
     let mut root = exact;
@@ -57,9 +59,19 @@ pub(super) fn written(
     let curves = results.curves();
     let warnings = warnings::warnings(loaded, &results);
     let policy = &results.policy;
+    // A robot that loads several trees tells them apart by their names.
+    let stem = file.strip_suffix(".bt").unwrap_or(file);
+    let exported = Tree {
+        name: Name::word(format!("{stem}_{}", learner.name.family)),
+        ..learned.clone()
+    };
     let written = |form| {
         let place = |_: &[usize]| target::end_of_file(loaded);
-        export::tree(program, &learned, form, place)
+        let tree = match form {
+            TreeForm::BtCpp | TreeForm::PyTrees => &exported,
+            _ => &learned,
+        };
+        export::tree(program, tree, form, place)
             .map_err(|mistake| Refused::program(loaded, [mistake]))
     };
     let told: Vec<(String, String)> = warnings
@@ -81,7 +93,7 @@ pub(super) fn written(
         ("learned.xml", written(TreeForm::BtCpp)?),
         ("learned.py", written(TreeForm::PyTrees)?),
         ("policy.csv", decisions::write(policy, program)),
-        ("transitions.csv", transitions::write(policy, program)),
+        ("transitions.csv", table),
         ("q.csv", evidence::write(policy, program)),
         ("curve.csv", curve::csv(&curves)),
         (
@@ -120,9 +132,7 @@ fn hashes(loaded: &Loaded) -> Vec<(String, String)> {
     let files = loaded.files.iter().filter_map(|id| loaded.sources.get(*id));
     let hashes = files.map(|source| {
         let name = source.name.rsplit('/').next().unwrap_or_default();
-        let digest = Sha256::digest(source.text.as_bytes());
-        let hex = digest.iter().map(|byte| format!("{byte:02x}")).collect();
-        (name.to_owned(), hex)
+        (name.to_owned(), sha256(source.text.as_bytes()))
     });
     hashes.collect()
 }

@@ -2,14 +2,17 @@
 //! test.
 
 use super::{Options, Shape, Stage};
+use crate::checkpoint::{Keeper, Part};
 use crate::grow::{self, Choice, Grown, Starts, grow};
+use crate::ir::Program;
 use crate::ir::tree::{Atom, Node, Tree};
-use crate::learn::experiment::{Experiment, Run};
+use crate::learn::experiment::Experiment;
 use crate::learn::extract;
 use crate::learn::improve::Improved;
 use crate::learn::process::World;
+use crate::learn::run::Run;
 use crate::learn::simulated::Purpose;
-use crate::policy::Policy;
+use crate::policy::{Policy, decisions, evidence, transitions};
 use crate::report::results::{Results, Trees};
 use crate::tree::decanonicalise::{self, Care};
 use crate::tree::prove::Refuted;
@@ -59,7 +62,8 @@ pub fn learn<'e, W: World>(
 ) -> Result<Results<'e, W>, Unlearned> {
     let program = experiment.program;
     let seed = options.seed.unwrap_or(experiment.learner.seed);
-    let mut runs = learn_all(experiment, seed, options.seeds, progress);
+    let keeper = options.keeper;
+    let mut runs = learn_all(experiment, (seed, options), progress);
     progress(Stage::Validating);
     let (best, validated) = experiment.elect(&runs, seed);
     let mut improved = Improved::default();
@@ -67,12 +71,14 @@ pub fn learn<'e, W: World>(
         && let Some(run) = runs.get_mut(best)
     {
         progress(Stage::Improving);
-        improved = grow::improve(experiment, run, options.effort);
+        improved = grow::improve(experiment, run, options.effort, keeper);
     }
     let run = runs.get(best).ok_or(Unlearned::Nothing)?;
     progress(Stage::RollingOut);
     let stream = (Purpose::RollOut, run.seed);
-    let (met, summary) = experiment.roll_out(&run.decisions, options.roll_outs, stream);
+    let part = Part::new(keeper, "met");
+    let (met, summary) =
+        part.whole(|| experiment.roll_out(&run.decisions, options.roll_outs, stream));
     let atoms = program.atoms(experiment.learner.task);
     let thin = extract::thin(&run.table, options.evidence, atoms.len());
     let policy = extract::policy(&run.decisions, &run.table, &met, experiment.task, atoms);
@@ -83,6 +89,7 @@ pub fn learn<'e, W: World>(
     if values.any(|value| !value.q.is_finite()) {
         return Err(Unlearned::WithoutValue);
     }
+    publish(keeper, &policy, program);
     progress(Stage::Proving);
     let trees = trees(&policy, options).map_err(|why| match why {
         Refuted::Empty => Unlearned::Nothing,
@@ -125,16 +132,24 @@ pub fn learn<'e, W: World>(
 /// The runs of all seeds.
 fn learn_all<W: World>(
     experiment: &Experiment<W>,
-    seed: u64,
-    seeds: u64,
+    (seed, options): (u64, &Options),
     progress: &(dyn Fn(Stage) + Sync),
 ) -> Vec<Run> {
-    let all = experiment.episodes.saturating_mul(seeds);
+    let all = experiment.episodes.saturating_mul(options.seeds);
     let done = AtomicU64::new(0);
-    experiment.learn_all(seed, seeds, || {
+    experiment.learn_all((seed, options.seeds), options.keeper, || {
         let done = done.fetch_add(1, Ordering::Relaxed) + 1;
         progress(Stage::Learning(done, all));
     })
+}
+
+/// Keeps what took longest in the form in which anybody can use it.
+fn publish(keeper: &dyn Keeper, policy: &Policy, program: &Program) {
+    if keeper.keeps() {
+        keeper.publish("policy.csv", &decisions::write(policy, program));
+        keeper.publish("q.csv", &evidence::write(policy, program));
+        keeper.publish("transitions.csv", &transitions::write(policy, program));
+    }
 }
 
 /// The tree that grows from the exact one and those of the program.
@@ -170,7 +185,7 @@ fn grown<W: World>(
         front: options.front || options.choice != Choice::Knee,
     };
     let heard = |heard: grow::Progress| progress(Stage::Growing(heard.ticks, heard.of));
-    grow(&ground, &starts, &settings, &heard).map_err(Unlearned::Unknown)
+    grow(&ground, &starts, &settings, options.keeper, &heard).map_err(Unlearned::Unknown)
 }
 
 /// The policy as a tree, on both care sets.

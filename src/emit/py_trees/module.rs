@@ -3,6 +3,7 @@
 use super::code::{Code, WIDTH, quoted, wrapped};
 use crate::emit::leaves::{Family, Leaves, Subject};
 use crate::emit::notes;
+use crate::emit::steps::Steps;
 use crate::ir::task::History;
 use crate::ir::tree::{Decorator, Tree};
 use std::collections::{BTreeMap, BTreeSet};
@@ -44,11 +45,70 @@ const CONDITION: &str = r#"class Condition(Behaviour):
 
 "#;
 
+const STEP: &str = r#"class Step(Decorator):
+    """Ends one tick after its child has ended like this with a behaviour at work."""
+
+    def __init__(self, name: str, child: Behaviour, on: Status) -> None:
+        super().__init__(name, child)
+        self.on = on
+        self.waits = False
+
+    def update(self) -> Status:
+        return self.decorated.status
+
+    def tick(self) -> Iterator[Behaviour]:
+        waited = self.status == Status.RUNNING and self.waits
+        self.waits = False
+        status = self.on
+        if not waited:
+            drove = False
+            for node in self.decorated.tick():
+                drove = drove or is_at_work(node)
+                yield node
+            status = self.decorated.status
+            self.waits = drove and status == self.on
+        if self.waits:
+            status = Status.RUNNING
+        elif status != Status.RUNNING:
+            self.stop(status)
+        self.status = status
+        yield self
+
+
+def is_at_work(node: Behaviour) -> bool:
+    """Whether a node is a behaviour of the robot, and not one that only asks or waits."""
+    return not node.children and type(node).__name__ not in (
+        "Condition",
+        "Failure",
+        "Success",
+        "TickCounter",
+    )
+
+
+"#;
+
+const LIMIT: &str = r#"class Limit(Timeout):
+    """Fails once its time is over, without another tick of its child."""
+
+    def tick(self) -> Iterator[Behaviour]:
+        if self.status == Status.RUNNING and time.monotonic() > self.finish_time:
+            self.stop(Status.FAILURE)
+            self.status = Status.FAILURE
+            yield self
+        else:
+            yield from super().tick()
+
+
+"#;
+
 /// What a module is made of.
 pub(super) struct Parts<'a> {
     pub leaves: &'a Leaves,
     pub history: Option<History>,
     pub imports: Imports,
+    /// Whether a node has to see if a behaviour was ticked under it.
+    pub notes: bool,
+    pub steps: Steps,
 }
 
 impl Parts<'_> {
@@ -61,10 +121,20 @@ impl Parts<'_> {
         if actions {
             self.imports.take("behaviours", "Dummy");
         }
-        let mut out = docstring(tree, tick);
+        let limits = notes::has_decorator(&tree.root, &is_timeout);
+        let mut out = docstring(tree, tick, self.steps);
         out.push_str("\nimport abc\n");
-        if conditions {
-            out.push_str("from collections.abc import Callable\n");
+        if limits {
+            out.push_str("import time\n");
+        }
+        let names = [(conditions, "Callable"), (limits || self.notes, "Iterator")];
+        let names = names.iter().filter(|(is, _)| *is).map(|(_, name)| *name);
+        let names: Vec<&str> = names.collect();
+        if !names.is_empty() {
+            out.push_str(&format!(
+                "from collections.abc import {}\n",
+                names.join(", ")
+            ));
         }
         out.push('\n');
         out.push_str(&self.imports.lines());
@@ -78,6 +148,12 @@ impl Parts<'_> {
         out.push('\n');
         if conditions {
             out.push_str(CONDITION);
+        }
+        if self.notes {
+            out.push_str(STEP);
+        }
+        if limits {
+            out.push_str(LIMIT);
         }
         out.push_str("def create_root(robot: Robot) -> Behaviour:\n");
         out.push_str("    \"\"\"The tree, with a behaviour of its own at each place.\"\"\"\n");
@@ -111,6 +187,10 @@ impl Parts<'_> {
             in_docstring(&says)
         )
     }
+}
+
+fn is_timeout(kind: Decorator) -> bool {
+    matches!(kind, Decorator::Timeout(_))
 }
 
 fn is_action(family: &Family) -> bool {
@@ -169,7 +249,7 @@ fn sketched(family: &Family) -> String {
 }
 
 /// What a reader of the module has to know.
-fn docstring(tree: &Tree, tick: Option<f64>) -> String {
+fn docstring(tree: &Tree, tick: Option<f64>, steps: Steps) -> String {
     let name = &tree.name.family;
     let mut paragraphs = vec![format!(
         "The behaviour tree `{name}` for py_trees 2, written by btc."
@@ -185,15 +265,13 @@ fn docstring(tree: &Tree, tick: Option<f64>) -> String {
     say(&format!(
         "Derive a class from `Robot` and tick `create_root(robot)` {often}. Run as a program, this module draws the tree."
     ));
-    if notes::moves_on(&tree.root) {
+    if steps == Steps::SameTick && notes::moves_on(&tree.root) {
         say(
             "A composite with memory goes on to its next child in the tick in which one ends, btc in the next one: here each such step comes one tick earlier.",
         );
     }
-    if notes::has_decorator(&tree.root, &|kind| matches!(kind, Decorator::Timeout(_))) {
-        say(
-            "`Timeout` goes by the clock, and fails after it has ticked its child once more; btc goes by the ticks in which it is reached.",
-        );
+    if notes::has_decorator(&tree.root, &is_timeout) {
+        say("`Limit` goes by the clock, btc by the ticks in which a timeout is reached.");
     }
     let text = in_docstring(&paragraphs.join("\n\n"));
     format!("\"\"\"{text}\n\"\"\"\n")

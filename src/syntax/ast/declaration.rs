@@ -3,11 +3,13 @@
 use crate::source::Span;
 use crate::syntax::ast::{Block, Expr, Ident, Spanned, Yield};
 
-/// `use std` or `use "path"`.
+/// `use std`, `use "path"` or `use "path" sha256:digits`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Use {
     /// What is used.
     pub what: Spanned<UseWhat>,
+    /// The SHA-256 that the file has to have, in hexadecimal digits.
+    pub pin: Option<Spanned<String>>,
 }
 
 /// What a `use` names.

@@ -39,21 +39,26 @@ impl<'i> Builder<'i> {
             Rule::std => UseWhat::Std,
             Rule::string => {
                 self.straight_quotes(&what);
-                UseWhat::Path(what.as_str().trim_matches(['"', '“', '”']).to_owned())
+                UseWhat::Path(unquoted(what.as_str()).to_owned())
             }
             _ => {
                 self.unclosed_text(&what);
                 return ItemKind::Error;
             }
         };
+        let pin = parts.maybe(Rule::pin).map(|pin| {
+            let digits = pin.as_str().trim_start_matches("sha256:");
+            self.spanned(&pin, digits.to_ascii_lowercase())
+        });
         ItemKind::Use(Use {
             what: self.spanned(&what, path),
+            pin,
         })
     }
 
     fn straight_quotes(&mut self, node: &Node<'i>) {
         if node.as_str().starts_with('“') {
-            let right = format!("\"{}\"", node.as_str().trim_matches(['“', '”']));
+            let right = format!("\"{}\"", unquoted(node.as_str()));
             let span = self.span(node);
             self.respell(
                 Code::E0121,
@@ -225,4 +230,12 @@ impl<'i> Builder<'i> {
         }
         Some(TypeExpr { factors, span })
     }
+}
+
+/// A text without the quotes around it.
+fn unquoted(text: &str) -> &str {
+    let mut inner = text.chars();
+    inner.next();
+    inner.next_back();
+    inner.as_str()
 }

@@ -26,7 +26,12 @@ impl Printer<'_> {
                 Align::None,
                 match &item.what.node {
                     UseWhat::Std => Doc::from("use std"),
-                    UseWhat::Path(path) => row!["use \"", path.as_str(), "\""],
+                    UseWhat::Path(path) => match &item.pin {
+                        None => row!["use \"", path.as_str(), "\""],
+                        Some(pin) => {
+                            row!["use \"", path.as_str(), "\" sha256:", pin.node.as_str()]
+                        }
+                    },
                 },
             ),
             ItemKind::World(world) => (Align::None, self.world(world, item.span)),

@@ -16,25 +16,35 @@ pub(in crate::tree) struct Solver {
     solver: BasicSolver,
     /// Which gates it knows.
     known: Vec<bool>,
-    /// The decisions that it may still take.
+    /// The work that it may still do.
     left: Rc<Cell<u64>>,
+    /// The clauses that it has.
+    clauses: Rc<Cell<u64>>,
 }
 
+/// Clauses that are looked at in the time of one decision, about.
+const CLAUSES: u64 = 500;
+
 impl Solver {
-    /// A solver that may take `budget` decisions, in all questions together.
+    /// A solver that may take `budget` decisions, in all questions together; where there are many clauses, one counts for
+    /// several.
     pub(in crate::tree) fn new(budget: u64) -> Self {
         let left = Rc::new(Cell::new(budget));
         let spent = Rc::clone(&left);
+        let clauses = Rc::new(Cell::new(0));
+        let many = Rc::clone(&clauses);
         let mut solver = BasicSolver::default();
         // Called at every decision: effort is counted, not timed.
         solver.batsat_mut().cb_mut().set_stop(move || {
-            spent.set(spent.get().saturating_sub(1));
+            let cost = 1 + many.get() / CLAUSES;
+            spent.set(spent.get().saturating_sub(cost));
             spent.get() == 0
         });
         Self {
             solver,
             known: Vec::new(),
             left,
+            clauses,
         }
     }
 
@@ -133,6 +143,7 @@ impl Solver {
     }
 
     fn clause<const N: usize>(&mut self, literals: [Lit; N]) -> Result<(), Exhausted> {
+        self.clauses.set(self.clauses.get() + 1);
         let clause: Clause = literals.into_iter().collect();
         self.solver.add_clause(clause).map_err(|_| Exhausted)
     }

@@ -21,7 +21,7 @@ use rustc_hash::FxHashSet;
 const TABLE: usize = 20;
 
 /// Decisions after which the solver gives up.
-const DECISIONS: u64 = 20_000_000;
+const DECISIONS: u64 = 1_000_000;
 
 /// States after which the search gives up.
 const STATES: usize = 100_000;

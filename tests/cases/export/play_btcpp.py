@@ -51,13 +51,17 @@ def played(play, leaves):
     registered = set()
     root = ElementTree.fromstring(play["file"])
     for element in root.find("BehaviorTree").iter():
-        ports = {k: v for k, v in element.attrib.items() if k != "name"}
+        ports = {
+            k: v for k, v in element.attrib.items() if k != "name" and k[0] != "_"
+        }
         leaf = leaves.get((element.tag, json.dumps(ports, sort_keys=True)))
         if leaf is None:
             continue
         acts, position = leaf
         element.tag = f"{'action' if acts else 'condition'}_{position}"
+        marks = {k: v for k, v in element.attrib.items() if k[0] == "_"}
         element.attrib.clear()
+        element.attrib.update(marks)
         if element.tag in registered:
             continue
         registered.add(element.tag)
@@ -71,7 +75,7 @@ def played(play, leaves):
     for values in play["valuations"]:
         stage.values = values
         stage.calls = []
-        status = tree.tick_once()
+        status = tree.tick_exactly_once()
         ticks.append([stage.calls, LETTER[status]])
     return ticks
 

@@ -11,9 +11,10 @@ use std::collections::BTreeMap;
 /// A leaf as it is written: its id and its ports.
 pub(super) type Leaf = (String, BTreeMap<String, String>);
 
-/// The leaf of an element; its name is for people.
+/// The leaf of an element; its name is for people, and what begins with `_` the library does for every node.
 pub(super) fn leaf(element: Element) -> Leaf {
-    let ports = element.attributes().filter(|a| a.name() != "name");
+    let own = |name: &str| name == "name" || name.starts_with('_');
+    let ports = element.attributes().filter(|a| !own(a.name()));
     let ports = ports.map(|a| (a.name().to_owned(), a.value().to_owned()));
     (element.tag_name().name().to_owned(), ports.collect())
 }

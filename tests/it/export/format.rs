@@ -17,7 +17,8 @@ use btc::ir::program::Predicate;
 use roxmltree::{Document, Node as Element};
 use std::collections::BTreeSet;
 
-const CONTROLS: [&str; 5] = [
+const CONTROLS: [&str; 6] = [
+    "AsyncSequence",
     "Fallback",
     "Parallel",
     "ReactiveFallback",
@@ -87,6 +88,9 @@ fn check(text: &str) {
             for attribute in node.attributes() {
                 attribute.value().parse::<u32>().unwrap();
             }
+        } else if ["Script", "ScriptCondition"].contains(&tag) {
+            let given: Vec<&str> = node.attributes().map(|a| a.name()).collect();
+            assert_eq!((children, given), (0, vec!["code"]));
         } else if ["AlwaysSuccess", "AlwaysFailure"].contains(&tag) {
             assert_eq!(children, 0);
         } else {
@@ -100,7 +104,8 @@ fn check(text: &str) {
                 .iter()
                 .map(|port| port.attribute("name").unwrap())
                 .collect();
-            for attribute in node.attributes().filter(|a| a.name() != "name") {
+            let library = ["name", "_onSuccess", "_onFailure"];
+            for attribute in node.attributes().filter(|a| !library.contains(&a.name())) {
                 assert!(ports.contains(&attribute.name()), "{text}");
                 // In braces it would be an entry of the blackboard.
                 assert!(!attribute.value().starts_with('{'), "{text}");

@@ -48,12 +48,6 @@ impl Play {
         }
     }
 
-    /// The same where nothing fails.
-    pub(super) fn without_failures(mut self) -> Self {
-        self.answers.retain(|answer| *answer != Status::Failure);
-        self
-    }
-
     /// The same where nothing ends.
     pub(super) fn all_running(mut self) -> Self {
         self.answers.retain(|answer| *answer == Status::Running);
@@ -88,10 +82,7 @@ impl Play {
     }
 
     /// What btc does.
-    ///
-    /// With `held`, ticks go on under one valuation as long as a node with memory or a counter moves on: what others
-    /// do in one tick.
-    pub(super) fn by_btc(&self, program: &Program, root: &Node, held: bool) -> Vec<Tick> {
+    pub(super) fn by_btc(&self, program: &Program, root: &Node) -> Vec<Tick> {
         let mut runner = Runner::new(root, &atoms(program)).unwrap();
         let mut call = 0;
         let ticks = self.valuations.iter().map(|values| {
@@ -100,20 +91,13 @@ impl Play {
                 words[i / 64] |= 1 << (i % 64);
             }
             let mut calls = Vec::new();
-            loop {
-                let mut last = None;
-                let status = runner.tick(&words, |behavior| {
-                    let answer = self.answer(behavior.index(), call);
-                    call += 1;
-                    calls.push(behavior.index());
-                    last = Some(answer);
-                    answer
-                });
-                let moves_on = last.is_some_and(|last| last != Status::Running);
-                if !(held && status == Status::Running && moves_on) {
-                    return Tick { calls, status };
-                }
-            }
+            let status = runner.tick(&words, |behavior| {
+                let answer = self.answer(behavior.index(), call);
+                call += 1;
+                calls.push(behavior.index());
+                answer
+            });
+            Tick { calls, status }
         });
         ticks.collect()
     }

@@ -70,7 +70,7 @@ impl Grower<'_> {
         }
     }
 
-    /// Any tree in which nodes with memory have nothing to go on to: what drives in them is their last child.
+    /// Any tree.
     pub(super) fn plain(&mut self, depth: usize) -> Node {
         if depth == 0 {
             return if self.random.chance(75) {
@@ -90,10 +90,15 @@ impl Grower<'_> {
                 composite(kind, false, children)
             }
             4..6 => when(self.guard(2), self.plain(depth - 1)),
-            6..8 => {
+            6 => {
                 let number = self.random.below(3);
                 let mut children: Vec<Node> = (0..number).map(|_| self.asks(1)).collect();
                 children.push(self.plain(depth - 1));
+                composite(kind, true, children)
+            }
+            7 => {
+                let number = 2 + self.random.below(3);
+                let children = (0..number).map(|_| self.plain(depth - 1)).collect();
                 composite(kind, true, children)
             }
             8 if self.kinds.all => {

@@ -10,7 +10,7 @@ use btc::learn::method::{self, Settings};
 use btc::learn::process::{End, Key, Process};
 use btc::learn::q_table::{Admission, QTable};
 use btc::learn::schedule::Schedule;
-use btc::learn::train::{Course, train};
+use btc::learn::train::{Course, Trained, train};
 use btc::world::Start;
 
 const ALL: [Kind; 3] = [Kind::QLearning, Kind::DoubleQ, Kind::Model];
@@ -52,9 +52,16 @@ fn learned(
             tick: 0.1,
         },
         dwell: 0,
-        seed: 3,
     };
-    train(process, method.as_mut(), &course, |_, _| {}, || {});
+    let mut trained = Trained::new(3);
+    train(
+        process,
+        method.as_mut(),
+        &course,
+        &mut trained,
+        |_, _| {},
+        |_, _| {},
+    );
     method.table().clone()
 }
 

@@ -36,6 +36,7 @@ pub(super) const OPTIONS: Options = Options {
     roll_outs: 100,
     tests: 0,
     source: "../delivery.bt",
+    keeper: &btc::checkpoint::Forgetful,
 };
 
 fn run(loaded: &Loaded, options: &Options) -> Learned {

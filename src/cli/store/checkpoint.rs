@@ -1,0 +1,225 @@
+//! The states of a run in the folder of its results, in `.btc-checkpoint`: a file for each part, written whole.
+
+use super::disk::Disk;
+use super::{file, stale};
+use crate::checkpoint::Keeper;
+use crate::driver::digest::sha256;
+use std::collections::BTreeMap;
+use std::fmt;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+/// The name of the folder.
+pub const FOLDER: &str = ".btc-checkpoint";
+
+/// The file that says of which run the states are.
+const RUN: &str = "run.json";
+
+/// The end of the names of states.
+const STATE: &str = ".state";
+
+/// What a run is of: the program, the options. Two runs that agree in all of this come to the same end.
+pub type Run = BTreeMap<String, String>;
+
+/// The states of a run.
+pub struct Checkpoint<'d> {
+    disk: &'d dyn Disk,
+    folder: PathBuf,
+    run: Run,
+    /// The least time between two states of a part; nothing is kept without it.
+    every: Option<Duration>,
+    resumed: bool,
+    /// Called around what must not be stopped half-way.
+    guard: fn(&mut dyn FnMut()),
+    kept: Mutex<Kept>,
+}
+
+struct Kept {
+    start: Instant,
+    /// When a state of each part was kept.
+    parts: BTreeMap<String, Instant>,
+    /// Whether the folder is ready to be written to.
+    ready: bool,
+    /// Why nothing more is kept.
+    broken: Option<String>,
+}
+
+/// Why a run cannot be resumed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Unlike {
+    /// There are states of another run, which differs in this: what it is about, there and here.
+    Other(Vec<[String; 3]>),
+    /// There are no states.
+    Nothing,
+}
+
+impl<'d> Checkpoint<'d> {
+    /// The states of a run whose results go to `folder`.
+    pub fn new(
+        disk: &'d dyn Disk,
+        folder: &Path,
+        run: Run,
+        every: Option<Duration>,
+        guard: fn(&mut dyn FnMut()),
+    ) -> Self {
+        Self {
+            disk,
+            folder: folder.join(FOLDER),
+            run,
+            every,
+            resumed: false,
+            guard,
+            kept: Mutex::new(Kept {
+                start: Instant::now(),
+                parts: BTreeMap::new(),
+                ready: false,
+                broken: None,
+            }),
+        }
+    }
+
+    /// Whether there are states of this very run.
+    ///
+    /// # Errors
+    /// There are none, or those of another run.
+    pub fn found(&self) -> Result<(), Unlike> {
+        let other = fs::read(self.folder.join(RUN)).ok();
+        let other: Option<Run> = other.and_then(|bytes| serde_json::from_slice(&bytes).ok());
+        let other = other.ok_or(Unlike::Nothing)?;
+        let names = self.run.keys().chain(other.keys());
+        let mut names: Vec<&String> = names.collect();
+        names.sort();
+        names.dedup();
+        let of = |run: &Run, name: &String| run.get(name).cloned().unwrap_or_default();
+        let differences: Vec<[String; 3]> = names
+            .into_iter()
+            .map(|name| [name.clone(), of(&other, name), of(&self.run, name)])
+            .filter(|[_, there, here]| there != here)
+            .collect();
+        match differences.is_empty() {
+            true => Ok(()),
+            false => Err(Unlike::Other(differences)),
+        }
+    }
+
+    /// Goes on from the states that were found.
+    pub fn resume(&mut self) {
+        self.resumed = true;
+        self.lock().ready = true;
+    }
+
+    /// Why a state could not be kept, once.
+    pub fn trouble(&self) -> Option<String> {
+        self.lock().broken.clone()
+    }
+
+    /// Removes all states: the run has ended.
+    pub fn remove(&self) {
+        stale::empty(self.disk, &self.folder);
+        let _ = self.disk.remove_folder(&self.folder);
+    }
+
+    fn lock(&self) -> std::sync::MutexGuard<'_, Kept> {
+        self.kept.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The first line of a state: what it is of. The second is the hash of what follows.
+    fn seal(&self) -> String {
+        let run = serde_json::to_string(&self.run).unwrap_or_default();
+        format!(
+            "btc {} {}",
+            env!("CARGO_PKG_VERSION"),
+            sha256(run.as_bytes())
+        )
+    }
+
+    /// Makes the folder, without what another run has left there.
+    fn prepare(&self) -> io::Result<()> {
+        match self.disk.make_folder(&self.folder) {
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                fs::create_dir_all(&self.folder)?;
+            }
+            made => made?,
+        }
+        stale::empty(self.disk, &self.folder);
+        let run = serde_json::to_string_pretty(&self.run).unwrap_or_default();
+        file::write(self.disk, &self.folder.join(RUN), run.as_bytes())
+    }
+
+    /// Writes a file of the folder. What cannot be written is told at the end: the run itself goes on.
+    fn put(&self, name: &str, bytes: &[u8]) {
+        let mut kept = self.lock();
+        if kept.broken.is_some() {
+            return;
+        }
+        let mut done = Ok(());
+        (self.guard)(&mut || {
+            done = match kept.ready {
+                true => Ok(()),
+                false => self.prepare(),
+            };
+            if done.is_ok() {
+                done = file::write(self.disk, &self.folder.join(name), bytes);
+            }
+        });
+        kept.ready = true;
+        kept.broken = done.err().map(|error| error.to_string());
+        kept.parts.insert(name.to_owned(), Instant::now());
+    }
+}
+
+impl fmt::Debug for Checkpoint<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Checkpoint({})", self.folder.display())
+    }
+}
+
+impl Keeper for Checkpoint<'_> {
+    fn load(&self, part: &str) -> Option<Vec<u8>> {
+        if !self.resumed {
+            return None;
+        }
+        let bytes = fs::read(self.folder.join(format!("{part}{STATE}"))).ok()?;
+        let (seal, rest) = split_line(&bytes)?;
+        let (hash, state) = split_line(rest)?;
+        let whole = seal == self.seal().as_bytes() && hash == sha256(state).as_bytes();
+        whole.then(|| state.to_vec())
+    }
+
+    fn keeps(&self) -> bool {
+        self.every.is_some()
+    }
+
+    fn is_due(&self, part: &str) -> bool {
+        let Some(every) = self.every else {
+            return false;
+        };
+        let kept = self.lock();
+        let last = kept.parts.get(&format!("{part}{STATE}"));
+        last.unwrap_or(&kept.start).elapsed() >= every
+    }
+
+    fn save(&self, part: &str, state: &[u8]) {
+        if self.every.is_some() {
+            let head = format!("{}\n{}\n", self.seal(), sha256(state));
+            let bytes = [head.as_bytes(), state].concat();
+            self.put(&format!("{part}{STATE}"), &bytes);
+        }
+    }
+
+    fn publish(&self, name: &str, text: &str) {
+        if self.every.is_some() {
+            self.put(name, text.as_bytes());
+        }
+    }
+}
+
+/// The first line, and what follows it.
+fn split_line(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
+    let end = bytes.iter().position(|byte| *byte == b'\n')?;
+    Some((bytes.get(..end)?, bytes.get(end + 1..)?))
+}

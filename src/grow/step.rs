@@ -1,0 +1,92 @@
+//! Where a search for a tree stands: what it has to know to go on.
+
+use super::evidence::{Evidence, Visits};
+use super::grower::Visited;
+use super::race::Seen;
+use crate::ir::tree::Node;
+use crate::learn::process::Key;
+use crate::random::Random;
+use rustc_hash::{FxHashMap, FxHashSet};
+use serde::{Deserialize, Serialize};
+
+/// A search that was stopped between two steps.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Halted {
+    pub(super) evidence: Evidence,
+    pub(super) random: Random,
+    pub(super) collected: u64,
+    pub(super) price: f64,
+    pub(super) visited: Vec<Visited>,
+    pub(super) single: Option<Node>,
+    pub(super) seen: Seen,
+    /// The best tree so far.
+    pub(super) base: Node,
+    pub(super) step: Step,
+}
+
+/// What a search does next.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) enum Step {
+    /// It has its first base.
+    Begun,
+    /// It covers the base by smaller trees.
+    Cover(Cover),
+    /// It grows trees by the counts alone, in this round.
+    Sprout(usize),
+    /// It changes the base.
+    Climb(Climb),
+    /// It looks for smaller trees that cost something.
+    Refine(Refine),
+    /// Nothing.
+    Done,
+}
+
+/// The trees that cover the base so far.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct Cover {
+    /// The last of them.
+    pub(super) tree: Node,
+    /// Where they went.
+    pub(super) visits: Visits,
+    /// The decisions of the base that the next keeps.
+    pub(super) kept: FxHashMap<Key, usize>,
+    pub(super) trees: Vec<Node>,
+}
+
+/// How far climbing has come.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(super) struct Climb {
+    pub(super) stage: usize,
+    /// Races without a better tree.
+    pub(super) failures: usize,
+    /// Trees that raced against this base.
+    pub(super) tried: FxHashSet<String>,
+}
+
+impl Climb {
+    /// The beginning of a stage, or a new base in it.
+    pub(super) fn of(stage: usize) -> Self {
+        Self {
+            stage,
+            ..Self::default()
+        }
+    }
+}
+
+/// How far the search for smaller trees has come.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(super) struct Refine {
+    pub(super) stage: usize,
+    /// Trees that raced in this stage.
+    pub(super) tried: FxHashSet<String>,
+}
+
+impl Refine {
+    /// The beginning of a stage.
+    pub(super) fn of(stage: usize) -> Self {
+        Self {
+            stage,
+            ..Self::default()
+        }
+    }
+}

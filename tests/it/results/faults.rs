@@ -1,0 +1,254 @@
+//! A disk of which the n-th call fails, or on which everything fails from the n-th call on, as if the process had been
+//! killed: for every n, a folder has the old result or the new one, or says that it has neither.
+
+use super::{files, leftovers};
+use btc::cli::store::manifest::Manifest;
+use btc::cli::store::{Disk, Folder, System, file};
+use std::collections::BTreeMap;
+use std::fs::{self, File, Permissions};
+use std::io;
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// How a disk fails.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Failing {
+    /// One call fails.
+    Once,
+    /// The process is killed: no call after it does anything.
+    Forever,
+}
+
+struct Faulty {
+    calls: AtomicUsize,
+    at: usize,
+    how: Failing,
+    /// Whether folders can be exchanged.
+    exchanges: bool,
+}
+
+impl Faulty {
+    fn new(at: usize, how: Failing, exchanges: bool) -> Self {
+        Self {
+            calls: AtomicUsize::new(0),
+            at,
+            how,
+            exchanges,
+        }
+    }
+
+    fn call(&self) -> io::Result<()> {
+        let call = self.calls.fetch_add(1, Ordering::Relaxed);
+        match call == self.at || self.how == Failing::Forever && call > self.at {
+            true => Err(io::Error::other("the disk has failed")),
+            false => Ok(()),
+        }
+    }
+
+    fn was_met(&self) -> bool {
+        self.calls.load(Ordering::Relaxed) > self.at
+    }
+}
+
+impl Disk for Faulty {
+    fn create(&self, path: &Path) -> io::Result<File> {
+        self.call()?;
+        System.create(path)
+    }
+
+    fn write(&self, file: &mut File, bytes: &[u8]) -> io::Result<()> {
+        let failed = self.call();
+        if failed.is_err() && self.calls.load(Ordering::Relaxed) == self.at + 1 {
+            System.write(file, &bytes[..bytes.len() / 2])?;
+        }
+        failed?;
+        System.write(file, bytes)
+    }
+
+    fn sync(&self, file: &File) -> io::Result<()> {
+        self.call()?;
+        System.sync(file)
+    }
+
+    fn rename(&self, from: &Path, to: &Path) -> io::Result<()> {
+        self.call()?;
+        System.rename(from, to)
+    }
+
+    fn exchange(&self, one: &Path, other: &Path) -> io::Result<()> {
+        self.call()?;
+        match self.exchanges {
+            true => System.exchange(one, other),
+            false => Err(io::ErrorKind::Unsupported.into()),
+        }
+    }
+
+    fn link(&self, from: &Path, to: &Path) -> io::Result<()> {
+        self.call()?;
+        System.link(from, to)
+    }
+
+    fn make_folder(&self, path: &Path) -> io::Result<()> {
+        self.call()?;
+        System.make_folder(path)
+    }
+
+    fn permit(&self, path: &Path, permissions: Permissions) -> io::Result<()> {
+        self.call()?;
+        System.permit(path, permissions)
+    }
+
+    fn remove_file(&self, path: &Path) -> io::Result<()> {
+        self.call()?;
+        System.remove_file(path)
+    }
+
+    fn remove_folder(&self, path: &Path) -> io::Result<()> {
+        self.call()?;
+        System.remove_folder(path)
+    }
+}
+
+/// A result of `names`, all of the same age.
+fn result(names: &[&str], age: &str) -> Vec<(String, String)> {
+    let texts = names
+        .iter()
+        .map(|name| ((*name).to_owned(), format!("{name} is {age}\n")));
+    texts.collect()
+}
+
+fn put(disk: &dyn Disk, folder: &Path, files: &[(String, String)]) -> io::Result<()> {
+    Folder::new(folder).replace(disk, files, BTreeMap::new())
+}
+
+/// What a folder has before the new result comes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Before {
+    /// It is not there.
+    Nothing,
+    /// An old result.
+    Old,
+    /// An old result and files of a user.
+    Own,
+    /// An old result and a folder of a user, which cannot be linked.
+    OwnFolder,
+}
+
+fn prepare(place: &Path, before: Before) {
+    if before != Before::Nothing {
+        put(&System, place, &result(&["a", "b", "dropped"], "old")).unwrap();
+    }
+    if matches!(before, Before::Own | Before::OwnFolder) {
+        fs::write(place.join("notes"), "mine").unwrap();
+    }
+    if before == Before::OwnFolder {
+        fs::create_dir(place.join("more")).unwrap();
+        fs::write(place.join("more/notes"), "mine").unwrap();
+    }
+}
+
+/// Lets each call fail in turn, and gives the number of calls that there are.
+fn fails_everywhere(before: Before, how: Failing, exchanges: bool) -> usize {
+    let expected = |new: bool| {
+        let folder = tempfile::tempdir().unwrap();
+        let place = folder.path().join("results");
+        prepare(&place, before);
+        if new {
+            put(&System, &place, &result(&["a", "b", "c"], "new")).unwrap();
+        }
+        files(&place)
+    };
+    let (old, new) = (expected(false), expected(true));
+    assert!(!new.contains_key("dropped"));
+    for at in 0.. {
+        let folder = tempfile::tempdir().unwrap();
+        let place = folder.path().join("results");
+        prepare(&place, before);
+        let disk = Faulty::new(at, how, exchanges);
+        let done = put(&disk, &place, &result(&["a", "b", "c"], "new"));
+        if !disk.was_met() {
+            assert_eq!(files(&place), new);
+            return at;
+        }
+        let found = files(&place);
+        let case = format!("{before:?}, {how:?}, call {at}");
+        if done.is_ok() {
+            assert_eq!(found, new, "{case}");
+        } else if found != old && found != new {
+            // File by file, a kill leaves a mix that says so.
+            assert_eq!(how, Failing::Forever, "{case}");
+            assert!(before == Before::OwnFolder || !exchanges, "{case}");
+            let manifest = Manifest::of_folder(&place);
+            assert!(manifest.is_none_or(|manifest| !manifest.whole), "{case}");
+        }
+        if matches!(before, Before::Own | Before::OwnFolder) {
+            assert_eq!(fs::read(place.join("notes")).unwrap(), b"mine", "{case}");
+        }
+        // The next run succeeds, and cleans up. A process that another test starts holds all locks for a moment.
+        let left = || leftovers(&place).len() + leftovers(folder.path()).len();
+        for _ in 0..100 {
+            put(&System, &place, &result(&["a", "b", "c"], "new")).unwrap();
+            assert_eq!(files(&place), new, "{case}");
+            if left() == 0 {
+                break;
+            }
+            std::thread::sleep(std::time::Duration::from_millis(5));
+        }
+        assert_eq!(left(), 0, "{case}: {:?}", leftovers(folder.path()));
+    }
+    unreachable!()
+}
+
+#[test]
+fn a_folder_has_the_old_result_or_the_new() {
+    let mut faults = 0;
+    for before in [Before::Nothing, Before::Old, Before::Own, Before::OwnFolder] {
+        for how in [Failing::Once, Failing::Forever] {
+            for exchanges in [true, false] {
+                faults += fails_everywhere(before, how, exchanges);
+            }
+        }
+    }
+    assert!(faults > 300, "{faults}");
+}
+
+#[test]
+fn a_file_is_the_old_or_the_new() {
+    for how in [Failing::Once, Failing::Forever] {
+        for at in 0.. {
+            let folder = tempfile::tempdir().unwrap();
+            let path = folder.path().join("file");
+            fs::write(&path, "old").unwrap();
+            let disk = Faulty::new(at, how, true);
+            let done = file::write(&disk, &path, b"new");
+            let found = fs::read_to_string(&path).unwrap();
+            assert!(done.is_ok() || found == "old", "call {at}");
+            assert!(done.is_err() || found == "new", "call {at}");
+            for _ in 0..100 {
+                file::write(&System, &path, b"new").unwrap();
+                if leftovers(folder.path()).is_empty() {
+                    break;
+                }
+                std::thread::sleep(std::time::Duration::from_millis(5));
+            }
+            assert!(leftovers(folder.path()).is_empty());
+            if !disk.was_met() {
+                break;
+            }
+        }
+    }
+}
+
+/// A file that somebody is writing is not taken for stale.
+#[test]
+fn what_is_held_is_left_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(".btc-file-1-0");
+    let held = System.create(&path).unwrap();
+    file::write(&System, &folder.path().join("other"), b"text").unwrap();
+    assert!(path.exists());
+    drop(held);
+    while path.exists() {
+        file::write(&System, &folder.path().join("other"), b"text").unwrap();
+    }
+}

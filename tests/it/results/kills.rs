@@ -1,0 +1,161 @@
+//! Runs that are killed at random moments.
+
+use super::{ENDLESS, SHORT, btc, files, learned, leftovers, project, told};
+use btc::random::Random;
+use std::fs;
+use std::path::Path;
+use std::process::Child;
+use std::time::Duration;
+
+fn begun(at: &Path, more: &[&str]) -> Child {
+    let mut arguments = vec!["learn", "small.bt"];
+    arguments.extend(SHORT);
+    arguments.extend(more);
+    btc(&arguments, at).spawn().unwrap()
+}
+
+/// Kills runs after random times, and goes on until one ends.
+fn killed(kills: u64, seed: u64) {
+    let folder = project();
+    let at = folder.path();
+    let other = ["--seed", "2", "-o", "out"];
+    assert!(learned(at, &other).status.success());
+    let old = files(&at.join("out"));
+    let output = learned(at, &["-o", "whole"]);
+    assert!(output.status.success(), "{}", told(&output));
+    let new = files(&at.join("whole"));
+    let mut random = Random::new(seed, 0, 0);
+    let mut done = 0;
+    while done < kills {
+        // From an old result, one kill after another, until a run has gone through.
+        fs::remove_dir_all(at.join("out")).unwrap();
+        assert!(learned(at, &other).status.success());
+        // The last step of a run takes its time: each run is given a little more.
+        let mut longest = 100_000;
+        loop {
+            let mut run = begun(at, &["-o", "out", "--checkpoint", "3ms", "--resume"]);
+            std::thread::sleep(Duration::from_micros(random.below(longest)));
+            longest += longest / 4;
+            let ended = run.try_wait().unwrap().is_some();
+            run.kill().unwrap();
+            run.wait().unwrap();
+            done += u64::from(!ended);
+            let found = files(&at.join("out"));
+            assert!(found == old || found == new, "a mix after {done} kills");
+            if ended {
+                assert_eq!(found, new, "after {done} kills");
+                break;
+            }
+        }
+    }
+    assert!(learned(at, &["-o", "out"]).status.success());
+    assert!(leftovers(at).is_empty(), "{:?}", leftovers(at));
+    assert!(leftovers(&at.join("out")).is_empty());
+}
+
+#[test]
+fn a_killed_run_goes_on_to_the_same_bytes() {
+    killed(4, 1);
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn two_hundred_killed_runs() {
+    killed(200, 2);
+}
+
+#[test]
+fn a_damaged_checkpoint_is_left_out() {
+    let folder = project();
+    let at = folder.path();
+    assert!(learned(at, &["-o", "whole"]).status.success());
+    let mut run = begun(at, &["-o", "out", "--checkpoint", "0s"]);
+    let states = at.join("out/.btc-checkpoint");
+    while !states.join("met.state").exists() && run.try_wait().unwrap().is_none() {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    run.kill().unwrap();
+    run.wait().unwrap();
+    for entry in fs::read_dir(&states).into_iter().flatten() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|ending| ending == "state") {
+            let mut bytes = fs::read(&path).unwrap();
+            let last = bytes.len() - 1;
+            bytes[last] ^= 1;
+            fs::write(&path, bytes).unwrap();
+        }
+    }
+    let output = learned(at, &["-o", "out", "--resume"]);
+    assert!(output.status.success(), "{}", told(&output));
+    assert_eq!(files(&at.join("out")), files(&at.join("whole")));
+}
+
+#[test]
+fn a_checkpoint_of_another_run_is_not_taken() {
+    let folder = project();
+    let at = folder.path();
+    let mut run = begun(at, &["-o", "out", "--checkpoint", "0s"]);
+    while !at.join("out/.btc-checkpoint/policy.csv").exists() && run.try_wait().unwrap().is_none() {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    run.kill().unwrap();
+    run.wait().unwrap();
+    let output = learned(at, &["-o", "out", "--resume", "--seed", "3"]);
+    assert_eq!(output.status.code(), Some(1));
+    let said = told(&output);
+    assert!(said.contains("--seed: nothing there, 3 here"), "{said}");
+    let output = learned(at, &["-o", "out", "--resume"]);
+    assert!(output.status.success(), "{}", told(&output));
+    assert!(leftovers(&at.join("out")).is_empty());
+}
+
+#[cfg(unix)]
+#[test]
+fn signals_leave_nothing_half_done() {
+    for (signal, code) in [("TERM", 143), ("HUP", 129), ("INT", 130)] {
+        let folder = project();
+        let at = folder.path();
+        let mut arguments = vec!["learn", "small.bt", "-o", "out", "--checkpoint", "never"];
+        arguments.extend(ENDLESS);
+        let mut run = btc(&arguments, at).spawn().unwrap();
+        std::thread::sleep(Duration::from_millis(300));
+        let id = run.id().to_string();
+        let sent = std::process::Command::new("kill")
+            .args(["-s", signal, &id])
+            .status();
+        assert!(sent.unwrap().success());
+        assert_eq!(run.wait().unwrap().code(), Some(code), "{signal}");
+        assert!(!at.join("out").exists());
+        assert!(leftovers(at).is_empty());
+    }
+}
+
+/// `nohup` has the process begin with the signal ignored.
+#[cfg(unix)]
+#[test]
+fn a_run_without_its_terminal_goes_on() {
+    let folder = project();
+    let script = format!(
+        "trap '' HUP; exec {} learn small.bt -o out --effort 900000M --checkpoint never",
+        env!("CARGO_BIN_EXE_btc")
+    );
+    let mut run = std::process::Command::new("sh")
+        .args(["-c", &script])
+        .current_dir(folder.path())
+        .stdout(std::process::Stdio::null())
+        .stderr(std::process::Stdio::null())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(Duration::from_millis(300));
+    let send = |signal: &str| {
+        let id = run.id().to_string();
+        let sent = std::process::Command::new("kill")
+            .args(["-s", signal, &id])
+            .status();
+        assert!(sent.unwrap().success());
+    };
+    send("HUP");
+    std::thread::sleep(Duration::from_millis(200));
+    send("TERM");
+    assert_eq!(run.wait().unwrap().code(), Some(143));
+}

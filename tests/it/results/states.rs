@@ -1,0 +1,133 @@
+//! A run that goes on from any state that it kept comes to the same end.
+
+use btc::checkpoint::{Forgetful, Keeper};
+use btc::driver::learn::{Learned, Options, Shape, learn};
+use btc::driver::load::{Loaded, Reader, load};
+use std::collections::BTreeMap;
+use std::sync::Mutex;
+
+/// Keeps every state, one after another.
+#[derive(Debug, Default)]
+struct Everything {
+    before: BTreeMap<String, Vec<u8>>,
+    kept: Mutex<Vec<(String, Vec<u8>)>>,
+    /// Only each n-th state is due.
+    sparse: usize,
+    asked: Mutex<usize>,
+}
+
+impl Keeper for Everything {
+    fn load(&self, part: &str) -> Option<Vec<u8>> {
+        self.before.get(part).cloned()
+    }
+
+    fn keeps(&self) -> bool {
+        true
+    }
+
+    fn is_due(&self, _: &str) -> bool {
+        let mut asked = self.asked.lock().unwrap();
+        *asked += 1;
+        self.sparse > 0 && asked.is_multiple_of(self.sparse)
+    }
+
+    fn save(&self, part: &str, state: &[u8]) {
+        let mut kept = self.kept.lock().unwrap();
+        kept.push((part.to_owned(), state.to_vec()));
+    }
+
+    fn publish(&self, _: &str, _: &str) {}
+}
+
+struct NoFiles;
+
+impl Reader for NoFiles {
+    fn read(&mut self, path: &str) -> Result<Vec<u8>, String> {
+        Err(path.to_owned())
+    }
+}
+
+fn program(method: &str) -> Loaded {
+    let text = include_str!("../../../examples/delivery_small.bt");
+    let methods = ["q_learning", "double_q", "model"];
+    let text = methods.iter().fold(text.to_owned(), |text, other| {
+        text.replace(
+            &format!("method   = {other}"),
+            &format!("method   = {method}"),
+        )
+    });
+    assert!(text.contains(method), "{text}");
+    let loaded = load("small.bt", text.into_bytes(), &mut NoFiles);
+    assert!(!loaded.has_errors(), "{:#?}", loaded.diagnostics);
+    loaded
+}
+
+fn options(keeper: &dyn Keeper) -> Options<'_> {
+    Options {
+        seeds: 2,
+        episodes: Some(60),
+        roll_outs: 40,
+        effort: 400_000,
+        front: true,
+        shape: Shape::Grown,
+        keeper,
+        ..Options::default()
+    }
+}
+
+fn same(one: &Learned, other: &Learned, case: &str) {
+    for ((name, one), (_, other)) in one.files.iter().zip(&other.files) {
+        assert_eq!(one, other, "{case}: {name}");
+    }
+    assert_eq!(one.report, other.report, "{case}");
+}
+
+/// Goes on from each n-th of all states.
+fn goes_on(method: &str, step: usize) {
+    let loaded = program(method);
+    let whole = learn(&loaded, &options(&Forgetful), &|_| {}).unwrap();
+    let keeper = Everything {
+        sparse: 7,
+        ..Everything::default()
+    };
+    same(
+        &learn(&loaded, &options(&keeper), &|_| {}).unwrap(),
+        &whole,
+        method,
+    );
+    let kept = keeper.kept.into_inner().unwrap();
+    let parts: Vec<&String> = kept.iter().map(|(part, _)| part).collect();
+    for part in [
+        "seed-1", "seed-2", "policy", "improved", "met", "tree", "grown",
+    ] {
+        assert!(parts.iter().any(|kept| *kept == part), "{part}: {parts:?}");
+    }
+    for at in (0..kept.len()).step_by(step) {
+        let before = kept[..=at].iter().cloned().collect();
+        let again = Everything {
+            before,
+            ..Everything::default()
+        };
+        let learned = learn(&loaded, &options(&again), &|_| {}).unwrap();
+        same(
+            &learned,
+            &whole,
+            &format!("{method}, {}, state {at}", kept[at].0),
+        );
+    }
+}
+
+#[test]
+fn a_run_goes_on_from_its_states() {
+    goes_on("model", 19);
+    goes_on("double_q", 61);
+    goes_on("q_learning", 61);
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn a_run_goes_on_from_each_of_its_states() {
+    for method in ["model", "double_q", "q_learning"] {
+        goes_on(method, 1);
+    }
+}
