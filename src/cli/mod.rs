@@ -7,6 +7,7 @@ mod canonicalize;
 mod check;
 mod compile;
 mod decanonicalize;
+mod diff;
 mod explain;
 mod files;
 mod fmt;
@@ -18,6 +19,7 @@ mod progress;
 mod report;
 mod run;
 mod size;
+mod test;
 mod tune;
 mod verify;
 
@@ -61,6 +63,10 @@ enum Command {
     Tune(tune::Arguments),
     /// Prove two trees, or a tree and a policy table, equal, or show where they part.
     Verify(verify::Arguments),
+    /// Say which decisions of a tree or a table have changed, each change under one condition.
+    Diff(diff::Arguments),
+    /// Learn again, and hold each tree against its snapshot.
+    Test(test::Arguments),
     /// Say how large trees are.
     Size(size::Arguments),
     /// Minimise the covers of a PLA.
@@ -112,6 +118,8 @@ pub fn main() -> ExitCode {
         Command::Run(arguments) => run::run(&arguments, &say),
         Command::Tune(arguments) => tune::run(&arguments, &say),
         Command::Verify(arguments) => verify::run(&arguments, &say),
+        Command::Diff(arguments) => diff::run(&arguments, &say),
+        Command::Test(arguments) => test::run(&arguments, &say),
         Command::Size(arguments) => size::run(&arguments, &say),
         Command::Minimize(arguments) => minimize::run(&arguments, &say),
         Command::Fmt(arguments) => fmt::run(&arguments, &say),

@@ -2,7 +2,7 @@
 
 use super::text::{Text, decode};
 use crate::check::{self, Input};
-use crate::diagnostic::{self, Code, Diagnostic};
+use crate::diagnostic::{self, Applicability, Code, Diagnostic};
 use crate::ir::{Name, Program};
 use crate::source::{FileId, Source, Sources, Span};
 use crate::syntax;
@@ -283,11 +283,15 @@ impl Loader<'_> {
             }
             Err(why) => {
                 self.incomplete |= !table;
-                self.diagnostics.push(
+                let mut diagnostic =
                     Diagnostic::new(Code::E0208, span, format!("`{path}` cannot be read"))
                         .label(why)
-                        .note(format!("looked for at {resolved}")),
-                );
+                        .note(format!("looked for at {resolved}"));
+                if matches!(path, "std" | "std.bt") {
+                    let title = "the library is no file: `use std`";
+                    diagnostic = diagnostic.fix(title, span, "std", Applicability::Unsafe);
+                }
+                self.diagnostics.push(diagnostic);
             }
         }
     }

@@ -7,6 +7,7 @@
     reason = "a test that meets the unexpected has failed"
 )]
 
+mod changes;
 mod check;
 mod checking;
 mod cli;
@@ -27,6 +28,7 @@ mod reference;
 mod refused;
 mod robust;
 mod run;
+mod slips;
 mod snapshot;
 mod svg;
 mod syntax;
