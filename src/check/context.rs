@@ -181,7 +181,7 @@ impl<'a> Checker<'a> {
         {
             let called = &name.name;
             self.warning(
-                Code::W0203,
+                Code::W0204,
                 name.span,
                 format!("this `let` hides the state `{called}`"),
             )

@@ -71,7 +71,7 @@ codes! {
     E0129 "a comment of another language",
     E0130 "a file that is not text",
     E0131 "a letter that a name cannot have",
-    E0132 "a field that nothing has",
+    E0133 "a field that nothing has",
 
     E0201 "declared twice",
     E0202 "not declared",
@@ -148,7 +148,7 @@ codes! {
 
     W0201 "a name that nothing reads",
     W0202 "a state that is set and never read",
-    W0203 "a value that hides a state",
+    W0204 "a value that hides a state",
     W0301 "a plain number for a ratio",
     W0302 "a region that is never reached",
 

@@ -320,7 +320,7 @@ impl<'i> Builder<'i> {
             name.to_owned()
         };
         let diagnostic =
-            Diagnostic::new(Code::E0132, place, format!("nothing has a field `{name}`"))
+            Diagnostic::new(Code::E0133, place, format!("nothing has a field `{name}`"))
                 .label(format!("`{mark}` reads only `x` and `y` of a point"));
         let diagnostic = match is_name || right.contains('(') {
             true => diagnostic.fix(
