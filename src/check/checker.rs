@@ -34,6 +34,8 @@ pub struct Checker<'a> {
     pub context: Context<'a>,
     /// The bodies that have been checked or are being checked.
     pub bodies: Bodies<'a>,
+    /// The parameters whose type and default do not agree.
+    pub unsure: Vec<Span>,
     /// How many expressions are being checked within one another.
     pub depth: usize,
     /// What the history of the task at hand keeps, while its `start` is checked.
@@ -89,6 +91,7 @@ impl<'a> Checker<'a> {
             diagnostics,
             context: Context::new(Region::World),
             bodies: Bodies::default(),
+            unsure: Vec::new(),
             depth: 0,
             kept: None,
             asked: Vec::new(),

@@ -1,6 +1,7 @@
 //! The context of an expression: what is in scope and what is allowed.
 
 use super::Checker;
+use super::names::Decl;
 use super::types::{Type, Value};
 use crate::diagnostic::Code;
 use crate::ir::Id;
@@ -171,6 +172,24 @@ impl<'a> Checker<'a> {
     pub fn bind(&mut self, binding: Binding<'a>, what: &'static str, depth: usize) {
         let name = binding.name;
         self.binds(name, what);
+        if what == "value"
+            && !self.context.library
+            && matches!(
+                self.names.value(&name.name, false),
+                Some((Decl::State(_), _))
+            )
+        {
+            let called = &name.name;
+            self.warning(
+                Code::W0204,
+                name.span,
+                format!("this `let` hides the state `{called}`"),
+            )
+            .label("from here on the name means this value")
+            .help(format!(
+                "to set the state, write `{called} = …` without `let`"
+            ));
+        }
         let mut beside = self.context.scope.iter().skip(depth);
         if let Some(first) = beside.find(|bound| bound.name.name == name.name) {
             let first = first.name.span;

@@ -5,7 +5,7 @@ mod call;
 mod choice;
 mod draw;
 mod ending;
-mod expect;
+pub mod expect;
 mod finite;
 mod literal;
 mod operator;

@@ -99,6 +99,15 @@ pub enum TypeDecl<'a> {
 }
 
 impl<'a> TypeDecl<'a> {
+    /// What it is, with its article.
+    pub fn what(self) -> &'static str {
+        match self {
+            TypeDecl::Enum(_) => "an enum",
+            TypeDecl::PlaceKind(_) => "a kind of places",
+            TypeDecl::WallKind(_) => "a kind of walls",
+        }
+    }
+
     /// Where its name first occurs.
     pub fn ident(self) -> &'a Ident {
         match self {

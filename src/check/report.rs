@@ -219,7 +219,17 @@ pub fn merge(sorted: &mut Vec<Diagnostic>) {
     for found in sorted.drain(..) {
         let about = match found.code {
             Code::E0202 | Code::E0406 => found.message.clone(),
+            Code::E0305 if found.message.contains(" needs its argument ") => found.message.clone(),
             Code::E0407 => String::new(),
+            // The same of what stands side by side: the coordinates of a point, the arguments of a shape.
+            Code::E0301 | Code::E0302 | Code::E0601
+                if merged.last().is_some_and(|last| is_beside(last, &found)) =>
+            {
+                if let Some(last) = merged.last_mut() {
+                    join(last, found);
+                }
+                continue;
+            }
             Code::E0203
                 if merged
                     .last()
@@ -263,6 +273,36 @@ pub fn merge(sorted: &mut Vec<Diagnostic>) {
         }
     }
     *sorted = merged;
+}
+
+/// How far what stands side by side is apart, in bytes.
+const BESIDE: u32 = 24;
+
+/// Whether two diagnostics say the same of what stands side by side.
+fn is_beside(last: &Diagnostic, found: &Diagnostic) -> bool {
+    let end = last.labels.last().map_or(last.span(), |label| label.span);
+    let start = found.span();
+    let plain = found.labels.len() == 1;
+    last.message == found.message
+        && plain
+        && end.file == start.file
+        && start.start >= end.end
+        && start.start - end.end <= BESIDE
+}
+
+/// Adds a place to a diagnostic that says the same of the one before it, with its fix.
+fn join(last: &mut Diagnostic, found: Diagnostic) {
+    last.labels.push(Label {
+        span: found.span(),
+        message: "and here".to_owned(),
+    });
+    match (last.fixes.as_mut_slice(), found.fixes.as_slice()) {
+        ([one], [other]) if one.title == other.title => {
+            one.edits.extend(other.edits.iter().cloned());
+            one.applicability = one.applicability.max(other.applicability);
+        }
+        _ => last.fixes.clear(),
+    }
 }
 
 /// Names in a sentence: `a`, `b` and `c`.

@@ -173,7 +173,11 @@ impl<'a> Checker<'a> {
     ) {
         let span = shape.span;
         let shape = self.shape_of(shape, "a place");
-        let facing = facing.and_then(|facing| self.constant(facing, &Type::ANGLE, "`facing`"));
+        // One that is wrong is one nevertheless.
+        let facing = facing.map(|facing| {
+            let angle = self.constant(facing, &Type::ANGLE, "`facing`");
+            angle.unwrap_or_default()
+        });
         let Some(shape) = shape else { return };
         if arena.is_some_and(|arena| !arena.contains(shape.center())) {
             self.error(

@@ -103,7 +103,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
 
 /// The programs under a path: itself, or those in a folder and in its folders, in the order of their names. What begins
 /// with a dot is left out.
-fn programs(path: &str) -> Vec<String> {
+pub(super) fn programs(path: &str) -> Vec<String> {
     fn walk(folder: &Path, programs: &mut Vec<String>) {
         let entries = std::fs::read_dir(folder).into_iter().flatten();
         let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();

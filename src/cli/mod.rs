@@ -8,6 +8,7 @@ mod canonicalize;
 mod check;
 mod compile;
 mod decanonicalize;
+mod diff;
 mod explain;
 mod files;
 mod fmt;
@@ -22,6 +23,7 @@ mod results;
 mod run;
 mod size;
 pub mod store;
+mod test;
 mod tune;
 mod verify;
 
@@ -68,6 +70,10 @@ enum Command {
     Tune(tune::Arguments),
     /// Prove two trees, or a tree and a policy table, equal, or show where they part.
     Verify(verify::Arguments),
+    /// Say which decisions of a tree or a table have changed, each change under one condition.
+    Diff(diff::Arguments),
+    /// Learn again, and hold each tree against its snapshot.
+    Test(test::Arguments),
     /// Say how large trees are.
     Size(size::Arguments),
     /// Minimise the covers of a PLA.
@@ -120,6 +126,8 @@ pub fn main() -> ExitCode {
         Command::Run(arguments) => run::run(&arguments, &say),
         Command::Tune(arguments) => tune::run(&arguments, &say),
         Command::Verify(arguments) => verify::run(&arguments, &say),
+        Command::Diff(arguments) => diff::run(&arguments, &say),
+        Command::Test(arguments) => test::run(&arguments, &say),
         Command::Size(arguments) => size::run(&arguments, &say),
         Command::Minimize(arguments) => minimize::run(&arguments, &say),
         Command::Fmt(arguments) => fmt::run(&arguments, &say),

@@ -72,6 +72,7 @@ codes! {
     E0130 "a file that is not text",
     E0131 "a letter that a name cannot have",
     E0132 "too much text",
+    E0133 "a field that nothing has",
 
     E0201 "declared twice",
     E0202 "not declared",
@@ -154,6 +155,7 @@ codes! {
     W0201 "a name that nothing reads",
     W0202 "a state that is set and never read",
     W0203 "a program that has changed since",
+    W0204 "a value that hides a state",
     W0301 "a plain number for a ratio",
     W0302 "a region that is never reached",
 

@@ -2,7 +2,128 @@
 
 use strsim::osa_distance;
 
-/// The candidate nearest to `name`, if one is near enough to be what was meant; the first one of several.
+/// What people who come from other languages and tools write, and what it is called here, where that is known at all.
+const FOREIGN: [(&str, &str); 111] = [
+    // shapes and worlds
+    ("circle", "disc"),
+    ("disk", "disc"),
+    ("rectangle", "rect"),
+    ("box", "rect"),
+    ("square", "rect"),
+    ("segment", "line"),
+    ("path", "polyline"),
+    ("size", "arena"),
+    ("bounds", "arena"),
+    ("area", "arena"),
+    ("dt", "tick"),
+    ("step", "tick"),
+    ("timestep", "tick"),
+    ("radius", "body"),
+    ("shape", "body"),
+    ("size", "body"),
+    ("motion", "drive"),
+    ("kinematics", "drive"),
+    ("collision", "contact"),
+    ("run", "runs"),
+    ("brain", "runs"),
+    ("policy", "runs"),
+    ("behavior", "runs"),
+    ("script", "runs"),
+    ("lidar", "scanner"),
+    ("laser", "scanner"),
+    ("sonar", "range_finder"),
+    ("ultrasonic", "range_finder"),
+    ("infrared", "range_finder"),
+    ("diff_drive", "differential"),
+    ("differential_drive", "differential"),
+    ("omni", "holonomic"),
+    ("omnidirectional", "holonomic"),
+    ("mecanum", "holonomic"),
+    ("speed", "max_speed"),
+    ("speed_limit", "max_speed"),
+    ("turn", "max_turn"),
+    // types
+    ("int", "number"),
+    ("integer", "number"),
+    ("float", "number"),
+    ("double", "number"),
+    ("real", "number"),
+    ("num", "number"),
+    ("boolean", "bool"),
+    ("percent", "ratio"),
+    ("percentage", "ratio"),
+    ("fraction", "ratio"),
+    ("velocity", "speed"),
+    ("duration", "time"),
+    ("seconds", "time"),
+    ("vec2", "point"),
+    ("vector", "point"),
+    ("position", "point"),
+    ("rotation", "angle"),
+    ("degrees", "angle"),
+    ("distance", "length"),
+    ("meters", "length"),
+    // values and functions
+    ("random", "anywhere"),
+    ("random", "uniform"),
+    ("any", "anywhere"),
+    ("rand", "uniform"),
+    ("gauss", "normal"),
+    ("gaussian", "normal"),
+    ("choice", "one_of"),
+    ("pick", "one_of"),
+    ("dist", "distance"),
+    ("delta_time", "tick"),
+    ("collided", "touching"),
+    ("collision", "touching"),
+    ("bumped", "touching"),
+    ("succeeded", "success"),
+    ("completed", "success"),
+    ("sees", "visible"),
+    ("can_see", "visible"),
+    ("is_visible", "visible"),
+    ("orientation", "heading"),
+    ("theta", "heading"),
+    ("yaw", "heading"),
+    ("pos", "position"),
+    ("location", "position"),
+    ("time", "elapsed"),
+    ("timer", "elapsed"),
+    ("closest", "nearest"),
+    ("exists", "any"),
+    ("some", "any"),
+    ("forall", "all"),
+    ("every", "all"),
+    ("len", "count"),
+    ("none", "nowhere"),
+    ("None", "nowhere"),
+    ("null", "nowhere"),
+    ("nil", "nowhere"),
+    // behaviours and statements
+    ("move", "drive"),
+    ("velocity", "speed"),
+    ("direction", "course"),
+    ("heading", "course"),
+    ("angular", "turn"),
+    ("omega", "turn"),
+    ("move_to", "goto"),
+    ("go_to", "goto"),
+    ("stop", "idle"),
+    ("stay", "idle"),
+    ("roam", "wander"),
+    // learners
+    ("alpha", "rate"),
+    ("learning_rate", "rate"),
+    ("epsilon", "explore"),
+    ("exploration", "explore"),
+    ("gamma", "discount"),
+    ("algorithm", "method"),
+    ("steps", "episodes"),
+    ("default", "unseen"),
+];
+
+/// The candidate that `name` is called elsewhere, or else the nearest one, if it is near enough to be what was meant; the
+/// first one of several.
 ///
 /// Nearness is the number of letters inserted, dropped, replaced or exchanged with their neighbour (optimal string
 /// alignment); the case of letters counts half a replacement, so that `Sequence` finds `sequence`.
@@ -10,6 +131,12 @@ pub fn nearest<'a, I>(name: &str, candidates: I) -> Option<&'a str>
 where
     I: IntoIterator<Item = &'a str>,
 {
+    let candidates: Vec<&'a str> = candidates.into_iter().collect();
+    let foreign = FOREIGN.iter().filter(|(foreign, _)| *foreign == name);
+    let mut meant = foreign.filter_map(|(_, meant)| candidates.iter().find(|word| *word == meant));
+    if let Some(meant) = meant.next() {
+        return Some(meant);
+    }
     let own = name.chars().count();
     let near = |candidate: &'a str| {
         let other = candidate.chars().count();

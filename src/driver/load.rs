@@ -3,7 +3,7 @@
 use super::digest::sha256;
 use super::text::{Text, decode};
 use crate::check::{self, Input};
-use crate::diagnostic::{self, Code, Diagnostic, render};
+use crate::diagnostic::{self, Applicability, Code, Diagnostic, render};
 use crate::ir::{Name, Program};
 use crate::source::{FileId, Source, Sources, Span};
 use crate::syntax;
@@ -334,11 +334,15 @@ impl Loader<'_> {
             }
             Err(why) => {
                 self.incomplete |= !table;
-                self.diagnostics.push(
+                let mut diagnostic =
                     Diagnostic::new(Code::E0208, span, format!("`{path}` cannot be read"))
                         .label(why)
-                        .note(format!("looked for at {resolved}")),
-                );
+                        .note(format!("looked for at {resolved}"));
+                if matches!(path, "std" | "std.bt") {
+                    let title = "the library is no file: `use std`";
+                    diagnostic = diagnostic.fix(title, span, "std", Applicability::Unsafe);
+                }
+                self.diagnostics.push(diagnostic);
             }
         }
     }

@@ -2,6 +2,7 @@
 
 pub mod curve;
 pub mod decanonicalised;
+pub mod difference;
 pub mod ends;
 pub mod episodes;
 pub mod grown;

@@ -17,7 +17,7 @@ mod world;
 use super::ast::{Comment, Expr, ExprKind, File, Ident, Item, ItemKind, Lost, Spanned};
 use super::comments::docs_before;
 use super::grammar::{Node, Parts, Rule};
-use super::tokens::{Kind, Token};
+use super::tokens::{Kind, Token, is_blank};
 use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::source::{FileId, Span};
 
@@ -32,6 +32,10 @@ pub(super) struct Builder<'i> {
     failed_at: Option<usize>,
     /// What the mistakes have taken so far.
     lost: Lost,
+    /// Where a `{` is missing, so that a `}` may be missing around it.
+    unopened: Vec<usize>,
+    /// How many words stand where units should, as statements of their own.
+    units_missed: usize,
 }
 
 impl<'i> Builder<'i> {
@@ -49,6 +53,8 @@ impl<'i> Builder<'i> {
             diagnostics: Vec::new(),
             failed_at: None,
             lost: Lost::default(),
+            unopened: Vec::new(),
+            units_missed: 0,
         }
     }
 
@@ -117,8 +123,13 @@ impl<'i> Builder<'i> {
     /// Reports a token that has one right spelling here.
     fn respell(&mut self, code: Code, span: Span, message: String, right: &str) {
         let diagnostic = Diagnostic::new(code, span, message)
-            .label(format!("write `{right}`"))
-            .fix(format!("write `{right}`"), span, right, Applicability::Safe);
+            .label(format!("write `{}`", right.trim()))
+            .fix(
+                format!("write `{}`", right.trim()),
+                span,
+                right,
+                Applicability::Safe,
+            );
         self.report(diagnostic);
     }
 
@@ -153,8 +164,19 @@ impl<'i> Builder<'i> {
         }
     }
 
-    /// Takes the `=` of a declaration, and reports `==` and `:=`.
+    /// Takes the `=` of a declaration, and reports `==` and `:=`, and `:` where no type can stand.
     fn take_is(&mut self, parts: &mut Parts<'i>) -> bool {
+        if let Some(node) = parts.maybe(Rule::wrong_is) {
+            let span = self.span(&node);
+            let message = "a value is given with `=`, not with `:`".to_owned();
+            let touches = self.text.get(..span.range().start);
+            let right = match touches.is_some_and(|before| before.ends_with(is_blank)) {
+                true => "=",
+                false => " =",
+            };
+            self.respell(Code::E0127, span, message, right);
+            return true;
+        }
         let Some(node) = parts.maybe(Rule::is) else {
             return false;
         };

@@ -1,5 +1,6 @@
 //! Why a text does not parse.
 
+mod advice;
 mod characters;
 mod ends;
 mod foreign;
@@ -64,10 +65,12 @@ pub(super) fn failure(
         .or_else(|| place.outcome())
         .or_else(|| place.unclosed())
         .or_else(|| place.text())
+        .or_else(|| place.grouped_digits())
         .or_else(|| place.unit())
         .or_else(|| place.modulo())
         .or_else(|| place.reserved())
         .or_else(|| place.first_word())
+        .or_else(|| place.entry_word())
         .or_else(|| place.stray_close())
         .unwrap_or_else(|| place.unexpected());
     (failure.at, diagnostic)
@@ -148,9 +151,18 @@ impl Place<'_> {
         }
     }
 
+    /// What could have stood here, as a list; within an entry, without what could begin the next one.
+    fn wanted(&self) -> Option<String> {
+        let inside = self.failure.at != self.failure.start || self.same_line_as_before();
+        expected::listed(
+            &self.failure.expected,
+            inside.then_some(self.failure.strict),
+        )
+    }
+
     fn unexpected(&self) -> Diagnostic {
         let found = self.found();
-        let diagnostic = match expected::listed(&self.failure.expected) {
+        let diagnostic = match self.wanted() {
             Some(wanted) => {
                 let message = format!("expected {wanted}, found `{found}`");
                 Diagnostic::new(Code::E0101, self.span(), message)
@@ -161,6 +173,7 @@ impl Place<'_> {
                 Diagnostic::new(Code::E0101, self.span(), message)
             }
         };
+        let diagnostic = self.advised(diagnostic);
         match self.open_paren() {
             Some(open) => diagnostic.also(self.span_of(open), "to close this one"),
             None => diagnostic,

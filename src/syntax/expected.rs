@@ -19,8 +19,20 @@ enum Rank {
 const LISTED: usize = 4;
 
 /// The expectations as a list: "`,`, `)` or an operator"; nothing if there are none to name.
-pub(super) fn listed(rules: &[Rule]) -> Option<String> {
-    let mut named: Vec<(Rank, &str)> = rules.iter().filter_map(|&rule| name(rule)).collect();
+///
+/// After an entry that could have ended, the next one of `strict` could begin as well, which says nothing.
+pub(super) fn listed(rules: &[Rule], strict: Option<Rule>) -> Option<String> {
+    let begins = strict.map_or(&[] as &[&str], beginnings);
+    let is_next = |rule: Rule| name(rule).is_some_and(|(_, word)| begins.contains(&word));
+    let could_end = rules.iter().filter(|&&rule| is_next(rule)).count() >= 2;
+    let has_operator = rules
+        .iter()
+        .any(|&rule| name(rule) == Some((Rank::More, "an operator")));
+    let told = rules.iter().filter(|&&rule| {
+        let is_call = has_operator && rule == Rule::open_paren;
+        !(is_call || could_end && is_next(rule))
+    });
+    let mut named: Vec<(Rank, &str)> = told.filter_map(|&rule| name(rule)).collect();
     named.sort();
     named.dedup();
     if named.len() > 1 && named.iter().any(|&(rank, _)| rank < Rank::More) {
@@ -35,14 +47,57 @@ pub(super) fn listed(rules: &[Rule]) -> Option<String> {
     }
     let words: Vec<&str> = named.into_iter().map(|(_, word)| word).collect();
     let (last, first) = words.split_last()?;
-    if first.is_empty() {
+    if first.is_empty() && !last.contains(", ") {
         return Some((*last).to_owned());
     }
     if words.len() > LISTED + 1 {
         let first = words.get(..LISTED).unwrap_or_default().join(", ");
         return Some(format!("{first} or something like it"));
     }
-    Some(format!("{} or {last}", first.join(", ")))
+    let (last, more) = match last.rsplit_once(", ") {
+        Some((more, last)) => (last, Some(more)),
+        None => (*last, None),
+    };
+    let all: Vec<&str> = first.iter().copied().chain(more).collect();
+    Some(format!("{} or {last}", all.join(", ")))
+}
+
+/// What begins an entry of a block, as the messages call it.
+fn beginnings(strict: Rule) -> &'static [&'static str] {
+    match strict {
+        Rule::strict_item => &[
+            "`use`",
+            "`world`",
+            "`enum`",
+            "`state`",
+            "`event`",
+            "`each`",
+            "`on`",
+            "`let`",
+            "`predicate`",
+            "`behavior`",
+            "`task`",
+            "`learn`",
+            "`tree`",
+            "`claim`",
+        ],
+        Rule::strict_world_entry => &["`place`", "`wall`", "`robot`", "a name"],
+        Rule::strict_robot_entry => &["`sensor`", "a name"],
+        Rule::strict_clause => &["`local`", "`requires`", "`succeed`", "`fail`", "`control`"],
+        Rule::strict_aspect => &[
+            "`observe`",
+            "`choose`",
+            "`history`",
+            "`patience`",
+            "`start`",
+            "`end`",
+            "`reward`",
+        ],
+        Rule::strict_reward => &["`on`", "`while`", "`per`", "`otherwise`"],
+        Rule::strict_learn_entry => &["`start`", "a name"],
+        Rule::strict_stmt => &["`let`", "`for`", "`if`", "a name", "a statement"],
+        _ => &[],
+    }
 }
 
 /// The words that could have stood there.
@@ -110,7 +165,7 @@ fn name(rule: Rule) -> Option<(Rank, &'static str)> {
         Rule::probability | Rule::kw_with => (More, "`with`"),
         Rule::kw_probability => (Word, "`probability`"),
         Rule::std => (Word, "`std`"),
-        Rule::outcome => (Word, "`success` or `failure`"),
+        Rule::outcome => (Word, "`success`, `failure`"),
         Rule::open_brace => (Mark, "`{`"),
         Rule::close_brace => (Mark, "`}`"),
         Rule::open_paren => (Mark, "`(`"),
@@ -121,7 +176,7 @@ fn name(rule: Rule) -> Option<(Rank, &'static str)> {
         Rule::guards => (Mark, "`=>`"),
         Rule::at_least => (Mark, "`>=`"),
         Rule::range_to => (More, "`..`"),
-        Rule::link => (More, "`of`, `per` or `->`"),
+        Rule::link => (More, "`of`, `per`, `->`"),
         Rule::string => (Part, "a path in quotes"),
         Rule::pin => (More, "`sha256:` with 64 hexadecimal digits"),
         Rule::name | Rule::learner_name | Rule::family => (Part, "a name"),
@@ -129,7 +184,6 @@ fn name(rule: Rule) -> Option<(Rank, &'static str)> {
         Rule::params | Rule::typed_params => (More, "parameters"),
         Rule::param | Rule::typed_param => (Part, "a parameter"),
         Rule::type_expr => (Part, "a type"),
-        Rule::type_op => (More, "`*` or `/`"),
         Rule::clauses => (Mark, "`{`"),
         Rule::block => (Mark, "`{`"),
         Rule::children | Rule::r#yield => (Mark, "`{`"),
@@ -186,7 +240,33 @@ fn name(rule: Rule) -> Option<(Rank, &'static str)> {
         | Rule::wrong_unit
         | Rule::wrong_factor
         | Rule::assign_ahead
+        | Rule::type_op
         | Rule::wrong_equals
+        | Rule::wrong_is
+        | Rule::wrong_comma
+        | Rule::wrong_choice
+        | Rule::wrong_link
+        | Rule::wrong_facing
+        | Rule::wrong_control
+        | Rule::wrong_start
+        | Rule::wrong_per
+        | Rule::wrong_field
+        | Rule::wrong_branch
+        | Rule::field_name
+        | Rule::price_time
+        | Rule::paid_unit
+        | Rule::list_expr
+        | Rule::open
+        | Rule::missing_open
+        | Rule::entry_ahead
+        | Rule::stmt_ahead
+        | Rule::call_ahead
+        | Rule::child_ahead
+        | Rule::known_word
+        | Rule::unopened
+        | Rule::clause_ahead
+        | Rule::start_ahead
+        | Rule::reward_ahead
         | Rule::wrong_else_if
         | Rule::unclosed_string
         | Rule::unclosed_name

@@ -65,20 +65,7 @@ pub fn canonicalise(root: &Node, by: Reading) -> Result<Canonical, Irreducible> 
     root.visit_atoms(&mut |atom| {
         guards.atom(atom);
     });
-    let plan = plan(root, After::Nothing, &mut Guards::new())?;
-    let mut units = Units {
-        guards: &mut guards,
-        found: Vec::new(),
-    };
-    let Ok(_) = units.reach(&plan, by, Signal::TRUE);
-    let found = units.found;
-    let mut unified: Vec<(Id<Behavior>, Signal)> = Vec::new();
-    for (behavior, when) in found {
-        match unified.iter_mut().find(|(known, _)| *known == behavior) {
-            Some((_, before)) => *before = guards.circuit.or(*before, when),
-            None => unified.push((behavior, when)),
-        }
-    }
+    let unified = decisions(root, by, &mut guards)?;
     let mut units = Vec::new();
     for (behavior, when) in unified {
         let guard = shorten(when, Signal::FALSE, LITERALS, &mut guards);
@@ -91,4 +78,27 @@ pub fn canonicalise(root: &Node, by: Reading) -> Result<Canonical, Irreducible> 
         }
     }
     Ok(Canonical { units })
+}
+
+/// When a tree selects each of its behaviours, in the order of its leaves.
+pub(super) fn decisions(
+    root: &Node,
+    by: Reading,
+    guards: &mut Guards,
+) -> Result<Vec<(Id<Behavior>, Signal)>, Irreducible> {
+    let plan = plan(root, After::Nothing, &mut Guards::new())?;
+    let mut units = Units {
+        guards: &mut *guards,
+        found: Vec::new(),
+    };
+    let Ok(_) = units.reach(&plan, by, Signal::TRUE);
+    let found = units.found;
+    let mut unified: Vec<(Id<Behavior>, Signal)> = Vec::new();
+    for (behavior, when) in found {
+        match unified.iter_mut().find(|(known, _)| *known == behavior) {
+            Some((_, before)) => *before = guards.circuit.or(*before, when),
+            None => unified.push((behavior, when)),
+        }
+    }
+    Ok(unified)
 }

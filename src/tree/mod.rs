@@ -3,6 +3,7 @@
 mod answers;
 pub mod atoms;
 pub mod canonicalise;
+pub mod change;
 mod circuit;
 mod compiled;
 pub mod decanonicalise;

@@ -7,6 +7,7 @@
     reason = "a test that meets the unexpected has failed"
 )]
 
+mod changes;
 mod check;
 mod checking;
 mod cli;
@@ -29,6 +30,7 @@ mod refused;
 mod results;
 mod robust;
 mod run;
+mod slips;
 mod snapshot;
 mod svg;
 mod syntax;

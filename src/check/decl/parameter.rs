@@ -2,6 +2,7 @@
 
 use crate::check::Checker;
 use crate::check::context::{Binding, Context, Region};
+use crate::check::expr::expect::is_literal;
 use crate::check::names::Decl;
 use crate::check::signature::{Signature, Takes};
 use crate::check::types::Type;
@@ -14,12 +15,17 @@ impl<'a> Checker<'a> {
         let mut bindings: Vec<Binding<'a>> = Vec::new();
         for param in params.map_or(&[][..], |params| &params.params) {
             let name = &param.name;
-            let ty = self.type_expr(&param.ty);
+            let mut ty = self.type_expr(&param.ty);
             if let Some(default) = &param.default {
                 let role = format!("`{}`", name.name);
                 let region = std::mem::replace(&mut self.context.region, Region::Let);
-                self.expect(default, &ty, &role);
+                let value = self.expect(default, &ty, &role);
                 self.context.region = region;
+                // Which of the two is right nobody knows, unless it is only the unit that is missing.
+                if value.ty == Type::Error && !is_literal(default) {
+                    ty = Type::Error;
+                    self.unsure.push(param.span);
+                }
             }
             if let Some(first) = bindings.iter().find(|other| other.name.name == name.name) {
                 self.error(
@@ -66,7 +72,10 @@ impl<'a> Checker<'a> {
         let mut bindings: Vec<Binding<'a>> = Vec::new();
         for (param, given) in params.iter().zip(matched.values()) {
             let role = format!("`{}` of `{name}`", param.name.name);
-            let ty = self.in_library(library, |checker| checker.type_expr(&param.ty));
+            let ty = match self.unsure.contains(&param.span) {
+                true => Type::Error,
+                false => self.in_library(library, |checker| checker.type_expr(&param.ty)),
+            };
             let value = match (given, &param.default) {
                 (Some(value), _) => {
                     let to = makes_instance.then_some((name.as_str(), param.name.name.as_str()));
@@ -88,7 +97,8 @@ impl<'a> Checker<'a> {
                 }
                 (None, None) => {
                     // If another argument is wrong, it may be the missing one.
-                    if fine {
+                    let known = !param.ty.factors.is_empty();
+                    if fine && known {
                         self.error(
                             Code::E0305,
                             reference.span,

@@ -7,7 +7,7 @@ use crate::check::types::{Type, Typed};
 use crate::diagnostic::{Applicability, Code};
 use crate::ir::expr::ExprId;
 use crate::source::Span;
-use crate::syntax::ast::{Expr, ExprKind};
+use crate::syntax::ast::{ArgKind, Expr, ExprKind, Ref};
 
 impl<'a> Checker<'a> {
     /// Checks an expression that has to be of a type.
@@ -119,6 +119,19 @@ impl<'a> Checker<'a> {
         if *wanted != Type::Ratio {
             return;
         }
+        if let ExprKind::Ref(Ref {
+            name,
+            args: Some(args),
+            ..
+        }) = &expr.kind
+            && PASSING.contains(&name.name.as_str())
+        {
+            for arg in args {
+                if let ArgKind::Positional(value) = &arg.kind {
+                    self.warn_plain_ratio(value, wanted);
+                }
+            }
+        }
         if let ExprKind::Number(literal) = &expr.kind
             && literal.unit.is_none()
             && literal.value > 1.0
@@ -138,6 +151,9 @@ impl<'a> Checker<'a> {
     }
 }
 
+/// The functions whose value is of the type of their arguments.
+const PASSING: [&str; 6] = ["uniform", "normal", "one_of", "min", "max", "clamp"];
+
 /// Whether an expression is a literal without a unit, perhaps signed.
 pub fn is_literal(expr: &Expr) -> bool {
     match &expr.kind {
@@ -153,6 +169,14 @@ impl Draft<'_> {
     pub fn unit_for(self, expr: &Expr, dim: Option<Dim>) -> Self {
         let Some(unit) = dim.filter(|_| is_literal(expr)).and_then(Dim::unit) else {
             return self;
+        };
+        // Who leaves the unit of an angle out has degrees in mind, unless it is no whole number.
+        let whole = |expr: &Expr| matches!(&expr.kind, ExprKind::Number(literal) if literal.value.fract() == 0.0);
+        let unit = match &expr.kind {
+            _ if unit != "rad" => unit,
+            ExprKind::Unary { operand, .. } if whole(operand) => "deg".to_owned(),
+            _ if whole(expr) => "deg".to_owned(),
+            _ => unit,
         };
         let zero = matches!(&expr.kind, ExprKind::Number(literal) if literal.value == 0.0);
         self.fix(

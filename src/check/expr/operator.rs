@@ -169,7 +169,7 @@ impl<'a> Checker<'a> {
             None
         };
         let Some((a, b)) = operands else {
-            return Typed::unknown(Type::Bool, span);
+            return Typed::error(span);
         };
         self.warn_plain_ratio(left, &b.ty);
         self.warn_plain_ratio(right, &a.ty);
@@ -259,9 +259,13 @@ impl<'a> Checker<'a> {
     fn incomparable(&mut self, op: Span, a: &Typed, b: &Typed) {
         if a.ty != b.ty {
             let message = format!("{} cannot be compared with {}", a.ty, b.ty);
+            let target = [(a, b), (b, a)]
+                .into_iter()
+                .find(|(target, other)| target.ty.is_named_target() && other.ty == Type::LENGTH);
             self.error(Code::E0302, b.span, message)
                 .this_is(&b.ty)
-                .also(a.span, format!("this is {}", a.ty));
+                .also(a.span, format!("this is {}", a.ty))
+                .help_if(target.map(|_| "how far something is: `distance(…)`".to_owned()));
             return;
         }
         let (message, label) = match a.ty {

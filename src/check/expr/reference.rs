@@ -4,7 +4,7 @@ use crate::check::Checker;
 use crate::check::builtin;
 use crate::check::names::Decl;
 use crate::check::types::{Type, Typed, Value};
-use crate::diagnostic::Code;
+use crate::diagnostic::{Applicability, Code};
 use crate::ir::expr::Expr;
 use crate::ir::world::{Robot, World};
 use crate::ir::{Id, Name};
@@ -26,6 +26,27 @@ impl<'a> Checker<'a> {
             }
         }
         let own = self.names.value(name, self.context.library).is_some();
+        if let Some(args) = &reference.args
+            && builtin::Constant::named(name).is_some()
+            && !own
+        {
+            for arg in args {
+                self.stray_argument(arg);
+            }
+            let draft = self
+                .error(
+                    Code::E0203,
+                    reference.name.span,
+                    format!("`{name}` takes no arguments"),
+                )
+                .label("this is built in, and a value of the moment");
+            let place = reference.name.span.after().to(span.after());
+            return match args.is_empty() {
+                true => draft.fix("drop the parentheses", place, "", Applicability::Safe),
+                false => draft,
+            }
+            .none();
+        }
         if let Some(called) = builtin::BuiltIn::named(name)
             && !(own && called.gives_way())
         {
@@ -81,7 +102,9 @@ impl<'a> Checker<'a> {
         let scope = self.context.scope.iter();
         let scope = scope.map(|bound| bound.name.name.as_str());
         let declared = self.names.values(|decl| !matches!(decl, Decl::Tree(_)));
+        let called = reference.args.is_some();
         let built_in = builtin::names().map(|name| -> &'a str { name });
+        let built_in = built_in.filter(|name| !called || builtin::Constant::named(name).is_none());
         let known = scope.chain(declared).chain(built_in);
         let likely = self.likely(&name.name, known);
         let what = match reference.args {

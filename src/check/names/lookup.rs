@@ -2,6 +2,7 @@
 
 use super::Decl;
 use crate::check::Checker;
+use crate::check::builtin::{BuiltIn, Constant};
 use crate::check::report::Draft;
 use crate::check::types::Value;
 use crate::diagnostic::{Applicability, Code, suggest};
@@ -48,6 +49,21 @@ impl<'a> Checker<'a> {
                     .label(format!("`{}` is {}", name.name, decl.what()))
                     .none(),
             },
+            None if BuiltIn::named(&name.name).is_some()
+                || Constant::named(&name.name).is_some() =>
+            {
+                let history = matches!(name.name.as_str(), "done" | "failed");
+                self.error(
+                    Code::E0203,
+                    reference.span,
+                    format!("{wanted} is needed here"),
+                )
+                .label(format!("`{}` is built in", name.name))
+                .help_if(history.then(|| {
+                    "what has ended is observed by `history last 1 success, failure`".to_owned()
+                }))
+                .none()
+            }
             None => {
                 let what = wanted.split_once(' ').map_or(wanted, |(_, what)| what);
                 self.undeclared_value(name, what, |decl| is(decl).is_some())
@@ -87,6 +103,21 @@ impl<'a> Checker<'a> {
         if self.lacks_library(&name.name) {
             return self.library_is_missing(name);
         }
+        if let Some(what) = self.names.types.get(name.name.as_str()).map(|ty| ty.what()) {
+            let help = match what {
+                "an enum" => "name one of its variants".to_owned(),
+                _ => format!("name one of them, or range over all: `x in {}`", name.name),
+            };
+            let message = format!("`{}` is {what}, not one of them", name.name);
+            return self
+                .error(Code::E0203, name.span, message)
+                .label("one is needed here")
+                .help(help);
+        }
+        let hint = match likely {
+            Some(_) => None,
+            None => hint(&name.name, what),
+        };
         self.error(
             Code::E0202,
             name.span,
@@ -94,6 +125,7 @@ impl<'a> Checker<'a> {
         )
         .label(format!("no {what} has this name"))
         .likely(name, likely)
+        .help_if(hint)
     }
 
     /// Reports an undeclared name where a declaration that `fits` is expected.
@@ -154,6 +186,39 @@ impl<'a> Checker<'a> {
                 .help(format!("declare one: `{declaration}`"));
         }
     }
+}
+
+/// What helps who writes such a name.
+fn hint(name: &str, what: &str) -> Option<String> {
+    Some(match name {
+        "self" | "this" | "me" | "robot" => {
+            "the robot at hand is never named: `distance(p)` is read from where it is".to_owned()
+        }
+        "pi" | "PI" => "half a turn is `180 deg`".to_owned(),
+        "speed" | "turn" | "velocity" if what == "variable" => {
+            "a motion is commanded by `drive(speed = …, turn = …)`".to_owned()
+        }
+        "s" | "ms" | "second" | "seconds" | "minute" | "minutes" | "hour" | "cm" | "mm" | "deg"
+        | "rad" => {
+            let unit = match name {
+                "second" | "seconds" => "s",
+                "minute" | "minutes" => "min",
+                "hour" => "h",
+                unit => unit,
+            };
+            format!("a unit follows a number: `1 {unit}`")
+        }
+        "step" | "decision" => {
+            "decisions are counted by `per decision`, time by `per 1 s`".to_owned()
+        }
+        "timeout" | "retry" | "repeat" | "parallel" => {
+            format!("the children of a node stand in braces: `{name}(…) {{ … }}`")
+        }
+        "selector" | "sequence" | "invert" => {
+            format!("the children of a node stand in braces: `{name} {{ … }}`")
+        }
+        _ => return None,
+    })
 }
 
 #[cfg(test)]

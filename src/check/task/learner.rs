@@ -91,7 +91,9 @@ impl<'a> Checker<'a> {
                 .label("this has no effect here");
         }
         if let (Objective::Average(_), Some(at)) = (built.objective, seen.get("objective")) {
-            if built.method != Method::Model {
+            // A line that was not understood may be the one that names the method.
+            let lost = |entry: &LearnEntry| matches!(entry, LearnEntry::Error(_));
+            if built.method != Method::Model && !learn.entries.iter().any(lost) {
                 let help = "say `method = model`, or give a `discount`";
                 self.error(
                     Code::E0501,

@@ -29,6 +29,10 @@ const BUILT_IN: &[(&str, Type)] = &[
 impl<'a> Checker<'a> {
     /// The type that is written.
     pub fn type_expr(&mut self, written: &TypeExpr) -> Type {
+        // A type that is missing is reported.
+        if written.factors.is_empty() {
+            return Type::Error;
+        }
         if let [(name, false)] = written.factors.as_slice() {
             return self.named_type(name);
         }

@@ -33,6 +33,16 @@ impl<'a> Checker<'a> {
                 }
                 continue;
             }
+            let odd = entries.iter().any(|entry| match &entry.kind {
+                RobotEntryKind::Field(field) => !FIELDS.contains(&field.name.name.as_str()),
+                RobotEntryKind::Error => true,
+                RobotEntryKind::Sensor { .. } => false,
+            });
+            if acting.is_some() && odd {
+                // What it runs is likely what is unknown.
+                self.robot(name, entries);
+                continue;
+            }
             if let Some(first) = acting {
                 self.error(Code::E0408, name.span, "one robot learns")
                     .label("a second robot without `runs`")
@@ -85,8 +95,7 @@ impl<'a> Checker<'a> {
             RobotEntryKind::Field(field) => Some(field),
             _ => None,
         });
-        let known = ["body", "drive", "contact", "runs"];
-        let [body, drive, contact, _] = self.fields(fields, known, "a robot");
+        let [body, drive, contact, _] = self.fields(fields, FIELDS, "a robot");
         let mut robot = Robot {
             name: Name::word(&name.name),
             ..no_robot()
@@ -181,6 +190,9 @@ impl<'a> Checker<'a> {
         })
     }
 }
+
+/// The fields of a robot.
+const FIELDS: [&str; 4] = ["body", "drive", "contact", "runs"];
 
 /// The value as a word; empty if it is not one.
 fn word(value: &Expr) -> &str {

@@ -67,6 +67,10 @@ impl<'a> Checker<'a> {
                         noise,
                     ],
                 );
+                // What has no name may be the target.
+                if target.is_none() && settings.is_none() {
+                    return None;
+                }
                 let (target, facing) = self.beacon_target(target, reference.name.span)?;
                 let [(range, far), (sector, width), noise] = settings?;
                 self.positive("a range", range, far)?;

@@ -3,9 +3,9 @@
 use crate::check::Checker;
 use crate::check::signature::{Signature, Takes};
 use crate::check::types::Type;
-use crate::diagnostic::Code;
+use crate::diagnostic::{Code, suggest};
 use crate::source::Span;
-use crate::syntax::ast::{Expr, Field, Ref};
+use crate::syntax::ast::{Expr, ExprKind, Field, Ref};
 
 /// The values of settings, each with its place.
 type Values<const N: usize> = [(f64, Span); N];
@@ -42,6 +42,7 @@ impl<'a> Checker<'a> {
         let mut given = matched.values();
         let first = first.and_then(|_| given.next().flatten());
         let mut values = Vec::new();
+        let mut missed = false;
         for ((name, ty, default), given) in wanted.iter().zip(given) {
             let value = match (given, default) {
                 (Some(value), _) => self
@@ -49,9 +50,11 @@ impl<'a> Checker<'a> {
                     .map(|number| (number, value.span)),
                 (None, Some(default)) => Some((*default, reference.span)),
                 (None, None) => {
-                    if matched.fine {
+                    if matched.fine && !missed {
                         let span = reference.name.span;
                         self.missing(Code::E0402, span, &owner, name, example(name));
+                        // Of one without any settings it is enough to show one.
+                        missed = reference.args.as_ref().is_none_or(Vec::is_empty);
                     }
                     None
                 }
@@ -70,15 +73,50 @@ impl<'a> Checker<'a> {
         owner: &str,
     ) -> [Option<&'a Field>; N] {
         let mut found = [None; N];
+        let mut unknown: Vec<&str> = Vec::new();
         for field in fields {
             let name = &field.name;
             let at = known.iter().position(|known| *known == name.name);
             match at.and_then(|at| found.get_mut(at)) {
-                None => self
-                    .unknown_to(owner, Code::E0403, name, "field", &known)
-                    .emit(),
+                None => {
+                    let value = match &field.value.kind {
+                        ExprKind::Ref(reference) => reference.name.name.as_str(),
+                        _ => "",
+                    };
+                    let called = &name.name;
+                    let likely = suggest::nearest(called, known);
+                    let form = match (called.as_str(), value) {
+                        _ if likely.is_some() => None,
+                        ("wall" | "place" | "robot" | "sensor", _) => {
+                            Some(format!("it needs a name: `{called} NAME = …`"))
+                        }
+                        (_, "scanner" | "range_finder" | "beacon") => {
+                            Some(format!("a sensor is declared by `sensor {called} = …`"))
+                        }
+                        (_, "disc" | "rect" | "polygon" | "line" | "polyline") => Some(format!(
+                            "a place is declared by `place {called} = …`, a wall by `wall {called} = …`"
+                        )),
+                        _ => None,
+                    };
+                    self.names.lose(called);
+                    self.unknown_to(owner, Code::E0403, name, "field", &known)
+                        .help_if(form);
+                }
                 Some(free @ None) => *free = Some(field),
                 Some(Some(first)) => self.said_twice(&name.name, name.span, first.name.span),
+            }
+            // What is missing was likely meant by what is unknown.
+            if at.is_none() {
+                for (known, found) in known.iter().zip(&found) {
+                    if found.is_none() {
+                        unknown.push(*known);
+                    }
+                }
+            }
+        }
+        for (known, found) in known.iter().zip(&found) {
+            if found.is_none() && unknown.contains(known) {
+                self.names.lose(known);
             }
         }
         found

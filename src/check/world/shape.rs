@@ -3,15 +3,23 @@
 use crate::check::Checker;
 use crate::check::builtin::Function;
 use crate::check::types::{Type, Value};
-use crate::diagnostic::Code;
+use crate::diagnostic::{Applicability, Code};
 use crate::geometry::{Point, Shape, crosses_itself, doubled_area};
 use crate::source::Span;
-use crate::syntax::ast::{self, Ref};
+use crate::syntax::ast::{self, ArgKind, Expr, ExprKind, Ref};
 
 impl<'a> Checker<'a> {
     /// `disc(centre, radius)`, `rect(corner, corner)`, `polygon(…)`, `polyline(…)`, `line(from, to)`.
     pub fn shape(&mut self, function: Function, reference: &'a Ref) -> Option<Shape> {
         let span = reference.span;
+        let points = if function == Function::Disc {
+            1
+        } else {
+            usize::MAX
+        };
+        if self.loose_coordinates(reference, points) {
+            return None;
+        }
         match function {
             Function::Disc => {
                 let values = self.positional(reference, 2, 2)?;
@@ -69,6 +77,65 @@ impl<'a> Checker<'a> {
                 Some(Shape::Polyline(points))
             }
         }
+    }
+
+    /// Reports numbers where points should be, such as `rect(0 m, 0 m, 6 m, 4 m)`; at most `points` of them are points.
+    fn loose_coordinates(&mut self, reference: &'a Ref, points: usize) -> bool {
+        let name = &reference.name.name;
+        let args = reference.args.as_deref().unwrap_or_default();
+        let number = |arg: &ast::Arg| match &arg.kind {
+            ArgKind::Positional(Expr {
+                kind: ExprKind::Number(literal),
+                ..
+            }) => {
+                let unit = literal.unit.as_ref().map(|unit| format!(" {}", unit.text));
+                Some(literal.digits.clone() + &unit.unwrap_or_default())
+            }
+            _ => None,
+        };
+        let Some(numbers) = args.iter().map(number).collect::<Option<Vec<String>>>() else {
+            return false;
+        };
+        let loose = numbers.len().min(points.saturating_mul(2));
+        let (Some(first), Some(last)) = (args.first(), args.get(loose.saturating_sub(1))) else {
+            return false;
+        };
+        if points == 1 && numbers.len() < 3 {
+            return false;
+        }
+        let role = if points == 1 {
+            "the centre"
+        } else {
+            "a corner"
+        };
+        let draft = self
+            .error(
+                Code::E0302,
+                first.span.to(last.span),
+                format!("{role} of a `{name}` is a point, not a number"),
+            )
+            .label("a point is written `(x, y)`");
+        if loose % 2 == 0
+            && numbers
+                .iter()
+                .take(loose)
+                .all(|number| number.contains(' '))
+        {
+            let pairs = numbers.get(..loose).unwrap_or_default().chunks(2);
+            let pairs: Vec<String> = pairs.map(|pair| format!("({})", pair.join(", "))).collect();
+            let right = pairs.join(", ");
+            let title = format!("write `{right}`");
+            let enough = loose >= 4 || points == 1;
+            if enough {
+                draft.fix(
+                    title,
+                    first.span.to(last.span),
+                    right,
+                    Applicability::Unsafe,
+                );
+            }
+        }
+        true
     }
 
     /// A length above zero.

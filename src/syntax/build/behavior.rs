@@ -1,6 +1,7 @@
 //! Behaviours.
 
 use super::Builder;
+use crate::diagnostic::Code;
 use crate::syntax::ast::{Behavior, BehaviorBody, Clause, ClauseKind};
 use crate::syntax::grammar::{Node, Parts, Rule};
 
@@ -38,7 +39,12 @@ impl<'i> Builder<'i> {
     fn clause(&mut self, node: Node<'i>) -> ClauseKind {
         let rule = node.as_rule();
         let mut parts = Parts::of(node);
-        parts.next();
+        if let Some(first) = parts.next()
+            && first.as_rule() == Rule::wrong_control
+        {
+            let message = "what a behaviour does in every tick is its `control`".to_owned();
+            self.respell(Code::E0123, self.span(&first), message, "control");
+        }
         match rule {
             Rule::local => {
                 let name = self.take_name(&mut parts);

@@ -1,10 +1,14 @@
 //! Statements.
 
 use super::Builder;
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::source::Span;
-use crate::syntax::ast::{AssignOp, Binding, Block, Branch, Else, Stmt, StmtKind};
+use crate::syntax::ast::{
+    AssignOp, Binding, Block, Branch, Else, Expr, ExprKind, Ref, Stmt, StmtKind,
+};
+use crate::syntax::diagnose::no_such_unit;
 use crate::syntax::grammar::{Node, Parts, Rule};
+use crate::syntax::tokens::Kind;
 
 impl<'i> Builder<'i> {
     pub(super) fn take_block(&mut self, parts: &mut Parts<'i>) -> Block {
@@ -28,9 +32,17 @@ impl<'i> Builder<'i> {
 
     fn block(&mut self, node: Node<'i>) -> Block {
         let span = self.span(&node);
-        let mut stmts = Vec::new();
+        let mut stmts: Vec<Stmt> = Vec::new();
         self.entries(Parts::of(node), Rule::strict_stmt, |builder, node, span| {
+            let known = builder.units_missed;
             let kind = node.map_or(StmtKind::Error, |node| builder.stmt(node));
+            // What was to be a unit makes the number before it one without meaning.
+            if builder.units_missed > known
+                && let Some(Stmt { kind, .. }) = stmts.last_mut()
+                && let StmtKind::Let(Binding { value, .. }) | StmtKind::Assign { value, .. } = kind
+            {
+                value.kind = ExprKind::Error;
+            }
             stmts.push(Stmt { kind, span });
         });
         Block { stmts, span }
@@ -122,6 +134,9 @@ impl<'i> Builder<'i> {
             return StmtKind::Error;
         };
         let target = self.reference(target);
+        if self.fields_of_target(&mut parts, &target) {
+            return StmtKind::Error;
+        }
         let Some(sign) = parts.maybe(Rule::assign) else {
             if target.args.is_some() {
                 return StmtKind::Call(target);
@@ -144,12 +159,48 @@ impl<'i> Builder<'i> {
         }
     }
 
+    /// Reports the word at `span` as no unit, where it follows a number on its line.
+    fn unit_of_statement(&mut self, span: Span) -> bool {
+        let start = span.range().start;
+        let index = self.tokens.partition_point(|token| token.end <= start);
+        let before = index.checked_sub(1).and_then(|at| self.tokens.get(at));
+        let Some(number) = before.filter(|token| token.kind == Kind::Number) else {
+            return false;
+        };
+        let gap = self.text.get(number.end..start).unwrap_or_default();
+        if gap.contains('\n') {
+            return false;
+        }
+        self.failed_at = Some(span.range().end);
+        let diagnostic = no_such_unit(span, self.slice(span), &[]);
+        self.report(diagnostic);
+        self.units_missed += 1;
+        true
+    }
+
+    /// Reports `a.b` where something is set, and says whether it was there.
+    pub(super) fn fields_of_target(&mut self, parts: &mut Parts<'i>, target: &Ref) -> bool {
+        let mut found = false;
+        let mut owner = Expr {
+            kind: ExprKind::Ref(target.clone()),
+            span: target.span,
+        };
+        while let Some(node) = parts.maybe(Rule::wrong_field) {
+            owner = self.wrong_field(owner, node);
+            found = true;
+        }
+        found
+    }
+
     /// Reports a name that stands where a statement should.
     fn lone_name(&mut self, span: Span) {
         if self.is_reported(span.range().start) {
             return;
         }
         let name = self.slice(span);
+        if self.unit_of_statement(span) {
+            return;
+        }
         let next = self.token_at(span.range().end);
         let (at, found) = next.map_or((span, ""), |token| {
             (
@@ -166,6 +217,30 @@ impl<'i> Builder<'i> {
         } else {
             span.range().end
         });
+        let meant = match name {
+            "int" | "float" | "double" | "var" | "const" | "auto" | "bool" | "number" | "local"
+            | "mut" | "val" | "def" | "real" | "string" => Some("let"),
+            "when" | "while" | "switch" | "match" | "unless" => Some("if"),
+            "foreach" | "loop" => Some("for"),
+            _ => None,
+        };
+        if let Some(meant) = meant.filter(|_| same_line && found != "}") {
+            let diagnostic = Diagnostic::new(
+                Code::E0123,
+                span,
+                format!("`{name}` does not begin a statement"),
+            )
+            .label(format!("did you mean `{meant}`?"))
+            .note("a statement begins with `let`, `if`, `for` or the name of what it sets")
+            .fix(
+                format!("write `{meant}`"),
+                span,
+                meant,
+                Applicability::Unsafe,
+            );
+            self.report(diagnostic);
+            return;
+        }
         let diagnostic = if same_line && !matches!(found, "}" | "") {
             Diagnostic::new(
                 Code::E0101,

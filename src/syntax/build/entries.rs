@@ -7,6 +7,24 @@ use crate::syntax::brackets;
 use crate::syntax::diagnose::{self, Failure};
 use crate::syntax::grammar::{self, Node, Parts, Rule};
 use crate::syntax::tokens::{Kind, is_blank};
+use crate::syntax::words::{CALLED, NODES};
+
+/// What the commas of a history part.
+pub(super) const HISTORY: &str = "the ends of a history";
+
+/// What other notations put before the nodes of a tree.
+const BEFORE_NODES: [&str; 10] = [
+    "when",
+    "action",
+    "condition",
+    "do",
+    "run",
+    "then",
+    "execute",
+    "check",
+    "call",
+    "node",
+];
 
 impl<'i> Builder<'i> {
     /// Hands each entry among `parts` to `push`, with its place; a bad one, which is reported here, without its
@@ -23,6 +41,7 @@ impl<'i> Builder<'i> {
             let span = self.span(&part);
             match part.as_rule() {
                 Rule::open_brace => open = Some(span),
+                Rule::missing_open => self.missing_open(span, part.as_str()),
                 Rule::close_brace | Rule::comma | Rule::children_end | Rule::EOI => {}
                 Rule::missing_close => self.missing_close(part.as_span().start(), open),
                 Rule::missing_child_comma => {
@@ -37,6 +56,7 @@ impl<'i> Builder<'i> {
                         && self.goes_on(span.range().start)
                     {
                         self.suspect(previous);
+                        self.join_names(previous, span);
                     }
                     previous = Some(span);
                     push(self, None, span);
@@ -62,7 +82,8 @@ impl<'i> Builder<'i> {
         let mut failure = self.failure(strict, start, start);
         if let Some(previous) = previous {
             failure = self.continuation(&failure, previous).unwrap_or(failure);
-            failure = self.juxtaposition(&failure).unwrap_or(failure);
+            let apart = self.juxtaposition(&failure, Some(previous));
+            failure = apart.unwrap_or(failure);
         }
         let (at, diagnostic) = diagnose::failure(self.file, self.text, self.tokens, &failure);
         self.failed_at = Some(at);
@@ -103,7 +124,7 @@ impl<'i> Builder<'i> {
 
     /// A text on the line of the previous entry that fails at its second token, which does not look like the second
     /// one of an entry: it is the first token that does not belong there.
-    fn juxtaposition(&self, failure: &Failure) -> Option<Failure> {
+    fn juxtaposition(&self, failure: &Failure, previous: Option<Span>) -> Option<Failure> {
         let start = failure.start;
         let index = self.tokens.partition_point(|token| token.end <= start);
         let code = |index: usize| {
@@ -112,13 +133,22 @@ impl<'i> Builder<'i> {
         };
         let (before, first, second) =
             (code(index.checked_sub(1)?)?, code(index)?, code(index + 1)?);
-        let is_entry =
-            before.of(self.text) == "{" || first.kind != Kind::Word || second.kind == Kind::Mark;
-        (self.goes_on(start) && !is_entry && second.start == failure.at).then(|| Failure {
-            start,
-            at: start,
-            expected: Vec::new(),
-            strict: failure.strict,
+        let is_operator = matches!(first.of(self.text), "and" | "or" | "not" | "in" | "is");
+        let is_entry = before.of(self.text) == "{"
+            || first.kind != Kind::Word
+            || second.kind == Kind::Mark
+            || is_operator;
+        let apart = self.goes_on(start) && !is_entry && second.start == failure.at;
+        apart.then(|| {
+            let together = previous
+                .map(|previous| self.failure(failure.strict, previous.range().start, start));
+            let expected = together.filter(|together| together.at == start);
+            Failure {
+                start,
+                at: start,
+                expected: expected.map_or(Vec::new(), |together| together.expected),
+                strict: failure.strict,
+            }
         })
     }
 
@@ -154,16 +184,103 @@ impl<'i> Builder<'i> {
         self.report(diagnostic);
     }
 
+    /// Reports a block whose `{` is missing at `span`, where `written` may be a colon.
+    pub(super) fn missing_open(&mut self, span: Span, written: &str) {
+        let start = span.range().start;
+        self.unopened.push(start);
+        let index = self.tokens.partition_point(|token| token.end <= start);
+        let before = self.tokens.get(..index).unwrap_or_default().iter();
+        let before = before.rev().find(|token| token.kind != Kind::Comment);
+        let diagnostic = match before {
+            Some(before) if written.is_empty() => {
+                let place = Span::new(self.file, before.start, before.end);
+                let word = before.of(self.text);
+                let message = format!("expected `{{` after `{word}`");
+                Diagnostic::new(Code::E0101, place, message).label("expected `{` after this")
+            }
+            _ => Diagnostic::new(
+                Code::E0101,
+                span,
+                format!("expected `{{`, found `{written}`"),
+            )
+            .label("expected `{`"),
+        };
+        self.report(diagnostic.help("a block stands in braces: `{ … }`"));
+    }
+
     /// Reports that nothing closes the bracket `open` at byte `at`.
     fn missing_close(&mut self, at: usize, open: Option<Span>) {
         if self.is_reported(at) {
             return;
         }
         self.failed_at = Some(at);
+        // Where a `{` is missing within, the `}` of that block closed this one.
+        let from = open.map_or(0, |open| open.range().start);
+        if let Some(found) = self.unopened.iter().position(|start| *start >= from) {
+            self.unopened.remove(found);
+            return;
+        }
         if let Some(open) = open {
+            self.lose_lets(open.range().end, at);
             let diagnostic = brackets::unclosed(self.file, self.text, self.tokens, open, at);
             self.report(diagnostic);
         }
+    }
+
+    /// Reports an argument without parentheses or a child without braces, at `next`, after the word `name`.
+    fn missing_brackets(&mut self, name: &str, before: Span, next: Span) -> bool {
+        let gap = self.text.get(before.range().end..next.range().start);
+        if gap.is_none_or(|gap| gap.contains('\n')) {
+            return false;
+        }
+        let word = name.split('(').next().unwrap_or(name);
+        let found = self.slice(next);
+        let is_word = found.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+        let diagnostic = if NODES.iter().any(|(node, _)| *node == word) {
+            let message = format!("expected `{{` after `{word}`, found `{found}`");
+            let form = match word {
+                "timeout" => "timeout(10 s) { … }".to_owned(),
+                "retry" | "repeat" | "parallel" => format!("{word}(2) {{ … }}"),
+                _ => format!("{word} {{ … }}"),
+            };
+            Diagnostic::new(Code::E0101, next, message)
+                .label("expected `{`")
+                .help(format!("its form is `{form}`"))
+        } else if BEFORE_NODES.contains(&name) {
+            Diagnostic::new(
+                Code::E0101,
+                before,
+                format!("a node does not begin with `{name}`"),
+            )
+            .label("this is not said here")
+            .fix(
+                format!("drop `{name}`"),
+                before.to(next.before()),
+                "",
+                Applicability::Unsafe,
+            )
+        } else if name == "by" {
+            Diagnostic::new(Code::E0127, next, "the argument `by` is given with `=`")
+                .label("write `by = …`")
+                .fix("write `=`", before.after(), " =", Applicability::Safe)
+        } else if CALLED.contains(&name) && is_word {
+            Diagnostic::new(
+                Code::E0101,
+                next,
+                format!("the arguments of `{name}` stand in parentheses"),
+            )
+            .label(format!("write `{name}({found})`"))
+            .fix(
+                format!("write `{name}({found})`"),
+                before.to(next),
+                format!("{name}({found})"),
+                Applicability::Unsafe,
+            )
+        } else {
+            return false;
+        };
+        self.report(diagnostic);
+        true
     }
 
     /// Reports a comma that is missing just before `node`, after what stands at `before`.
@@ -175,10 +292,59 @@ impl<'i> Builder<'i> {
         });
         let comma = before.map_or(place.before(), Span::after);
         let message = format!("a comma is missing before `{}`", self.slice(place));
-        let diagnostic = Diagnostic::new(Code::E0112, place, message)
+        let name = before.map(|before| self.slice(before));
+        if let (Some(name), Some(before)) = (name, before)
+            && what != HISTORY
+            && self.missing_brackets(name, before, place)
+        {
+            return;
+        }
+        let of_kind = [
+            "place",
+            "wall",
+            "robot",
+            "sensor",
+            "state",
+            "event",
+            "predicate",
+        ];
+        if let (Some(kind), Some(before)) = (name, before)
+            && of_kind.contains(&kind)
+        {
+            let name = self.slice(place);
+            let diagnostic = Diagnostic::new(
+                Code::E0101,
+                before,
+                format!("`{kind}` is not said of `{name}` here"),
+            )
+            .label("a name stands alone")
+            .fix(
+                format!("drop `{kind}`"),
+                before.to(place.before()),
+                "",
+                Applicability::Unsafe,
+            );
+            self.report(diagnostic);
+            return;
+        }
+        let mut diagnostic = Diagnostic::new(Code::E0112, place, message)
             .label("this begins another one")
             .note(format!("commas part {what}"))
             .fix("put a comma", comma, ",", Applicability::Safe);
+        let is_word = |word: &str| {
+            let letters = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
+            !word.is_empty() && word.chars().all(letters)
+        };
+        let gap = before.and_then(|before| self.text.get(before.range().end..place.range().start));
+        if let Some(name) = name.filter(|name| is_word(name) && is_word(self.slice(place)))
+            && gap.is_some_and(|gap| !gap.contains('\n'))
+            && what != HISTORY
+        {
+            let argument = self.slice(place);
+            diagnostic = diagnostic.help(format!(
+                "if `{argument}` is an argument: `{name}({argument})`"
+            ));
+        }
         self.report(diagnostic);
     }
 }

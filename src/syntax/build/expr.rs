@@ -3,6 +3,7 @@
 use super::Builder;
 use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::source::Span;
+use crate::spelling::spelled;
 use crate::syntax::ast::{Axis, BinaryOp, Expr, ExprKind, Spanned, UnaryOp, chain};
 use crate::syntax::diagnose::unclosed_quote;
 use crate::syntax::grammar::{Node, Parts, Rule};
@@ -29,6 +30,8 @@ impl<'i> Builder<'i> {
             Rule::r#ref => self.name_or_call(node),
             Rule::choice => ExprKind::If(Box::new(self.choice(node))),
             Rule::paren => self.paren(node),
+            Rule::list_expr => return self.take_expr(&mut Parts::of(node)),
+            Rule::price_time => return self.price_time(node),
             Rule::string => {
                 self.text_in_expr(span);
                 ExprKind::Error
@@ -50,8 +53,12 @@ impl<'i> Builder<'i> {
             return left;
         };
         let place = self.span(&sign);
-        let message = "`=` gives a value; two values are compared with `==`".to_owned();
-        self.respell(Code::E0109, place, message, "==");
+        if sign.as_str() == "=>" {
+            self.respell(Code::E0110, place, "`=>` is written `>=`".into(), ">=");
+        } else {
+            let message = "`=` gives a value; two values are compared with `==`".to_owned();
+            self.respell(Code::E0109, place, message, "==");
+        }
         self.take_expr(&mut parts);
         self.error_expr(span)
     }
@@ -76,6 +83,9 @@ impl<'i> Builder<'i> {
         let mut left = self.take_expr(&mut parts);
         let mut first: Option<Spanned<BinaryOp>> = None;
         while let Some(sign) = parts.next() {
+            if sign.as_rule() == Rule::wrong_choice {
+                return self.wrong_choice(left, &sign, parts);
+            }
             let op = self.binary(&sign);
             let right = self.take_expr(&mut parts);
             let span = left.span.to(right.span);
@@ -134,9 +144,9 @@ impl<'i> Builder<'i> {
         let (op, right) = match written {
             "or" | "||" | "|" => (BinaryOp::Or, "or"),
             "and" | "&&" | "&" => (BinaryOp::And, "and"),
-            "==" | "===" => (BinaryOp::Eq, "=="),
+            "==" | "===" | "is" => (BinaryOp::Eq, "=="),
             "!=" | "!==" | "<>" | "≠" => (BinaryOp::Ne, "!="),
-            "<=" | "≤" => (BinaryOp::Le, "<="),
+            "<=" | "≤" | "=<" => (BinaryOp::Le, "<="),
             ">=" | "≥" => (BinaryOp::Ge, ">="),
             "<" => (BinaryOp::Lt, "<"),
             ">" => (BinaryOp::Gt, ">"),
@@ -144,6 +154,7 @@ impl<'i> Builder<'i> {
             "*" | "×" | "·" => (BinaryOp::Mul, "*"),
             "/" | "÷" => (BinaryOp::Div, "/"),
             "^" | "**" => (BinaryOp::Pow, "^"),
+            is_not if is_not.starts_with("is") => (BinaryOp::Ne, "!="),
             _ => (BinaryOp::Sub, "-"),
         };
         self.operator(sign, written, right);
@@ -217,6 +228,9 @@ impl<'i> Builder<'i> {
                 kind: ExprKind::Coordinate(Box::new(left), axis),
             };
         }
+        while let Some(node) = parts.maybe(Rule::wrong_field) {
+            left = self.wrong_field(left, node);
+        }
         let Some(sign) = parts.maybe(Rule::power_op) else {
             return left;
         };
@@ -245,14 +259,92 @@ impl<'i> Builder<'i> {
             .label("the language has no values of text")
             .note("quotation marks are for the paths of `use`");
         if !inner.is_empty() && !inner.contains('`') {
+            let name = spelled(inner).into_owned();
             diagnostic = diagnostic.fix(
-                "name something, in backquotes",
+                "name something, without quotation marks",
                 span,
-                format!("`{inner}`"),
+                name,
                 Applicability::Unsafe,
             );
         }
         self.report(diagnostic);
+    }
+
+    /// `c ? a : b`, as other languages choose.
+    fn wrong_choice(&mut self, cond: Expr, sign: &Node<'i>, mut parts: Parts<'i>) -> Expr {
+        let then = self.take_expr(&mut parts);
+        parts.has(Rule::colon);
+        let otherwise = self.take_expr(&mut parts);
+        let span = cond.span.to(otherwise.span);
+        let [c, a, b] = [cond.span, then.span, otherwise.span].map(|span| self.slice(span));
+        let right = format!("if {c} {{ {a} }} else {{ {b} }}");
+        let place = self.span(sign);
+        let diagnostic = Diagnostic::new(
+            Code::E0110,
+            place,
+            "`? :` is written `if … { … } else { … }`",
+        )
+        .label("not an operator here")
+        .fix(format!("write `{right}`"), span, right, Applicability::Safe);
+        self.report(diagnostic);
+        self.error_expr(span)
+    }
+
+    /// `a.b`, which reads nothing but the coordinates of a point.
+    pub(super) fn wrong_field(&mut self, of: Expr, node: Node<'i>) -> Expr {
+        let place = self.span(&node);
+        let span = of.span.to(place);
+        let mark = if node.as_str().starts_with("::") {
+            "::"
+        } else {
+            "."
+        };
+        let mut parts = Parts::of(node);
+        let name = parts
+            .maybe(Rule::field_name)
+            .map_or("", |node| node.as_str());
+        let is_call = parts.has(Rule::args);
+        if matches!(name, "x" | "y") && !is_call {
+            let owner = self.slice(of.span);
+            let diagnostic = Diagnostic::new(Code::E0310, place, "a coordinate is not set alone")
+                .label("a point is set as a whole")
+                .help(format!("write `{owner} = (…, …)`"));
+            self.report(diagnostic);
+            return self.error_expr(span);
+        }
+        let owner = self.slice(of.span);
+        let is_name = matches!(&of.kind, ExprKind::Ref(reference) if reference.args.is_none());
+        let reads = [
+            "distance",
+            "direction",
+            "bearing",
+            "visible",
+            "inside",
+            "facing",
+        ];
+        let ends = ["success", "failure", "running"];
+        let right = if reads.contains(&name) || ends.contains(&name) || is_call {
+            format!("{name}({owner})")
+        } else if matches!(name, "position" | "pose") && !matches!(owner, "robot" | "self" | "this")
+        {
+            format!("pose({owner})")
+        } else {
+            name.to_owned()
+        };
+        let diagnostic =
+            Diagnostic::new(Code::E0133, place, format!("nothing has a field `{name}`"))
+                .label(format!("`{mark}` reads only `x` and `y` of a point"));
+        let diagnostic = match is_name || right.contains('(') {
+            true => diagnostic.fix(
+                format!("write `{right}`"),
+                span,
+                right,
+                Applicability::Unsafe,
+            ),
+            false => diagnostic,
+        };
+        self.report(diagnostic);
+        self.error_expr(span)
     }
 
     pub(super) fn unclosed_text(&mut self, node: &Node<'i>) {

@@ -36,7 +36,10 @@ impl<'i> Builder<'i> {
         let name = self.take_name(&mut parts);
         self.take_is(&mut parts);
         let value = self.take_expr(&mut parts);
-        let tail = parts.maybe(Rule::link).map(|node| {
+        let tail = parts
+            .maybe(Rule::link)
+            .or_else(|| parts.maybe(Rule::wrong_link));
+        let tail = tail.map(|node| {
             let link = self.link(&node);
             (link, self.take_expr(&mut parts))
         });
@@ -55,12 +58,12 @@ impl<'i> Builder<'i> {
             "->" => Link::Arrow,
             written => {
                 let span = self.span(node);
-                self.respell(
-                    Code::E0121,
-                    span,
-                    format!("`{written}` is written `->`"),
-                    "->",
-                );
+                let code = if written.is_ascii() {
+                    Code::E0110
+                } else {
+                    Code::E0121
+                };
+                self.respell(code, span, format!("`{written}` is written `->`"), "->");
                 Link::Arrow
             }
         };

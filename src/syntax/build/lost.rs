@@ -47,6 +47,46 @@ impl Builder<'_> {
         self.lost.names.extend(lost);
     }
 
+    /// Notes the shared expressions that a block without its close has taken for values of its own.
+    pub(super) fn lose_lets(&mut self, from: usize, to: usize) {
+        let first = self.tokens.partition_point(|token| token.start < from);
+        let tokens = self.tokens.get(first..).unwrap_or_default();
+        let at_margin = |token: &Token| {
+            let before = self.text.get(..token.start).unwrap_or_default();
+            token.of(self.text) == "let" && before.ends_with('\n')
+        };
+        let pairs = tokens.windows(2).take_while(|pair| {
+            let start = pair.first().map(|token| token.start);
+            start.is_some_and(|start| start < to)
+        });
+        let names = pairs.filter_map(|pair| match pair {
+            [word, name] if at_margin(word) => Some(self.bare(name)),
+            _ => None,
+        });
+        let names: Vec<String> = names.collect();
+        self.lost.names.extend(names);
+    }
+
+    /// Notes that `angry-folk` was to be one name: the entry at `previous` ends in the middle of it.
+    pub(super) fn join_names(&mut self, previous: Span, rest: Span) {
+        let start = rest.range().start;
+        let index = self.tokens.partition_point(|token| token.start < start);
+        let at = |index: usize| self.tokens.get(index).copied();
+        let (Some(left), Some(mark), Some(right)) =
+            (index.checked_sub(1).and_then(at), at(index), at(index + 1))
+        else {
+            return;
+        };
+        let touching = left.end == mark.start && mark.end == right.start;
+        if !touching || left.end != previous.range().end || right.kind != Kind::Word {
+            return;
+        }
+        for mark in ["_", "-", ""] {
+            let joined = [self.bare(&left), self.bare(&right)].join(mark);
+            self.lost.names.push(joined);
+        }
+    }
+
     fn is_name(&self, token: &Token) -> bool {
         matches!(token.kind, Kind::Word | Kind::Name) && !RESERVED.contains(&token.of(self.text))
     }
@@ -72,7 +112,8 @@ impl Builder<'_> {
         if first == Some("enum") {
             names.extend(code.iter().filter(is_name));
         }
-        let mut unnamed = first == Some("use");
+        // However it is said, what brings the library brings names.
+        let mut unnamed = first == Some("use") || code.iter().any(|token| word(token) == "std");
         for pair in code.windows(2) {
             if let [declares, name] = pair
                 && DECLARING.contains(&word(declares))

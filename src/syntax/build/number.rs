@@ -68,6 +68,28 @@ impl<'i> Builder<'i> {
         }
     }
 
+    /// `1 s` before a `=` that should be a `:`.
+    pub(super) fn price_time(&mut self, node: Node<'i>) -> Expr {
+        let span = self.span(&node);
+        let mut parts = Parts::of(node);
+        let Some(number) = parts.maybe(Rule::number) else {
+            return self.error_expr(span);
+        };
+        let value = self.number(self.span(&number), number.as_str());
+        let unit = parts.maybe(Rule::paid_unit);
+        match (value, unit) {
+            (Some(value), Some(unit)) => Expr {
+                kind: ExprKind::Number(Literal {
+                    digits: number.as_str().to_owned(),
+                    value,
+                    unit: Some(unit_of(unit.as_str(), self.span(&unit))),
+                }),
+                span,
+            },
+            _ => self.error_expr(span),
+        }
+    }
+
     /// The value of a number, if it is written as the language writes numbers.
     fn number(&mut self, span: Span, digits: &str) -> Option<f64> {
         let plain: String = digits.chars().filter(|&letter| letter != '_').collect();
@@ -211,6 +233,9 @@ impl<'i> Builder<'i> {
             token.kind == Kind::Word
                 && token.of(self.text) == name
                 && (matches!(spelling(index + 1), ":" | "=" | "in")
+                    && !(index > 0
+                        && (self.tokens.get(index - 1))
+                            .is_some_and(|token| token.kind == Kind::Number))
                     || index > 0
                         && matches!(
                             spelling(index - 1),

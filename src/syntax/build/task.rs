@@ -1,7 +1,8 @@
 //! Tasks.
 
 use super::Builder;
-use crate::diagnostic::Code;
+use super::entries::HISTORY;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::ast::{
     Aspect, AspectKind, Expr, Outcome, Paid, RewardLine, Start, StartLine, Task,
@@ -35,6 +36,7 @@ impl<'i> Builder<'i> {
             Rule::history => {
                 parts.has(Rule::kw_last);
                 let window = self.take_expr(&mut parts);
+                let parts = self.history_commas(parts);
                 let outcomes = parts
                     .into_iter()
                     .filter(|part| part.as_rule() == Rule::outcome)
@@ -51,7 +53,19 @@ impl<'i> Builder<'i> {
             Rule::patience => AspectKind::Patience(self.take_expr(&mut parts)),
             Rule::end_on => {
                 parts.has(Rule::kw_on);
-                AspectKind::EndOn(self.take_expr(&mut parts))
+                let event = self.take_expr(&mut parts);
+                if let Some(comma) = parts.maybe(Rule::wrong_comma) {
+                    let diagnostic = Diagnostic::new(
+                        Code::E0101,
+                        self.span(&comma),
+                        "an end waits for one event, found `,`",
+                    )
+                    .label("a second one follows")
+                    .help("write a line for each, `end on A` and `end on B`, or join them: `end on A or B`");
+                    self.report(diagnostic);
+                    return AspectKind::Error;
+                }
+                AspectKind::EndOn(event)
             }
             Rule::end_after => {
                 parts.has(Rule::kw_after);
@@ -83,6 +97,10 @@ impl<'i> Builder<'i> {
         let span = self.span(&node);
         let mut parts = Parts::of(node);
         parts.has(Rule::kw_start);
+        if let Some(wrong) = parts.maybe(Rule::wrong_start) {
+            let message = "how an episode begins is said by `start`".to_owned();
+            self.respell(Code::E0123, self.span(&wrong), message, "start");
+        }
         let mut lines = Vec::new();
         self.entries(parts, Rule::strict_start_line, |builder, node, span| {
             lines.extend(node.and_then(|node| builder.start_line(node, span)));
@@ -93,6 +111,9 @@ impl<'i> Builder<'i> {
     fn start_line(&mut self, node: Node<'i>, span: Span) -> Option<StartLine> {
         let mut parts = Parts::of(node);
         let target = self.reference(parts.maybe(Rule::r#ref)?);
+        if self.fields_of_target(&mut parts, &target) {
+            return None;
+        }
         self.take_is(&mut parts);
         let value = self.take_expr(&mut parts);
         Some(StartLine {
@@ -104,10 +125,19 @@ impl<'i> Builder<'i> {
 
     fn reward(&mut self, parts: Parts<'i>) -> AspectKind {
         let mut lines = Vec::new();
-        let mut otherwise = None;
+        let mut otherwise: Option<Expr> = None;
+        let mut last: Option<Span> = None;
         self.entries(parts, Rule::strict_reward, |builder, node, span| {
             let Some(node) = node else { return };
             let rule = node.as_rule();
+            if let Some(last) = last
+                && builder.failed_at.is_none_or(|at| at < last.range().start)
+            {
+                builder.after_otherwise(rule, span, last);
+            }
+            if rule == Rule::otherwise {
+                last = last.or(Some(span));
+            }
             let mut parts = Parts::of(node);
             let paid = match rule {
                 Rule::otherwise => None,
@@ -116,6 +146,10 @@ impl<'i> Builder<'i> {
                     let during = during.then(|| builder.take_expr(&mut parts));
                     parts.has(Rule::comma);
                     parts.has(Rule::kw_per);
+                    if let Some(wrong) = parts.maybe(Rule::wrong_per) {
+                        let message = "what time costs is said by `per`".to_owned();
+                        builder.respell(Code::E0123, builder.span(&wrong), message, "per");
+                    }
                     let time = builder.take_expr(&mut parts);
                     Some(Paid::Per { during, time })
                 }
@@ -128,10 +162,41 @@ impl<'i> Builder<'i> {
             let value = builder.take_reward(&mut parts);
             match paid {
                 Some(paid) => lines.push(RewardLine { paid, value, span }),
-                None => otherwise = Some(value),
+                None => otherwise = otherwise.take().or(Some(value)),
             }
         });
         AspectKind::Reward { lines, otherwise }
+    }
+
+    /// Reports a line of `reward` that stands behind `otherwise`.
+    fn after_otherwise(&mut self, rule: Rule, span: Span, otherwise: Span) {
+        let diagnostic = if rule == Rule::otherwise {
+            Diagnostic::new(Code::E0503, span, "`otherwise` is given twice")
+                .label("given again here")
+                .also(otherwise, "first given here")
+        } else {
+            Diagnostic::new(
+                Code::E0101,
+                span,
+                "`otherwise` is the last line of `reward`",
+            )
+            .label("this stands behind it")
+            .also(otherwise, "move this below")
+        };
+        self.report(diagnostic);
+    }
+
+    /// The parts of a history, whose commas are there or reported.
+    fn history_commas(&mut self, parts: Parts<'i>) -> Vec<Node<'i>> {
+        let parts: Vec<Node<'i>> = parts.into_iter().collect();
+        let mut before = None;
+        for part in &parts {
+            match part.as_rule() {
+                Rule::missing_comma => self.missing_comma(part, before, HISTORY),
+                _ => before = Some(self.span(part)),
+            }
+        }
+        parts
     }
 
     /// A colon and the value after it.

@@ -43,6 +43,10 @@ impl<'i> Builder<'i> {
         if let Some(composite) = parts.maybe(Rule::composite) {
             return self.composite(composite);
         }
+        if let Some(branch) = parts.maybe(Rule::wrong_branch) {
+            self.wrong_branch(branch);
+            return NodeKind::Error;
+        }
         let expr = self.take_expr(&mut parts);
         let Some(arrow) = parts.maybe(Rule::guards) else {
             return NodeKind::Leaf(expr);
@@ -51,6 +55,28 @@ impl<'i> Builder<'i> {
         NodeKind::Guarded {
             guard: expr,
             node: Box::new(self.take_node(&mut parts)),
+        }
+    }
+
+    /// `if c { … }`, as other languages branch.
+    fn wrong_branch(&mut self, node: Node<'i>) {
+        let mut parts = Parts::of(node);
+        let Some(word) = parts.maybe(Rule::kw_if) else {
+            return;
+        };
+        let span = self.span(&word);
+        let guard = self.take_expr(&mut parts);
+        let guard = self.slice(guard.span);
+        let diagnostic = Diagnostic::new(
+            Code::E0116,
+            span,
+            "a tree has no `if`: what a condition guards follows `=>`",
+        )
+        .label("not a kind of node")
+        .help(format!("write `{guard} => …`"));
+        self.report(diagnostic);
+        if let Some(children) = parts.maybe(Rule::children) {
+            self.children(children);
         }
     }
 
@@ -77,7 +103,8 @@ impl<'i> Builder<'i> {
     fn composite(&mut self, node: Node<'i>) -> NodeKind {
         let mut parts = Parts::of(node);
         let memory = parts.maybe(Rule::kw_memory).map(|node| self.span(&node));
-        let Some(written) = parts.maybe(Rule::node_word) else {
+        let written = parts.maybe(Rule::node_word);
+        let Some(written) = written.or_else(|| parts.maybe(Rule::known_word)) else {
             return NodeKind::Error;
         };
         let word = self.node_word(&written, memory.is_some());
@@ -85,6 +112,11 @@ impl<'i> Builder<'i> {
             self.touching(&written, &args);
             self.args(args)
         });
+        if let Some(node) = parts.maybe(Rule::unopened) {
+            // Where its children end nobody knows.
+            self.children(node);
+            return NodeKind::Error;
+        }
         let children = parts
             .maybe(Rule::children)
             .map(|node| self.children(node))
@@ -159,13 +191,14 @@ impl<'i> Builder<'i> {
         parts.has(Rule::kw_claim);
         let tree = self.take_name(&mut parts);
         let what = self.claimed(&mut parts, &tree);
+        let likely = parts.maybe(Rule::probability);
         let within = parts.maybe(Rule::within).map(|node| {
             let mut parts = Parts::of(node);
             parts.has(Rule::kw_within);
             self.take_expr(&mut parts)
         });
-        let probability = parts
-            .maybe(Rule::probability)
+        let probability = likely
+            .or_else(|| parts.maybe(Rule::probability))
             .map(|node| self.probability(node));
         Claim {
             tree,

@@ -1,6 +1,7 @@
 //! Worlds.
 
 use super::Builder;
+use crate::diagnostic::Code;
 use crate::syntax::ast::{
     Expr, Field, Ident, RobotEntry, RobotEntryKind, World, WorldEntry, WorldEntryKind,
 };
@@ -33,9 +34,20 @@ impl<'i> Builder<'i> {
         let mut parts = Parts::of(node);
         parts.has(Rule::kw_place);
         let (name, of_kind, shape) = self.shape(&mut parts);
-        let facing = parts
-            .has(Rule::kw_facing)
-            .then(|| self.take_expr(&mut parts));
+        let wrong = parts.maybe(Rule::wrong_facing);
+        if let Some(wrong) = &wrong {
+            let span = self.span(wrong);
+            let comma = wrong.as_str().starts_with(',');
+            let message = "`facing` follows the shape without `,` and `=`".to_owned();
+            self.respell(
+                Code::E0127,
+                span,
+                message,
+                if comma { " facing" } else { "facing" },
+            );
+        }
+        let facing =
+            (parts.has(Rule::kw_facing) || wrong.is_some()).then(|| self.take_expr(&mut parts));
         WorldEntryKind::Place {
             name,
             of_kind,

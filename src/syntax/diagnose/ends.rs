@@ -27,7 +27,7 @@ pub(super) fn at_the_end(
     }
     let end = last.map_or(end, |token| token.end);
     let place = Span::new(file, end, end);
-    match expected::listed(&failure.expected) {
+    match expected::listed(&failure.expected, Some(failure.strict)) {
         Some(wanted) => {
             let message = format!("expected {wanted}, found the end of the file");
             Diagnostic::new(Code::E0101, place, message).label(format!("expected {wanted}"))
@@ -47,7 +47,7 @@ impl Place<'_> {
         if let Some(open) = self.open_paren() {
             return Some((last, self.unclosed_by(open)));
         }
-        let wanted = expected::listed(&self.failure.expected)?;
+        let wanted = self.wanted()?;
         Some((last, self.after(last, &wanted)))
     }
 
@@ -68,7 +68,7 @@ impl Place<'_> {
             .label(format!("expected {wanted} after this"))
     }
 
-    fn parted(&self, left: Token, right: Token) -> bool {
+    pub(super) fn parted(&self, left: Token, right: Token) -> bool {
         let gap = self.text.get(left.end..right.start).unwrap_or_default();
         gap.contains('\n')
     }

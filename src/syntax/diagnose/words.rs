@@ -6,8 +6,8 @@ use crate::source::Span;
 use crate::spelling::RESERVED;
 use crate::syntax::expected;
 use crate::syntax::grammar::Rule;
-use crate::syntax::tokens::Kind;
-use crate::syntax::words::{ITEMS, UNITS};
+use crate::syntax::tokens::{Kind, Token};
+use crate::syntax::words::{FOREIGN, ITEMS, UNITS};
 
 impl Place<'_> {
     pub(super) fn unit(&self) -> Option<Diagnostic> {
@@ -18,6 +18,7 @@ impl Place<'_> {
             || self.found.kind != Kind::Word
             || !self.same_line_as_before()
             || RESERVED.contains(&word)
+            || matches!(word, "within" | "with" | "of" | "per" | "to" | "x")
             || expected::words(&self.failure.expected).contains(&word)
         {
             return None;
@@ -27,7 +28,110 @@ impl Place<'_> {
         } else {
             &[]
         };
+        if self.open_paren().is_some() && matches!(self.after_found(), ":" | "=") {
+            return Some(comma_before(self.span(), word, self.before));
+        }
         Some(no_such_unit(self.span(), word, links))
+    }
+
+    /// The spelling of the token after the one that does not fit.
+    pub(super) fn after_found(&self) -> &str {
+        self.next().map_or("", |token| token.of(self.text))
+    }
+
+    pub(super) fn next(&self) -> Option<Token> {
+        let index = self
+            .tokens
+            .partition_point(|token| token.end <= self.found.end);
+        self.tokens.get(index).copied()
+    }
+
+    /// `2,000`: digits in groups.
+    pub(super) fn grouped_digits(&self) -> Option<Diagnostic> {
+        let (first, comma) = (self.second_before?, self.before?);
+        let touching = first.end == comma.start && comma.end == self.found.start;
+        let is_group = self.found.kind == Kind::Number && self.found().len() == 3;
+        if !touching || !is_group || first.kind != Kind::Number || comma.of(self.text) != "," {
+            return None;
+        }
+        let span = self.span_of(first).to(self.span());
+        let digits = format!("{}_{}", first.of(self.text), self.found());
+        let message = "digits are not grouped by commas";
+        Some(
+            Diagnostic::new(Code::E0124, span, message)
+                .label(format!("write `{digits}`"))
+                .fix(
+                    format!("write `{digits}`"),
+                    span,
+                    digits,
+                    Applicability::Safe,
+                ),
+        )
+    }
+
+    /// A word that should begin an entry of a world or of a robot, before the name that it declares.
+    pub(super) fn entry_word(&self) -> Option<Diagnostic> {
+        let word = self.before?;
+        let first = word.start == self.failure.start && word.kind == Kind::Word;
+        let declares = matches!(self.found.kind, Kind::Word | Kind::Name);
+        let (what, known): (_, &[&str]) = match self.failure.strict {
+            Rule::strict_world_entry => ("an entry of a world", &["place", "wall", "robot"]),
+            Rule::strict_robot_entry => ("an entry of a robot", &["sensor"]),
+            _ => return None,
+        };
+        let name = word.of(self.text);
+        if !first || !declares || known.contains(&name) || !self.same_line_as_before() {
+            return None;
+        }
+        let meant = match name {
+            "obstacle" | "block" | "box" | "barrier" | "fence" | "door" | "gate" => Some("wall"),
+            "location" | "zone" | "region" | "area" | "goal" | "spot" | "target" | "waypoint"
+            | "point" | "station" | "site" | "object" | "landmark" => Some("place"),
+            "agent" | "enemy" | "npc" | "player" | "vehicle" | "bot" | "actor" | "drone" => {
+                Some("robot")
+            }
+            "lidar" | "laser" | "camera" | "sonar" | "scanner" | "range_finder" | "beacon" => {
+                Some("sensor")
+            }
+            _ => None,
+        };
+        let meant = meant.filter(|meant| known.contains(meant));
+        if meant.is_none() && matches!(self.after_found(), "" | "(") {
+            return None;
+        }
+        let diagnostic = Diagnostic::new(
+            Code::E0123,
+            self.span_of(word),
+            format!("`{name}` does not begin {what}"),
+        );
+        let diagnostic = self.meant(
+            diagnostic,
+            word,
+            meant.or_else(|| suggest::nearest(name, known.iter().copied())),
+        );
+        let diagnostic = match name {
+            "door" | "gate" => {
+                diagnostic.help("a door is a wall with a condition: `wall NAME = … when CONDITION`")
+            }
+            _ => diagnostic,
+        };
+        let listed: Vec<String> = known.iter().map(|word| format!("`{word}`")).collect();
+        Some(diagnostic.note(format!(
+            "what has a name of its own begins with {}",
+            either(&listed)
+        )))
+    }
+
+    fn meant(&self, diagnostic: Diagnostic, word: Token, meant: Option<&str>) -> Diagnostic {
+        match meant {
+            Some(meant) => diagnostic.label(format!("did you mean `{meant}`?")).fix(
+                format!("write `{meant}`"),
+                self.span_of(word),
+                meant,
+                Applicability::Unsafe,
+            ),
+            None => diagnostic.label("not known here"),
+        }
     }
 
     pub(super) fn reserved(&self) -> Option<Diagnostic> {
@@ -36,6 +140,39 @@ impl Place<'_> {
             return None;
         }
         if self.failure.at == self.failure.start && self.failure.strict == Rule::strict_item {
+            return None;
+        }
+        let next = self.next().filter(|next| !self.parted(self.found, *next));
+        let names_next = next.is_some_and(|next| {
+            matches!(next.kind, Kind::Word | Kind::Name) && !RESERVED.contains(&next.of(self.text))
+        });
+        // Only where nothing but a name can stand is the word a name.
+        let only_name = self.failure.expected.iter().all(|&rule| {
+            matches!(
+                rule,
+                Rule::name | Rule::learner_name | Rule::family | Rule::param
+            )
+        });
+        if names_next
+            && word != "for"
+            && self.before.is_some_and(is_word)
+            && self.same_line_as_before()
+        {
+            let message = format!("expected a name, found `{word}`");
+            return Some(
+                Diagnostic::new(Code::E0101, self.span(), message)
+                    .label("this is not said here")
+                    .fix(
+                        format!("drop `{word}`"),
+                        self.span()
+                            .to(Span::new(self.file, self.found.end, next?.start)),
+                        "",
+                        Applicability::Unsafe,
+                    ),
+            );
+        }
+        let is_set = matches!(self.after_found(), "=" | "+=" | "-=" | "*=" | "/=");
+        if !only_name && !is_set || word == "for" {
             return None;
         }
         Some(
@@ -60,8 +197,13 @@ impl Place<'_> {
         if self.failure.at != self.failure.start || self.found.kind != Kind::Word {
             return None;
         }
-        let word = self.found();
+        // What stands behind an entry on its line does not begin another one.
         let at_item = self.failure.strict == Rule::strict_item;
+        let may_begin = self.before() == "{" || !at_item && matches!(self.before(), "," | ";");
+        if self.same_line_as_before() && !may_begin {
+            return None;
+        }
+        let word = self.found();
         let mut candidates = if at_item {
             ITEMS.to_vec()
         } else {
@@ -79,24 +221,62 @@ impl Place<'_> {
             Rule::strict_reward => (Code::E0123, "a line of `reward`"),
             _ => return None,
         };
-        let foreign = match word {
-            "function" | "fn" | "def" | "const" | "var" => Some("let"),
-            "condition" | "observation" => Some("predicate"),
-            "action" | "skill" => Some("behavior"),
-            "import" | "include" => Some("use"),
-            "include_std" => Some("use"),
-            "actions" => Some("choose"),
-            "rewards" => Some("reward"),
-            "terminate" | "done" => Some("end"),
-            "success" => Some("succeed"),
-            "failure" => Some("fail"),
-            "precondition" | "require" => Some("requires"),
-            "default" | "else" => Some("otherwise"),
-            _ => None,
-        };
-        let near = foreign
-            .filter(|meant| candidates.contains(meant))
+        let after = self.after_found();
+        if at_item && ITEMS.contains(&after) {
+            let diagnostic = Diagnostic::new(
+                code,
+                self.span(),
+                format!("`{word}` does not begin {begins}"),
+            )
+            .label(format!("the item begins with `{after}`"));
+            let drop = self
+                .span()
+                .to(Span::new(self.file, self.found.end, self.next()?.start));
+            return Some(diagnostic.fix(format!("drop `{word}`"), drop, "", Applicability::Unsafe));
+        }
+        let near = (FOREIGN.iter())
+            .filter(|(foreign, _)| *foreign == word)
+            .map(|(_, meant)| *meant)
+            .find(|meant| candidates.contains(meant))
             .or_else(|| suggest::nearest(word, candidates.iter().copied()));
+        if self.failure.strict == Rule::strict_reward && near.is_none() && after == ":" {
+            return Some(
+                Diagnostic::new(
+                    code,
+                    self.span(),
+                    format!("`{word}` does not begin {begins}"),
+                )
+                .label(format!("did you mean `on {word}`?"))
+                .fix(
+                    "put `on` before it",
+                    self.span().before(),
+                    "on ",
+                    Applicability::Unsafe,
+                )
+                .note("a line of `reward` begins with `on`, `while`, `per` or `otherwise`"),
+            );
+        }
+        let near = near.or_else(|| {
+            (self.failure.strict == Rule::strict_clause && matches!(after, "=" | ":"))
+                .then_some("local")
+        });
+        if near == Some("local") && matches!(after, "=" | ":") {
+            return Some(
+                Diagnostic::new(
+                    code,
+                    self.span(),
+                    format!("`{word}` does not begin {begins}"),
+                )
+                .label(format!("did you mean `local {word}`?"))
+                .fix(
+                    "declare it",
+                    self.span().before(),
+                    "local ",
+                    Applicability::Unsafe,
+                )
+                .note("a variable of a behaviour is declared by `local`, and set in `control`"),
+            );
+        }
         let diagnostic = Diagnostic::new(
             code,
             self.span(),
@@ -125,6 +305,27 @@ fn either(words: &[String]) -> String {
     }
 }
 
+/// Whether a token is a word.
+pub(super) fn is_word(token: Token) -> bool {
+    token.kind == Kind::Word
+}
+
+/// The message for a comma that is missing before a word of arguments.
+fn comma_before(span: Span, word: &str, before: Option<Token>) -> Diagnostic {
+    let at = before.map_or(span.before(), |before| Span {
+        start: u32::try_from(before.end).unwrap_or(span.start),
+        end: u32::try_from(before.end).unwrap_or(span.start),
+        ..span
+    });
+    Diagnostic::new(
+        Code::E0112,
+        span,
+        format!("a comma is missing before `{word}`"),
+    )
+    .label("this begins another one")
+    .fix("put a comma", at, ",", Applicability::Safe)
+}
+
 /// The units, as advice.
 pub(in crate::syntax) fn units_note() -> String {
     format!(
@@ -137,11 +338,18 @@ pub(in crate::syntax) fn units_note() -> String {
 pub(in crate::syntax) fn no_such_unit(span: Span, word: &str, others: &[&str]) -> Diagnostic {
     let diagnostic = Diagnostic::new(Code::E0114, span, format!("`{word}` is not a unit"));
     let units = UNITS.into_iter().filter(|unit| unit.len() > 1);
-    let near = suggest::nearest(word, units.chain(others.iter().copied())).or_else(|| {
-        UNITS
-            .into_iter()
-            .find(|unit| unit.eq_ignore_ascii_case(word))
-    });
+    let foreign = match word {
+        "step" | "steps" | "frame" | "frames" | "iterations" => Some("ticks"),
+        "secs" | "second" | "seconds" => Some("s"),
+        _ => None,
+    };
+    let near = foreign
+        .or_else(|| suggest::nearest(word, units.chain(others.iter().copied())))
+        .or_else(|| {
+            UNITS
+                .into_iter()
+                .find(|unit| unit.eq_ignore_ascii_case(word))
+        });
     let diagnostic = match near {
         Some(near) => diagnostic.label(format!("did you mean `{near}`?")).fix(
             format!("write `{near}`"),

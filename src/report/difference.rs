@@ -1,0 +1,210 @@
+//! What a tree or a table decides otherwise than an older one, in the forms that people and tools read.
+
+use super::words::counted;
+use crate::emit::bt;
+use crate::ir::law::Behavior;
+use crate::ir::{Id, Program};
+use crate::learn::statistics::Mean;
+use crate::tree::change::Change;
+use serde_json::{Value, json};
+
+/// What became of a policy.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// The trees are the same.
+    Same,
+    /// Another shape, which decides the same; how that was proved.
+    Equal(String),
+    /// Other decisions.
+    Other(Vec<Change>),
+    /// Other decisions that no condition over predicates and history describes: the way to the first one.
+    Parts(String),
+    /// There was too much to explore.
+    Undecided(String),
+}
+
+/// What both did in simulated episodes with the same starts and dice.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figures {
+    /// The number of episodes.
+    pub episodes: usize,
+    /// The mean return of the old one, and of the new one.
+    pub returns: [f64; 2],
+    /// What the new one returns more, episode by episode.
+    pub gain: Mean,
+    /// How many episodes ended badly.
+    pub lost: [usize; 2],
+}
+
+/// An old and a new policy, and what parts them.
+#[derive(Clone, Debug)]
+pub struct Difference {
+    /// What they are called.
+    pub names: [String; 2],
+    /// What became of it.
+    pub outcome: Outcome,
+    /// What both did in their world, if there is one.
+    pub figures: Option<Figures>,
+    /// The names of what they decide upon and between.
+    pub program: Program,
+}
+
+impl Difference {
+    /// Whether nothing has changed at all.
+    pub fn is_same(&self) -> bool {
+        self.outcome == Outcome::Same
+    }
+
+    /// Whether the same is decided.
+    pub fn is_equal(&self) -> bool {
+        matches!(self.outcome, Outcome::Same | Outcome::Equal(_))
+    }
+
+    fn behavior(&self, id: Option<Id<Behavior>>) -> String {
+        id.map_or_else(
+            || "nothing".to_owned(),
+            |id| self.program.behaviors[id].name.to_string(),
+        )
+    }
+
+    /// The condition, the old behaviour and the new one of each change.
+    fn rows(&self) -> Vec<[String; 3]> {
+        let Outcome::Other(changes) = &self.outcome else {
+            return Vec::new();
+        };
+        let row = |change: &Change| {
+            let when = change.when.as_ref();
+            [
+                when.map_or_else(
+                    || "under a condition of more than 2000 literals".to_owned(),
+                    |when| bt::guard(&self.program, when),
+                ),
+                self.behavior(change.old),
+                self.behavior(change.new),
+            ]
+        };
+        changes.iter().map(row).collect()
+    }
+
+    /// What is said in one line.
+    pub fn headline(&self) -> String {
+        let [old, new] = &self.names;
+        match &self.outcome {
+            Outcome::Same => format!("same: {new} is the tree of {old}"),
+            Outcome::Equal(how) => {
+                format!("equal: {new} has another shape than {old} and decides the same, {how}")
+            }
+            Outcome::Other(changes) => format!(
+                "different: {new} decides otherwise than {old} under {}",
+                counted(changes.len(), "condition")
+            ),
+            Outcome::Parts(_) => format!("different: {new} decides otherwise than {old}"),
+            Outcome::Undecided(_) => {
+                format!("undecided: there is too much to explore of {old} and {new}")
+            }
+        }
+    }
+
+    /// The figures in one line.
+    fn measured(&self) -> Option<String> {
+        let figures = self.figures.as_ref()?;
+        let [before, after] = figures.returns;
+        let gain = &figures.gain;
+        let half = (gain.ci95[1] - gain.ci95[0]) / 2.0;
+        let [old, new] = figures.lost;
+        Some(format!(
+            "return {before:.3} → {after:.3} ({:+.3} ± {half:.3}), ended badly {old} → {new} of {} episodes",
+            gain.mean, figures.episodes
+        ))
+    }
+
+    /// For a person at a terminal.
+    pub fn human(&self) -> String {
+        let mut lines = vec![self.headline()];
+        let rows = self.rows();
+        lines.extend(
+            rows.iter()
+                .map(|[when, old, new]| format!("  {when}: {old} → {new}")),
+        );
+        if let Outcome::Parts(trace) | Outcome::Undecided(trace) = &self.outcome {
+            lines.extend(trace.lines().map(|line| format!("  {line}")));
+        }
+        lines.extend(self.measured().map(|line| format!("  {line}")));
+        lines.join("\n") + "\n"
+    }
+
+    /// For a comment on a pull request.
+    pub fn markdown(&self) -> String {
+        let mut text = format!("**{}**\n", self.headline());
+        let rows = self.rows();
+        if !rows.is_empty() {
+            text.push_str("\n| where | was | is now |\n| --- | --- | --- |\n");
+            for row in &rows {
+                let cells = row
+                    .each_ref()
+                    .map(|cell| format!("`{}`", cell.replace('|', "\\|")));
+                text.push_str(&format!("| {} |\n", cells.join(" | ")));
+            }
+        }
+        if let Outcome::Parts(trace) | Outcome::Undecided(trace) = &self.outcome {
+            text.push_str(&format!("\n```\n{trace}\n```\n"));
+        }
+        if let Some(measured) = self.measured() {
+            text.push_str(&format!("\n{measured}\n"));
+        }
+        text
+    }
+
+    /// A workflow command for GitHub at a file: an error where the decisions are others, else a notice.
+    pub fn github(&self, file: &str) -> String {
+        let level = if self.is_equal() { "notice" } else { "error" };
+        let escaped = |text: &str| {
+            let text = text.replace('%', "%25").replace('\r', "%0D");
+            text.replace('\n', "%0A")
+        };
+        let place = escaped(file).replace(':', "%3A").replace(',', "%2C");
+        format!(
+            "::{level} file={place}::{}\n",
+            escaped(self.human().trim_end())
+        )
+    }
+
+    /// A JSON document.
+    pub fn json(&self) -> String {
+        let outcome = match &self.outcome {
+            Outcome::Same => "same",
+            Outcome::Equal(_) => "equal",
+            Outcome::Other(_) | Outcome::Parts(_) => "different",
+            Outcome::Undecided(_) => "undecided",
+        };
+        let changes: Vec<Value> = self
+            .rows()
+            .into_iter()
+            .map(|[when, old, new]| json!({ "when": when, "old": old, "new": new }))
+            .collect();
+        let figures = self.figures.as_ref().map(|figures| {
+            let [old, new] = figures.returns;
+            let [lost, loses] = figures.lost;
+            json!({
+                "episodes": figures.episodes,
+                "return": { "old": old, "new": new },
+                "gain": { "mean": figures.gain.mean, "ci95": figures.gain.ci95 },
+                "ended_badly": { "old": lost, "new": loses },
+            })
+        });
+        let detail = match &self.outcome {
+            Outcome::Equal(text) | Outcome::Parts(text) | Outcome::Undecided(text) => Some(text),
+            _ => None,
+        };
+        let [old, new] = &self.names;
+        let document = json!({
+            "old": old,
+            "new": new,
+            "outcome": outcome,
+            "changes": changes,
+            "detail": detail,
+            "figures": figures,
+        });
+        format!("{document:#}\n")
+    }
+}

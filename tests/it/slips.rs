@@ -1,0 +1,165 @@
+//! Slips of the pen in sound programs, as strangers make them: each is told once, at its place, with its code.
+//!
+//! A case is a file of `tests/cases/slips`: the name of the sound program beside it, then hunks parted by empty lines.
+//! Lines with `-` are replaced by those with `+`; lines with `=` stay. Below a line, `^^^ E0101` says what is told of it:
+//! the code, and the columns of the first line of the place.
+
+use crate::program::{self, NoFiles};
+use btc::driver::load::{Loaded, load};
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+
+/// A line, its first and last column in characters, and a code.
+type Told = (usize, usize, usize, String);
+
+/// A program with slips, and what should be told of it.
+struct Case {
+    text: String,
+    told: BTreeSet<Told>,
+}
+
+fn case(path: &Path) -> Case {
+    let case = fs::read_to_string(path).unwrap();
+    let (base, hunks) = case.split_once('\n').unwrap();
+    let base = path.with_file_name(format!("{base}.bt"));
+    let mut text = fs::read_to_string(&base).unwrap();
+    let mut marks = Vec::new();
+    for hunk in hunks.split("\n\n") {
+        let of = |signs: &[&str]| -> String {
+            let lines = hunk.lines().filter_map(|line| {
+                let (sign, rest) = line.split_at_checked(1)?;
+                let rest = rest.strip_prefix(' ').unwrap_or(rest);
+                signs.contains(&sign).then(|| format!("{rest}\n"))
+            });
+            lines.collect()
+        };
+        let (old, new) = (of(&["-", "="]), of(&["+", "="]));
+        let at = text.find(&old).unwrap_or_else(|| {
+            panic!("{}: not in the program:\n{old}", path.display());
+        });
+        assert_eq!(text.matches(&old).count(), 1, "{}: {old}", path.display());
+        text.replace_range(at..at + old.len(), &new);
+        marks.push(hunk.to_owned());
+    }
+    let mut told = BTreeSet::new();
+    for hunk in marks {
+        let mut new = String::new();
+        let mut above = 0;
+        let mut found = Vec::new();
+        for line in hunk.lines() {
+            match line.split_at_checked(2) {
+                Some(("+ " | "= ", rest)) => {
+                    new.push_str(rest);
+                    new.push('\n');
+                    above += 1;
+                }
+                Some(("  ", mark)) => {
+                    let start = mark.find('^').unwrap();
+                    let width = mark.matches('^').count();
+                    let code = mark.split_whitespace().next_back().unwrap();
+                    found.push((above, start + 1, start + width, code.to_owned()));
+                }
+                _ if line == "+" => {
+                    new.push('\n');
+                    above += 1;
+                }
+                _ => {}
+            }
+        }
+        let at = text.find(&new).unwrap();
+        let before = text[..at].matches('\n').count();
+        told.extend(
+            found
+                .into_iter()
+                .map(|(line, from, to, code)| (before + line, from, to, code)),
+        );
+    }
+    Case { text, told }
+}
+
+/// What is told of a program, by place.
+fn told(loaded: &Loaded, path: &Path) -> BTreeSet<Told> {
+    let text = loaded.sources.get(loaded.main).unwrap().text.as_str();
+    let found: Vec<Told> = loaded
+        .diagnostics
+        .iter()
+        .map(|found| {
+            let range = found.span().range();
+            assert_eq!(found.span().file, loaded.main, "{}", path.display());
+            let before = &text[..range.start];
+            let line = before.matches('\n').count() + 1;
+            let start = before.rfind('\n').map_or(0, |at| at + 1);
+            let from = text[start..range.start].chars().count() + 1;
+            let first = text[range].lines().next().unwrap_or_default();
+            let to = from + first.chars().count().max(1) - 1;
+            (line, from, to, found.code.to_string())
+        })
+        .collect();
+    let set: BTreeSet<Told> = found.iter().cloned().collect();
+    assert_eq!(set.len(), found.len(), "{}: told twice", path.display());
+    set
+}
+
+#[test]
+fn each_slip_is_told_at_its_place() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/slips");
+    let (mut single, mut several) = (0, 0);
+    let mut wrong = Vec::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|extension| extension != "slip") {
+            continue;
+        }
+        let case = case(&path);
+        match case.told.len() {
+            0 => panic!("{}: nothing is expected", path.display()),
+            1 => single += 1,
+            _ => several += 1,
+        }
+        let loaded = load("slip.bt", case.text.into(), &mut NoFiles);
+        let found = told(&loaded, &path);
+        if found != case.told {
+            let name = path.file_name().unwrap().to_owned();
+            wrong.push(format!("{name:?}: {:?}, but told was {found:?}", case.told));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    assert!(single >= 80 && several >= 20, "{single} and {several}");
+}
+
+#[test]
+fn slips_are_told_in_these_words() {
+    let mut settings = insta::Settings::clone_current();
+    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots"));
+    settings.set_prepend_module_to_snapshot(false);
+    settings.set_omit_expression(true);
+    settings.remove_input_file();
+    settings.bind(|| {
+        insta::glob!("..", "cases/slips/*.slip", |path| {
+            let loaded = load("slip.bt", case(path).text.into(), &mut NoFiles);
+            insta::assert_snapshot!("slip", program::shown(&loaded));
+        });
+    });
+}
+
+/// Nothing is said against sound programs: those that the slips are made in, and forty of many kinds.
+#[test]
+fn sound_programs_are_not_warned_of() {
+    let mut sound = 0;
+    for folder in ["slips", "sound"] {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("tests/cases")
+            .join(folder);
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.extension().is_some_and(|extension| extension == "bt") {
+                let text = fs::read_to_string(&path).unwrap();
+                let loaded = load("sound.bt", text.into(), &mut NoFiles);
+                assert_eq!(program::shown(&loaded), "", "{}", path.display());
+                sound += 1;
+            }
+        }
+    }
+    assert!(sound >= 42, "{sound}");
+}
