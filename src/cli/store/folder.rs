@@ -240,7 +240,9 @@ impl Change<'_> {
         names
             .filter(|name| {
                 let ours = !self.before.whole || !changed.contains(name);
-                ours && !self.manifest.names(name)
+                // A run that was stopped may have removed it already.
+                let there = self.target.join(name).exists();
+                ours && there && !self.manifest.names(name)
             })
             .collect()
     }
