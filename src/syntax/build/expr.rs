@@ -70,6 +70,10 @@ impl<'i> Builder<'i> {
         let mut operands = vec![self.take_expr(&mut parts)];
         let mut signs = Vec::new();
         while let Some(sign) = parts.next() {
+            if sign.as_rule() == Rule::wrong_choice {
+                let asked = chain(operands, signs).unwrap_or_else(|| self.error_expr(span));
+                return self.wrong_choice(asked, &sign, parts);
+            }
             signs.push(self.binary(&sign));
             operands.push(self.take_expr(&mut parts));
         }
@@ -83,9 +87,6 @@ impl<'i> Builder<'i> {
         let mut left = self.take_expr(&mut parts);
         let mut first: Option<Spanned<BinaryOp>> = None;
         while let Some(sign) = parts.next() {
-            if sign.as_rule() == Rule::wrong_choice {
-                return self.wrong_choice(left, &sign, parts);
-            }
             let op = self.binary(&sign);
             let right = self.take_expr(&mut parts);
             let span = left.span.to(right.span);
