@@ -43,8 +43,8 @@
 //!     tree.to_string().lines().skip(1).collect::<Vec<_>>().join("\n"),
 //!     "tree learned = selector {
 //!     not low => patrol,
-//!     not at_dock => find_dock,
-//!     charge,
+//!     at_dock => charge,
+//!     find_dock,
 //! }"
 //! );
 //!

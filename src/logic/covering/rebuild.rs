@@ -9,6 +9,8 @@ use crate::logic::minimise::random::Random;
 
 /// Lists that are made before one of them is built anew.
 const STARTS: usize = 6;
+/// The weights of classes that are tried at random, in 256ths.
+const WEIGHTS: [u32; 5] = [128, 180, 256, 360, 512];
 /// Attempts without a list as small as the present one after which the search goes on from the best.
 const STALE: usize = 60;
 /// Attempts without a smaller list after which the search ends.
@@ -113,7 +115,10 @@ impl Search<'_> {
             }
             _ => {
                 for weight in &mut worth.weights {
-                    *weight = [128, 180, 256, 360, 512][self.random.below(5)];
+                    *weight = WEIGHTS
+                        .get(self.random.below(5))
+                        .copied()
+                        .unwrap_or(*weight);
                 }
                 worth.squared = self.random.below(2) == 0;
                 spared = self.random.below(3) == 0;

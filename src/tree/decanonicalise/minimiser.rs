@@ -70,7 +70,7 @@ impl<'a> Minimiser<'a> {
         let usual = Effort::default();
         let rounds = match self.problem.policy.rows.len() {
             0..=SMALL => usual.rounds,
-            ..=LARGE => 1,
+            rows if rows <= LARGE => 1,
             _ => 0,
         };
         Effort { rounds, ..usual }
