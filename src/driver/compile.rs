@@ -42,7 +42,7 @@ pub fn emit(loaded: &Loaded, form: Form, tree: Option<&str>) -> Result<String, R
 /// The same with steps of its own.
 ///
 /// # Errors
-/// As [`emit`].
+/// As [`emit()`].
 pub fn emit_in_steps(
     loaded: &Loaded,
     form: Form,

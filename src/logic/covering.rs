@@ -2,7 +2,7 @@
 //!
 //! A rule is a cube with a class. It may stand next in a list if every row left that it meets is of its class. Of all such
 //! rules that a search finds, the one that decides most rows for its price is taken, until the rows left are of one class.
-//! Unlike a list of classes ([`super::list`]), such a list may return to a class.
+//! Unlike a list of classes ([`list`](mod@super::list)), such a list may return to a class.
 
 mod rebuild;
 mod tidy;
