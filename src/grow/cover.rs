@@ -28,7 +28,7 @@ pub fn tree<W: World>(ground: &Ground<W>, kept: &FxHashMap<Key, usize>) -> Optio
         .collect();
     rows.sort_by(|a, b| a.minterm.cmp(&b.minterm));
     let policy = Policy {
-        atoms: ground.world.atoms().get(..ground.observed)?.to_vec(),
+        atoms: ground.atoms().to_vec(),
         behaviors: ground.choices.to_vec(),
         history: ground.history,
         rows,

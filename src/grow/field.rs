@@ -95,9 +95,8 @@ impl<'w> Field<'w> {
         visits: &Visits,
         aim: Aim,
     ) -> Self {
-        let atoms = ground.world.atoms().get(..ground.observed).unwrap_or(&[]);
-        let numbers = ground.choices.iter().enumerate();
-        let numbers: Numbers = numbers.map(|(at, id)| (*id, at)).collect();
+        let atoms = ground.atoms();
+        let numbers = numbers(ground);
         let mut problem = evidence.problem(sight);
         let runner = match aim {
             Aim::Best => None,
@@ -191,18 +190,21 @@ impl<'w> Field<'w> {
     }
 }
 
-/// In how many of these minterms two trees begin with the same behaviour, or with none.
+fn numbers<W>(ground: &Ground<W>) -> Numbers {
+    let choices = ground.choices.iter().enumerate();
+    choices.map(|(at, id)| (*id, at)).collect()
+}
+
+/// In how many of these minterms two trees select the same behaviour first, or none.
 pub fn alike<W: World>(ground: &Ground<W>, trees: [&Node; 2], keys: &[Key]) -> usize {
-    let numbers = ground.choices.iter().enumerate();
-    let numbers: Numbers = numbers.map(|(at, id)| (*id, at)).collect();
-    let atoms = ground.world.atoms();
-    let observed = atoms.get(..ground.observed).unwrap_or(&[]);
-    let [own, other] = trees.map(|root| Runner::new(&without_memory(root, observed), atoms).ok());
-    let (Some(mut own), Some(mut other)) = (own, other) else {
+    let read =
+        |root: &Node| Runner::new(&without_memory(root, ground.atoms()), ground.world.atoms()).ok();
+    let [Some(mut own), Some(mut other)] = trees.map(read) else {
         return 0;
     };
-    let begins = |runner: &mut Runner, key| driven(runner, key, &numbers, |_| false).choice;
-    let alike = |key: &&Key| begins(&mut own, **key) == begins(&mut other, **key);
+    let numbers = numbers(ground);
+    let first = |runner: &mut Runner, key| driven(runner, key, &numbers, |_| false).choice;
+    let alike = |key: &&Key| first(&mut own, **key) == first(&mut other, **key);
     keys.iter().filter(alike).count()
 }
 

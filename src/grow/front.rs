@@ -1,15 +1,15 @@
 //! The trees that none beats in both nodes and return, and the one of them that is taken.
 
 use super::field;
-use super::grower::Found;
-use super::race::{Entrant, RANSOM, is_more};
+use super::grower::{Found, Visited};
+use super::race::{Entrant, Judge, RANSOM, is_more};
 use super::{Settings, Starts};
 use crate::ir::tree::{Atom, Node};
 use crate::learn::process::World;
 use crate::learn::simulated::Purpose;
 use crate::learn::statistics::{Mean, Summary};
 use crate::tree::Size;
-use crate::trial::paired::error;
+use crate::trial::paired::{Contender, error};
 use serde::{Deserialize, Serialize};
 
 /// For each stage of the choice, the episodes up to which its trees play, and the most that stay after it.
@@ -77,7 +77,7 @@ pub struct Grown {
     pub gain: Mean,
     /// Whether this is the exact tree.
     pub kept: bool,
-    /// The minterms of the policy in which it begins as the exact tree does, and all of them. What a memory node goes on
+    /// The minterms of the policy in which it selects the same as the exact tree, and all of them. What a memory node goes on
     /// with is read from the history.
     pub alike: [usize; 2],
     /// The front, the smallest tree first.
@@ -104,54 +104,22 @@ pub(super) fn choose<W: World>(
 ) -> Result<Grown, Atom> {
     let Found {
         mut judge,
-        mut visited,
+        visited,
         price,
     } = found;
-    // The later ones are the better ones; of the same size the last.
-    visited.reverse();
-    let mut trees: Vec<Node> = Vec::new();
-    let mut sizes: Vec<usize> = Vec::new();
-    for tree in visited {
-        if !sizes.contains(&tree.nodes) && trees.len() < LOOKED_AT {
-            sizes.push(tree.nodes);
-            trees.push(tree.root);
-        }
-    }
-    let race = judge.fresh();
-    let trials = judge.ground.trials(Purpose::Confirm, race);
-    let mut exact = vec![Entrant {
-        root: starts.exact.clone(),
-        nodes: Size::of(&starts.exact).nodes,
-        contender: trials.contender(&starts.exact)?,
-    }];
     let part = (settings.effort as f64 / WHOLE).min(1.0);
     let of = |episodes: usize| ((episodes as f64 * part) as usize).max(FEWEST);
-    let ready = trees.iter().filter_map(|root| judge.entrant(&trials, root));
-    let mut entrants: Vec<Entrant> = ready
-        .filter(|entrant| entrant.root != starts.exact)
-        .collect();
-    let mut out: Vec<Entrant> = Vec::new();
-    // A front is drawn of trees that have played alike long.
-    let halves = settings.choice == Choice::Knee && !settings.front;
-    let stages = if halves {
-        STAGES.len()
-    } else {
-        STAGES.len() - 1
-    };
-    for (episodes, stay) in STAGES.into_iter().take(stages) {
-        let episodes = judge.scaled(of(episodes));
-        judge.play(&trials, &mut exact, episodes, None);
-        judge.play(&trials, &mut entrants, episodes, exact.first());
-        if halves {
-            judge.order(&mut entrants, |entrant| worth(entrant, price));
-            out.extend(entrants.drain(stay.min(entrants.len())..));
-        }
-    }
-    entrants.extend(out);
-    entrants.extend(exact);
+    let entrants = confirmed(
+        &mut judge,
+        candidates(visited),
+        starts,
+        &of,
+        settings,
+        price,
+    )?;
     let harms = |entrant: &Entrant| judge.harms(entrant);
-    let last = entrants.len().saturating_sub(1);
-    let chosen = chosen(&entrants, last, &harms, settings.choice, price);
+    let exact = entrants.len().saturating_sub(1);
+    let chosen = chosen(&entrants, exact, &harms, settings.choice, price);
     let front = points(&entrants, chosen, &harms);
     let root = entrants
         .get(chosen)
@@ -164,7 +132,7 @@ pub(super) fn choose<W: World>(
     let mut after = trials.contender(&root)?;
     let mut ticks = trials.play(&mut [&mut before], fresh, None);
     ticks += trials.play(&mut [&mut after], fresh, Some(&before));
-    let figures = |contender: &crate::trial::paired::Contender, root: &Node| Figures {
+    let figures = |contender: &Contender, root: &Node| Figures {
         size: Size::of(root),
         harms: contender
             .each(|episode| judge.ground.harm(episode))
@@ -192,6 +160,57 @@ pub(super) fn choose<W: World>(
     })
 }
 
+/// The trees that are looked at: the later ones are the better ones; of the same size the last.
+fn candidates(visited: Vec<Visited>) -> Vec<Node> {
+    let mut trees: Vec<Node> = Vec::new();
+    let mut sizes: Vec<usize> = Vec::new();
+    for tree in visited.into_iter().rev() {
+        if !sizes.contains(&tree.nodes) && trees.len() < LOOKED_AT {
+            sizes.push(tree.nodes);
+            trees.push(tree.root);
+        }
+    }
+    trees
+}
+
+/// The trees with episodes that none was chosen by, the exact one last. The best play longest, unless a front is drawn: it
+/// is of trees that have played alike long.
+fn confirmed<W: World>(
+    judge: &mut Judge<'_, '_, W>,
+    trees: Vec<Node>,
+    starts: &Starts,
+    of: &impl Fn(usize) -> usize,
+    settings: &Settings,
+    price: f64,
+) -> Result<Vec<Entrant>, Atom> {
+    let race = judge.fresh();
+    let trials = judge.ground.trials(Purpose::Confirm, race);
+    let mut exact = vec![Entrant {
+        root: starts.exact.clone(),
+        nodes: Size::of(&starts.exact).nodes,
+        contender: trials.contender(&starts.exact)?,
+    }];
+    let others = trees.iter().filter(|root| **root != starts.exact);
+    let mut entrants: Vec<Entrant> = others
+        .filter_map(|root| judge.entrant(&trials, root))
+        .collect();
+    let halves = settings.choice == Choice::Knee && !settings.front;
+    let stages = STAGES.len() - usize::from(!halves);
+    let mut out: Vec<Entrant> = Vec::new();
+    for (episodes, stay) in STAGES.into_iter().take(stages) {
+        let episodes = judge.scaled(of(episodes));
+        judge.play(&trials, &mut exact, episodes, None);
+        judge.play(&trials, &mut entrants, episodes, exact.first());
+        if halves {
+            judge.order(&mut entrants, |entrant| worth(entrant, price));
+            out.extend(entrants.drain(stay.min(entrants.len())..));
+        }
+    }
+    entrants.extend(out);
+    entrants.extend(exact);
+    Ok(entrants)
+}
+
 /// What a tree returns for its nodes.
 fn worth(entrant: &Entrant, price: f64) -> f64 {
     entrant.contender.returns().mean - price * entrant.nodes as f64
@@ -209,12 +228,12 @@ fn chosen(
         return exact;
     };
     let mean = |entrant: &Entrant| entrant.contender.returns().mean;
-    // Those that have played to the end and do no more harm.
+    // Those that have played to the end and did no more harm.
     let safe: Vec<(usize, &Entrant)> = entrants
         .iter()
         .enumerate()
         .filter(|(_, entrant)| entrant.contender.episodes() == base.contender.episodes())
-        .filter(|(_, entrant)| !is_more(harms(entrant), harms(base)))
+        .filter(|(_, entrant)| harms(entrant) <= harms(base))
         .collect();
     let best = |from: &[(usize, &Entrant)], worth: &dyn Fn(&Entrant) -> f64| {
         let worths = from.iter().map(|(at, entrant)| (*at, worth(entrant)));

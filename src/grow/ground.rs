@@ -3,6 +3,7 @@
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::task::History;
+use crate::ir::tree::Atom;
 use crate::learn::discount::Discounting;
 use crate::learn::episode::Episode;
 use crate::learn::process::World;
@@ -54,6 +55,11 @@ impl<'w, W: World> Ground<'w, W> {
             episode: race * APART,
             ..self.start
         }
+    }
+
+    /// The atoms of a minterm.
+    pub fn atoms(&self) -> &'w [Atom] {
+        self.world.atoms().get(..self.observed).unwrap_or(&[])
     }
 
     /// What went wrong in an episode: an end that costs, and each event that is claimed never to happen.

@@ -1,13 +1,13 @@
 //! The search: from the exact tree to smaller ones that cover it, then one change after another.
 
-use super::bodies;
-use super::cover;
-use super::evidence::{Evidence, Sight, Visits};
-use super::field::{Aim, Field};
+mod climb;
+mod covers;
+mod sprouts;
+
+use super::evidence::{Evidence, Visits};
 use super::ground::Ground;
-use super::propose::{Proposal, Proposer};
 use super::race::{Entrant, Judge};
-use super::step::{Climb, Cover, Halted, Refine, Step};
+use super::step::{Halted, Step};
 use super::{Progress, Settings, Starts};
 use crate::checkpoint::Part;
 use crate::ir::tree::{Atom, Node};
@@ -19,38 +19,12 @@ use crate::tree::{Runner, Size};
 use crate::trial::play::Ticked;
 use crate::trial::trace::Paths;
 use crate::world::Start;
-use rustc_hash::{FxHashMap, FxHashSet};
 use serde::{Deserialize, Serialize};
 
 /// The part of what there is to gain that a node must bring.
 const PRICE: f64 = 0.003;
-/// The most nodes of a tree that others are grown from in place of a single behaviour.
-const STEM: usize = 70;
-/// The most changes of a tree that the counts alone are asked for.
-const STEPS: usize = 40;
-/// The part of the effort after which no more is grown from the start.
-const SPROUTS: f64 = 0.4;
-/// Rounds of growing from the start.
-const ROUNDS: usize = 2;
-/// The fewest nodes of a tree that is covered by smaller ones, and the part of the effort after which no more are made.
-const COVERED: usize = 20;
-const COVERS: f64 = 0.25;
-/// The races of the trees that cover another.
-const RUNS: usize = 2;
 /// The ticks of a collection, as a part of the effort.
 const COLLECTED: f64 = 0.006;
-/// Proposals of a round: those of which the counts promise most, others at random, and nodes with memory.
-const BEST: usize = 20;
-const RANDOM: usize = 20;
-const MEMORIES: usize = 8;
-/// The stages of climbing: the part of a node's price, and whether trees only get smaller.
-const CLIMBS: [(f64, bool); 3] = [(1.0, false), (0.5, false), (1.0, true)];
-/// Races without a better tree before a stage ends.
-const FAILURES: usize = 3;
-/// The part of the effort that is kept for choosing and measuring.
-const KEPT: f64 = 0.2;
-/// The prices, in parts of a node's, at which smaller trees are looked for that cost something.
-const DEARER: [f64; 4] = [3.0, 10.0, 30.0, 100.0];
 /// Episodes that show what a tree does, for pruning without simulation.
 const SHOWN: usize = 64;
 /// The most nodes of a tree that is pruned so.
@@ -126,8 +100,8 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
                 Step::Begun => self.begin_covers(base),
                 Step::Cover(cover) => self.cover(base, cover),
                 Step::Sprout(round) => self.sprout(base, round, starts),
-                Step::Climb(climb) => self.climb(base, climb),
-                Step::Refine(refine) => self.refine(base, refine),
+                Step::Climb(stage) => self.climb(base, stage),
+                Step::Refine(stage) => self.refine(base, stage),
                 Step::Done => (base, Step::Done),
             };
             part.keep(|| self.halted(&base, &step));
@@ -259,60 +233,6 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
         visits
     }
 
-    /// Whether there is anything to gain from smaller trees that decide as the base does.
-    fn begin_covers(&mut self, base: Node) -> (Node, Step) {
-        let nodes = Size::of(&base).nodes;
-        let Some(tree) = self.single.clone().filter(|_| nodes > COVERED) else {
-            return (base, Step::Sprout(0));
-        };
-        let mut visits = self.collect(&base, 0.05);
-        add(&mut visits, self.collect(&base, 0.2));
-        let cover = Cover {
-            tree,
-            visits,
-            kept: FxHashMap::default(),
-            trees: Vec::new(),
-        };
-        (base, Step::Cover(cover))
-    }
-
-    /// One more tree that decides as the base does where it matters, from few of its decisions to all; then a race.
-    fn cover(&mut self, base: Node, mut cover: Cover) -> (Node, Step) {
-        if !self.spent(COVERS) && self.covers_more(&base, &mut cover) {
-            return (base, Step::Cover(cover));
-        }
-        (self.best_of(base, cover.trees, RUNS), Step::Sprout(0))
-    }
-
-    /// Adds a tree, if there is one more to add.
-    fn covers_more(&mut self, base: &Node, cover: &mut Cover) -> bool {
-        self.report(&cover.tree);
-        let aim = Aim::Of(base);
-        let field = Field::new(self.ground, &self.evidence, Sight::Far, &cover.visits, aim);
-        let most = (cover.kept.len() / 5).max(2);
-        let before = cover.kept.len();
-        let missed = cover::missed(&field, &cover.tree, base, most);
-        cover.kept.extend(missed);
-        if cover.kept.len() == before {
-            return false;
-        }
-        let Some(next) = cover::tree(self.ground, &cover.kept) else {
-            return false;
-        };
-        cover.tree = next;
-        if Size::of(&cover.tree).nodes * 5 > Size::of(base).nodes * 4 {
-            return false;
-        }
-        // Where the trees before went still counts, less and less.
-        cover.visits.values_mut().for_each(|weight| *weight *= 0.6);
-        let met = self.collect(&cover.tree, 0.05);
-        add(&mut cover.visits, met);
-        if !cover.trees.contains(&cover.tree) {
-            cover.trees.push(cover.tree.clone());
-        }
-        true
-    }
-
     /// The best of these trees, pruned, if it is better than the base; again against what was found, so many races long.
     fn best_of(&mut self, mut base: Node, trees: Vec<Node>, races: usize) -> Node {
         for _ in 0..races {
@@ -324,178 +244,11 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
         base
     }
 
-    /// Trees grown by the counts alone, from a single behaviour and from the best tree, raced; several times.
-    fn sprout(&mut self, base: Node, round: usize, starts: &Starts) -> (Node, Step) {
-        if round >= ROUNDS || self.spent(SPROUTS) {
-            return (base, Step::Climb(Climb::default()));
-        }
-        self.report(&base);
-        let mut visits = self.collect(&base, 0.1);
-        let wider = self.collect(&base, 0.3);
-        self.collect(&base, 0.8);
-        if round == 0 {
-            // Where the other trees go.
-            for other in starts.others.iter().chain([&starts.exact]) {
-                if *other != base {
-                    add(&mut visits, self.collect(other, 0.1));
-                }
-            }
-        }
-        add(&mut visits, wider);
-        let sight = if round.is_multiple_of(2) {
-            Sight::Far
-        } else {
-            Sight::Learner
-        };
-        let bodies = bodies::bodies(self.ground, &self.evidence);
-        let aim = match round.is_multiple_of(2) {
-            true => Aim::Of(&base),
-            false => Aim::Best,
-        };
-        let field = Field::new(self.ground, &self.evidence, sight, &visits, aim);
-        let mut trees: Vec<Node> = Vec::new();
-        for factor in [1.0, 3.0, 1.0 / 3.0] {
-            let proposer = Proposer {
-                field: &field,
-                bodies: &bodies,
-                requirements: self.settings.requirements,
-                price: self.price * factor,
-            };
-            let mut stems: Vec<Node> = single(&field, &bodies).into_iter().collect();
-            if Size::of(&base).nodes <= STEM {
-                stems.push(base.clone());
-            }
-            for stem in stems {
-                for tree in sprouts(&proposer, stem) {
-                    if !trees.contains(&tree) && tree != base {
-                        trees.push(tree);
-                    }
-                }
-            }
-        }
-        (self.best_of(base, trees, 1), Step::Sprout(round + 1))
-    }
-
-    /// One change, proposed by the counts and by chance, kept if a race says so.
-    fn climb(&mut self, base: Node, mut climb: Climb) -> (Node, Step) {
-        let Some((factor, only)) = CLIMBS.get(climb.stage) else {
-            return (base, Step::Refine(Refine::default()));
-        };
-        if climb.failures >= FAILURES || self.spent(1.0 - KEPT) {
-            return (base, Step::Climb(Climb::of(climb.stage + 1)));
-        }
-        self.report(&base);
-        let price = self.price * factor;
-        let trees = self.proposals(&base, price, *only, &mut climb.tried);
-        if trees.is_empty() {
-            return (base, Step::Climb(Climb::of(climb.stage + 1)));
-        }
-        match self.judge.race(&base, trees, price).0 {
-            Some(found) => (self.taken(found), Step::Climb(Climb::of(climb.stage))),
-            None => {
-                climb.failures += 1;
-                (base, Step::Climb(climb))
-            }
-        }
-    }
-
     /// The tree that has won, pruned.
     fn taken(&mut self, found: Entrant) -> Node {
         let base = self.pruned(&found.root, &found);
         self.visit(&base);
         base
-    }
-
-    fn proposals(
-        &mut self,
-        base: &Node,
-        price: f64,
-        only: bool,
-        tried: &mut FxHashSet<String>,
-    ) -> Vec<Node> {
-        let mut visits = self.collect(base, 0.05);
-        add(&mut visits, self.collect(base, 0.3));
-        let bodies = bodies::bodies(self.ground, &self.evidence);
-        let sight = if self.random.chance(0.5) {
-            Sight::Far
-        } else {
-            Sight::Learner
-        };
-        let aim = match self.random.chance(0.5) {
-            true => Aim::Of(base),
-            false => Aim::Best,
-        };
-        let field = Field::new(self.ground, &self.evidence, sight, &visits, aim);
-        let proposer = Proposer {
-            field: &field,
-            bodies: &bodies,
-            requirements: self.settings.requirements,
-            price,
-        };
-        let Some(now) = field.drives(base) else {
-            return Vec::new();
-        };
-        let mut found = proposer.prunings(base, &now);
-        let mut memories = Vec::new();
-        if !only {
-            found.extend(proposer.insertions(base, &now));
-            found.extend(proposer.changes(base, &now));
-            found.extend(proposer.moves(base, &now));
-            memories = proposer.memories(base);
-        }
-        let (best, random, memory) = if only {
-            (30, 18, 0)
-        } else {
-            (BEST, RANDOM, MEMORIES)
-        };
-        let mut trees: Vec<Node> = Vec::new();
-        let mut take = |proposal: Proposal| {
-            let fresh = proposal.root != *base && tried.insert(format!("{:?}", proposal.root));
-            if fresh {
-                trees.push(proposal.root);
-            }
-            fresh
-        };
-        found.sort_by(|a, b| b.score.total_cmp(&a.score).then(a.nodes.cmp(&b.nodes)));
-        let mut rest = Vec::new();
-        let mut left = best;
-        for proposal in found {
-            if left > 0 {
-                left -= usize::from(take(proposal));
-            } else {
-                rest.push(proposal);
-            }
-        }
-        for (mut from, count) in [(rest, random), (memories, memory)] {
-            let mut left = count;
-            while left > 0 && !from.is_empty() {
-                let at = self.random.below(from.len() as u64) as usize;
-                left -= usize::from(take(from.swap_remove(at)));
-            }
-        }
-        trees
-    }
-
-    /// Smaller trees that cost little, for the front.
-    fn refine(&mut self, base: Node, mut refine: Refine) -> (Node, Step) {
-        if !self.settings.front {
-            return (base, Step::Done);
-        }
-        let Some(factor) = DEARER.get(refine.stage) else {
-            // However few nodes are asked for, there is a tree.
-            if let Some(single) = self.single.clone() {
-                self.visit(&single);
-            }
-            return (base, Step::Done);
-        };
-        if !self.spent(1.0) {
-            let price = self.price * factor;
-            let trees = self.proposals(&base, price, true, &mut refine.tried);
-            if let Some(found) = self.judge.race(&base, trees, price).0 {
-                return (self.taken(found), Step::Refine(refine));
-            }
-        }
-        (base, Step::Refine(Refine::of(refine.stage + 1)))
     }
 
     /// The tree without what it never showed in its episodes: it plays them alike.
@@ -530,42 +283,4 @@ fn add(visits: &mut Visits, other: Visits) {
     for (key, count) in other {
         *visits.entry(key).or_default() += count;
     }
-}
-
-/// The body that is worth most by itself.
-fn single(field: &Field, bodies: &[Node]) -> Option<Node> {
-    let worth = |body: &&Node| {
-        let drives = field.drives(body).unwrap_or_default();
-        let spots = field.spots.iter().zip(&drives);
-        spots
-            .map(|(spot, drive)| spot.weight * spot.worth(*drive))
-            .sum::<f64>()
-    };
-    let best = bodies.iter().map(|body| (worth(&body), body));
-    let best = best.reduce(|best, next| if next.0 > best.0 { next } else { best });
-    best.map(|(_, body)| body.clone())
-}
-
-/// The trees on the way from one tree by the change that the counts promise most of.
-fn sprouts(proposer: &Proposer, stem: Node) -> Vec<Node> {
-    let mut trees = vec![stem.clone()];
-    let mut root = stem;
-    for _ in 0..STEPS {
-        let Some(now) = proposer.field.drives(&root) else {
-            break;
-        };
-        let mut found = proposer.insertions(&root, &now);
-        found.extend(proposer.prunings(&root, &now));
-        let best = found.into_iter().reduce(|best, next| {
-            let better =
-                next.score > best.score || next.score == best.score && next.nodes < best.nodes;
-            if better { next } else { best }
-        });
-        let Some(best) = best.filter(|best| best.score > 0.0 && !trees.contains(&best.root)) else {
-            break;
-        };
-        root = best.root.clone();
-        trees.push(best.root);
-    }
-    trees
 }

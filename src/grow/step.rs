@@ -34,9 +34,9 @@ pub(super) enum Step {
     /// It grows trees by the counts alone, in this round.
     Sprout(usize),
     /// It changes the base.
-    Climb(Climb),
+    Climb(Stage),
     /// It looks for smaller trees that cost something.
-    Refine(Refine),
+    Refine(Stage),
     /// Nothing.
     Done,
 }
@@ -53,39 +53,22 @@ pub(super) struct Cover {
     pub(super) trees: Vec<Node>,
 }
 
-/// How far climbing has come.
+/// How far a row of races has come, in which one change after another is tried.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
-pub(super) struct Climb {
-    pub(super) stage: usize,
+pub(super) struct Stage {
+    /// The number of the stage.
+    pub(super) number: usize,
     /// Races without a better tree.
     pub(super) failures: usize,
-    /// Trees that raced against this base.
+    /// Trees that raced in it.
     pub(super) tried: FxHashSet<String>,
 }
 
-impl Climb {
-    /// The beginning of a stage, or a new base in it.
-    pub(super) fn of(stage: usize) -> Self {
-        Self {
-            stage,
-            ..Self::default()
-        }
-    }
-}
-
-/// How far the search for smaller trees has come.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
-pub(super) struct Refine {
-    pub(super) stage: usize,
-    /// Trees that raced in this stage.
-    pub(super) tried: FxHashSet<String>,
-}
-
-impl Refine {
+impl Stage {
     /// The beginning of a stage.
-    pub(super) fn of(stage: usize) -> Self {
+    pub(super) fn of(number: usize) -> Self {
         Self {
-            stage,
+            number,
             ..Self::default()
         }
     }

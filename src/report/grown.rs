@@ -38,8 +38,8 @@ pub fn doc(grown: &Grown, program: &Program, task: &Task) -> String {
     };
     let [alike, all] = grown.alike;
     format!(
-        "That is the exact tree of {} nodes. This one, of {}, begins as it does in {alike} of the {all} minterms, was grown \
-         and is tested, not proved: a return of {:.2} for {:.2} on {} fresh episodes, {}{ended}.",
+        "That is the exact tree, of {} nodes. This one, of {}, was grown and selects the same as the exact one in {alike} of \
+         {all} minterms. It is tested, not proved: a return of {:.2} for {:.2} on {} fresh episodes, {}{ended}.",
         before.size.nodes,
         after.size.nodes,
         after.summary.total.mean,

@@ -77,7 +77,7 @@ pub fn front(dots: &[Dot], caption: &str) -> String {
         };
         page.circle(class, place(dot, dot.mean), size);
     }
-    let legend = "return, 95 % interval, by nodes; the tree that was taken is larger";
+    let legend = "return, 95 % interval, by nodes; the large dot is the tree that was taken";
     page.text("remark", LEFT, TOP - 16.0, legend);
     page.text("name end", RIGHT, TOP - 16.0, caption);
     page.finish()

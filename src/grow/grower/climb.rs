@@ -1,0 +1,141 @@
+//! One change after another, each kept if a race says so.
+
+use super::{Grower, add};
+use crate::grow::bodies;
+use crate::grow::evidence::Sight;
+use crate::grow::field::{Aim, Field};
+use crate::grow::propose::{Proposal, Proposer};
+use crate::grow::step::{Stage, Step};
+use crate::ir::tree::Node;
+use crate::learn::process::World;
+use rustc_hash::FxHashSet;
+
+/// Proposals of a round: those of which the counts promise most, others at random, and nodes with memory.
+const BEST: usize = 20;
+const RANDOM: usize = 20;
+const MEMORIES: usize = 8;
+/// The stages of climbing: the part of a node's price, and whether trees only get smaller.
+const CLIMBS: [(f64, bool); 3] = [(1.0, false), (0.5, false), (1.0, true)];
+/// Races without a better tree before a stage ends.
+const FAILURES: usize = 3;
+/// The part of the effort that is kept for choosing and measuring.
+const KEPT: f64 = 0.2;
+/// The prices, in parts of a node's, at which smaller trees are looked for that cost something.
+const DEARER: [f64; 4] = [3.0, 10.0, 30.0, 100.0];
+
+impl<W: World> Grower<'_, '_, '_, W> {
+    /// One change, proposed by the counts and by chance, kept if a race says so.
+    pub(super) fn climb(&mut self, base: Node, mut stage: Stage) -> (Node, Step) {
+        let Some((factor, only)) = CLIMBS.get(stage.number) else {
+            return (base, Step::Refine(Stage::default()));
+        };
+        if stage.failures >= FAILURES || self.spent(1.0 - KEPT) {
+            return (base, Step::Climb(Stage::of(stage.number + 1)));
+        }
+        self.report(&base);
+        let price = self.price * factor;
+        let trees = self.proposals(&base, price, *only, &mut stage.tried);
+        if trees.is_empty() {
+            return (base, Step::Climb(Stage::of(stage.number + 1)));
+        }
+        match self.judge.race(&base, trees, price).0 {
+            Some(found) => (self.taken(found), Step::Climb(Stage::of(stage.number))),
+            None => {
+                stage.failures += 1;
+                (base, Step::Climb(stage))
+            }
+        }
+    }
+
+    /// Smaller trees that cost little, for the front.
+    pub(super) fn refine(&mut self, base: Node, mut stage: Stage) -> (Node, Step) {
+        if !self.settings.front {
+            return (base, Step::Done);
+        }
+        let Some(factor) = DEARER.get(stage.number) else {
+            // However few nodes are asked for, there is a tree.
+            if let Some(single) = self.single.clone() {
+                self.visit(&single);
+            }
+            return (base, Step::Done);
+        };
+        if !self.spent(1.0) {
+            let price = self.price * factor;
+            let trees = self.proposals(&base, price, true, &mut stage.tried);
+            if let Some(found) = self.judge.race(&base, trees, price).0 {
+                return (self.taken(found), Step::Refine(stage));
+            }
+        }
+        (base, Step::Refine(Stage::of(stage.number + 1)))
+    }
+
+    fn proposals(
+        &mut self,
+        base: &Node,
+        price: f64,
+        only: bool,
+        tried: &mut FxHashSet<String>,
+    ) -> Vec<Node> {
+        let mut visits = self.collect(base, 0.05);
+        add(&mut visits, self.collect(base, 0.3));
+        let bodies = bodies::bodies(self.ground, &self.evidence);
+        let sight = if self.random.chance(0.5) {
+            Sight::Far
+        } else {
+            Sight::Learner
+        };
+        let aim = match self.random.chance(0.5) {
+            true => Aim::Of(base),
+            false => Aim::Best,
+        };
+        let field = Field::new(self.ground, &self.evidence, sight, &visits, aim);
+        let proposer = Proposer {
+            field: &field,
+            bodies: &bodies,
+            requirements: self.settings.requirements,
+            price,
+        };
+        let Some(now) = field.drives(base) else {
+            return Vec::new();
+        };
+        let mut found = proposer.prunings(base, &now);
+        let mut memories = Vec::new();
+        if !only {
+            found.extend(proposer.insertions(base, &now));
+            found.extend(proposer.changes(base, &now));
+            found.extend(proposer.moves(base, &now));
+            memories = proposer.memories(base);
+        }
+        let (best, random, memory) = if only {
+            (30, 18, 0)
+        } else {
+            (BEST, RANDOM, MEMORIES)
+        };
+        let mut trees: Vec<Node> = Vec::new();
+        let mut take = |proposal: Proposal| {
+            let fresh = proposal.root != *base && tried.insert(format!("{:?}", proposal.root));
+            if fresh {
+                trees.push(proposal.root);
+            }
+            fresh
+        };
+        found.sort_by(|a, b| b.score.total_cmp(&a.score).then(a.nodes.cmp(&b.nodes)));
+        let mut rest = Vec::new();
+        let mut left = best;
+        for proposal in found {
+            if left > 0 {
+                left -= usize::from(take(proposal));
+            } else {
+                rest.push(proposal);
+            }
+        }
+        for (mut from, count) in [(rest, random), (memories, memory)] {
+            let mut left = count;
+            while left > 0 && !from.is_empty() {
+                let at = self.random.below(from.len() as u64) as usize;
+                left -= usize::from(take(from.swap_remove(at)));
+            }
+        }
+        trees
+    }
+}

@@ -1,0 +1,73 @@
+//! Smaller trees that decide as the base does where it matters.
+
+use super::{Grower, add};
+use crate::grow::cover;
+use crate::grow::evidence::Sight;
+use crate::grow::field::{Aim, Field};
+use crate::grow::step::{Cover, Step};
+use crate::ir::tree::Node;
+use crate::learn::process::World;
+use crate::tree::Size;
+use rustc_hash::FxHashMap;
+
+/// The fewest nodes of a tree that is covered by smaller ones, and the part of the effort after which no more are made.
+const COVERED: usize = 20;
+const COVERS: f64 = 0.25;
+/// The races of the trees that cover another.
+const RUNS: usize = 2;
+
+impl<W: World> Grower<'_, '_, '_, W> {
+    /// Whether there is anything to gain from smaller trees that decide as the base does.
+    pub(super) fn begin_covers(&mut self, base: Node) -> (Node, Step) {
+        let nodes = Size::of(&base).nodes;
+        let Some(tree) = self.single.clone().filter(|_| nodes > COVERED) else {
+            return (base, Step::Sprout(0));
+        };
+        let mut visits = self.collect(&base, 0.05);
+        add(&mut visits, self.collect(&base, 0.2));
+        let cover = Cover {
+            tree,
+            visits,
+            kept: FxHashMap::default(),
+            trees: Vec::new(),
+        };
+        (base, Step::Cover(cover))
+    }
+
+    /// One more tree that decides as the base does where it matters, from few of its decisions to all; then a race.
+    pub(super) fn cover(&mut self, base: Node, mut cover: Cover) -> (Node, Step) {
+        if !self.spent(COVERS) && self.covers_more(&base, &mut cover) {
+            return (base, Step::Cover(cover));
+        }
+        (self.best_of(base, cover.trees, RUNS), Step::Sprout(0))
+    }
+
+    /// Adds a tree, if there is one more to add.
+    fn covers_more(&mut self, base: &Node, cover: &mut Cover) -> bool {
+        self.report(&cover.tree);
+        let aim = Aim::Of(base);
+        let field = Field::new(self.ground, &self.evidence, Sight::Far, &cover.visits, aim);
+        let most = (cover.kept.len() / 5).max(2);
+        let before = cover.kept.len();
+        let missed = cover::missed(&field, &cover.tree, base, most);
+        cover.kept.extend(missed);
+        if cover.kept.len() == before {
+            return false;
+        }
+        let Some(next) = cover::tree(self.ground, &cover.kept) else {
+            return false;
+        };
+        cover.tree = next;
+        if Size::of(&cover.tree).nodes * 5 > Size::of(base).nodes * 4 {
+            return false;
+        }
+        // Where the trees before went still counts, less and less.
+        cover.visits.values_mut().for_each(|weight| *weight *= 0.6);
+        let met = self.collect(&cover.tree, 0.05);
+        add(&mut cover.visits, met);
+        if !cover.trees.contains(&cover.tree) {
+            cover.trees.push(cover.tree.clone());
+        }
+        true
+    }
+}
