@@ -187,8 +187,8 @@ impl Compiler<'_> {
         Ok(dst)
     }
 
-    /// The registers of two operands. Where a distance is compared with a constant, those of the squares of both,
-    /// which need no root.
+    /// The registers of two operands. Where a distance is compared with a constant, those of the square of the distance and
+    /// of a bound on it, which need no root.
     pub(super) fn compared(
         &mut self,
         op: Binary,
@@ -201,13 +201,16 @@ impl Compiler<'_> {
             _ => None,
         };
         if matches!(op, Binary::Lt | Binary::Le) {
+            let strict = op == Binary::Lt;
             if let (Some((x, y)), Some(radius)) = (distance(a), radius(b)) {
                 let square = self.square_sum(x, y)?;
-                return Ok((square, self.layout.constant(radius * radius)?));
+                let bound = if strict { least(radius) } else { most(radius) };
+                return Ok((square, self.layout.constant(bound)?));
             }
             if let (Some(radius), Some((x, y))) = (radius(a), distance(b)) {
                 let square = self.square_sum(x, y)?;
-                return Ok((self.layout.constant(radius * radius)?, square));
+                let bound = if strict { most(radius) } else { least(radius) };
+                return Ok((self.layout.constant(bound)?, square));
             }
         }
         Ok((self.value(a)?, self.value(b)?))
@@ -274,4 +277,28 @@ impl Compiler<'_> {
             10
         }
     }
+}
+
+/// The largest number with a root of at most `radius`, as roots are rounded: a few steps from the square.
+fn most(radius: f64) -> f64 {
+    let mut square = radius * radius;
+    while square.sqrt() > radius {
+        square = square.next_down();
+    }
+    while square < f64::INFINITY && square.next_up().sqrt() <= radius {
+        square = square.next_up();
+    }
+    square
+}
+
+/// The smallest number with a root of at least `radius`, as roots are rounded: a few steps from the square.
+fn least(radius: f64) -> f64 {
+    let mut square = radius * radius;
+    while square.sqrt() < radius {
+        square = square.next_up();
+    }
+    while square > 0.0 && square.next_down().sqrt() >= radius {
+        square = square.next_down();
+    }
+    square
 }

@@ -657,3 +657,54 @@ fn operators_at_their_edges() {
         assert!(same(found, value), "{op:?} {a} {b}: {found}");
     }
 }
+
+/// A distance that is compared with its own length, or one number beside it: both ways of reading agree on each.
+#[test]
+fn a_distance_is_compared_to_the_last_bit() {
+    let operators = [Binary::Lt, Binary::Le];
+    let mut random = Random::new(1, 0, 0);
+    for case in 0..3000 {
+        // Of many sizes, down to those whose squares are no normal numbers and up to those that have none.
+        let size = [1.0, 1.0, 1e-160, 1e-170, 1e150, 1e160][case % 6];
+        let (x, y) = (
+            size * random.uniform(-2.0, 2.0),
+            size * random.uniform(-2.0, 2.0),
+        );
+        let length = btc::math::hypot(x, y);
+        for radius in [length.next_down(), length, length.next_up(), f64::MAX] {
+            for op in operators {
+                for turned in [false, true] {
+                    let mut program = Program::default();
+                    let [px, py] =
+                        [Pose::X, Pose::Y].map(|pose| program.pool.leaf(Expr::Pose(pose)));
+                    let distance = program.pool.binary(Binary::Hypot, px, py);
+                    let constant = program.pool.num(radius);
+                    let (a, b) = if turned {
+                        (constant, distance)
+                    } else {
+                        (distance, constant)
+                    };
+                    let id = program.pool.binary(op, a, b);
+                    let mut layout = Layout::new(&program).unwrap();
+                    let mut compiler = Compiler::new(&program.pool, &mut layout, None);
+                    compiler.assign(Fixed::Speed.register(), id).unwrap();
+                    let code = compiler.finish().unwrap();
+                    let mut registers = layout.registers();
+                    registers.set(Fixed::X.register(), x);
+                    registers.set(Fixed::Y.register(), y);
+                    let mut host = Numbers {
+                        random: Random::new(1, 0, 0),
+                    };
+                    run(&code, &mut registers, &mut host);
+                    let read = if turned {
+                        op.apply(radius, length)
+                    } else {
+                        op.apply(length, radius)
+                    };
+                    let got = registers.get(Fixed::Speed.register());
+                    assert_eq!(got, read, "{op:?} {turned} ({x}, {y}) {radius}");
+                }
+            }
+        }
+    }
+}
