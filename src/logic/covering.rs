@@ -46,15 +46,15 @@ impl List {
 #[derive(Clone, Debug)]
 pub struct Worth {
     /// The weight of each class.
-    pub weights: Vec<u32>,
+    weights: Vec<u32>,
     /// Whether its nodes count twice, so that short rules come first.
-    pub squared: bool,
+    squared: bool,
     /// The words that may be read in the search for one rule of one class.
-    pub reach: u64,
+    reach: u64,
 }
 
 /// The usual weight of a class.
-pub const WEIGHT: u32 = 256;
+const WEIGHT: u32 = 256;
 
 impl Worth {
     /// All classes alike.
@@ -76,8 +76,8 @@ impl Worth {
     }
 }
 
-/// A list of rules for these classes among the rows `among`; a row may be of several classes, each of which is right. `None` if the account is spent before there is one, or it has more
-/// than `limit` nodes.
+/// A list of rules for these classes among the rows `among`; a row may be of several classes, each of which is right.
+/// `None` if the account is spent before there is a list, or the list has more than `limit` nodes.
 pub fn covering(
     columns: &Columns,
     classes: &[Bits],
@@ -291,9 +291,8 @@ impl Search<'_> {
                 self.complete(step);
                 break;
             }
-            let others = off.count();
-            let gain =
-                |step: &&Step| (others - step.met) * (1 << 16) / (1 + on.count() - step.kept);
+            let (rows, others) = (on.count(), off.count());
+            let gain = |step: &&Step| (others - step.met) * (1 << 16) / (1 + rows - step.kept);
             let Some(step) = steps.iter().max_by_key(gain).copied() else {
                 break;
             };

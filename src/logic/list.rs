@@ -107,8 +107,8 @@ fn fixed<'a>(
         (part, found)
     };
     let found: Vec<_> = classes.par_iter().enumerate().map(entry).collect();
-    let entries = classes.iter().zip(found).map(|(class, (part, found))| {
-        account.settle(&part);
+    found.iter().for_each(|(part, _)| account.settle(part));
+    let entries = classes.iter().zip(found).map(|(class, (_, found))| {
         Some(Entry {
             class: *class,
             cover: found?.cover,

@@ -3,6 +3,7 @@
 mod allowed;
 mod alone;
 mod beam;
+mod beams;
 mod children;
 mod list;
 mod memory;

@@ -54,18 +54,13 @@ impl Search<'_> {
             }
             idle += 1;
             let worth = self.taste(attempt);
-            let (mut list, left) = match &present {
+            let (mut list, left, limit) = match &present {
                 Some(present) if attempt >= STARTS => {
-                    let present = present.clone();
-                    self.beginning(&present)
+                    let (list, left) = self.beginning(present);
+                    let limit = (present.nodes() + SLACK).saturating_sub(list.nodes());
+                    (list, left, limit)
                 }
-                _ => (List::default(), all.clone()),
-            };
-            let limit = match &present {
-                Some(present) if attempt >= STARTS => {
-                    (present.nodes() + SLACK).saturating_sub(list.nodes())
-                }
-                _ => usize::MAX,
+                _ => (List::default(), all.clone(), usize::MAX),
             };
             let (columns, classes) = (self.columns, self.classes);
             let end = covering(columns, classes, &left, &worth, limit, self.account);
@@ -116,7 +111,7 @@ impl Search<'_> {
             _ => {
                 for weight in &mut worth.weights {
                     *weight = WEIGHTS
-                        .get(self.random.below(5))
+                        .get(self.random.below(WEIGHTS.len()))
                         .copied()
                         .unwrap_or(*weight);
                 }

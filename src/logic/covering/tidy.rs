@@ -6,9 +6,9 @@ use crate::logic::bits::Bits;
 use crate::logic::columns::Columns;
 
 /// Drops rules whose rows the rules behind them decide as well, and literals without which a rule still holds on rows of its class
-/// only, until there are none.
+/// only, until there are none, or the account is spent.
 pub(super) fn tidy(columns: &Columns, classes: &[Bits], list: &mut List, account: &Account) {
-    while dropped(columns, classes, list, account) {}
+    while !account.is_spent() && dropped(columns, classes, list, account) {}
 }
 
 fn dropped(columns: &Columns, classes: &[Bits], list: &mut List, account: &Account) -> bool {

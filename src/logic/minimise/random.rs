@@ -11,7 +11,7 @@ impl Random {
     }
 
     /// The next number.
-    pub(in crate::logic) fn next(&mut self) -> u64 {
+    fn next(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -30,7 +30,7 @@ impl Random {
 
 /// `size` of the numbers, spread evenly, or all if there are no more. Of each stretch one is taken at random, so that no
 /// period in the numbers shows.
-pub(in crate::logic) fn sample(
+pub(super) fn sample(
     numbers: impl Iterator<Item = usize>,
     count: usize,
     size: usize,

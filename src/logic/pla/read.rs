@@ -2,6 +2,7 @@
 
 use super::error::{PlaError, PlaErrorKind};
 use super::{Kind, Part, Pla};
+use rustc_hash::FxHashSet;
 use std::ops::Range;
 
 /// The most mistakes that are reported for one file.
@@ -142,13 +143,14 @@ impl Reader {
         };
         if outputs && (1..wanted).contains(&found) {
             let names = &mut self.pla.output_names;
-            for output in found..wanted {
+            let given: FxHashSet<String> = names.iter().cloned().collect();
+            names.extend((found..wanted).map(|output| {
                 let mut name = format!("out{output}");
-                while names.contains(&name) {
+                while given.contains(&name) {
                     name.push('_');
                 }
-                names.push(name);
-            }
+                name
+            }));
         } else if found != wanted {
             self.wrong(span, PlaErrorKind::Names { wanted, found });
         }
@@ -231,6 +233,9 @@ impl Reader {
         let wanted = self.pla.inputs + self.pla.outputs;
         let blank = |c: &u8| matches!(c, b' ' | b'\t' | b'|');
         let more = text.bytes().filter(|c| !blank(c)).count();
+        if more == 0 {
+            return;
+        }
         // A row that goes on ends with this line or a later one; else the line is a row of its own.
         if self
             .open
@@ -239,20 +244,9 @@ impl Reader {
         {
             self.complete();
         }
-        let first = self.pla.values.len();
         let open = self.open.take();
-        let mut open = open.unwrap_or(Open {
-            span: at..at,
-            first,
-            found: 0,
-        });
+        let mut open = open.unwrap_or_else(|| self.begin(at));
         open.span.end = at + text.len();
-        if open.found == 0 {
-            self.pla.values.resize(first + self.pla.words(), 0);
-            if !self.pla.free.is_empty() {
-                self.pla.free.resize(self.pla.values.len(), 0);
-            }
-        }
         for (i, c) in text.bytes().enumerate().filter(|(_, c)| !blank(c)) {
             let known = match open.found < self.pla.inputs {
                 true => self.input(c, open.first, open.found),
@@ -276,6 +270,20 @@ impl Reader {
         }
         let start = u32::try_from(open.span.start).unwrap_or(u32::MAX);
         self.pla.starts.push(start);
+    }
+
+    /// Begins a row.
+    fn begin(&mut self, at: usize) -> Open {
+        let first = self.pla.values.len();
+        self.pla.values.resize(first + self.pla.words(), 0);
+        if !self.pla.free.is_empty() {
+            self.pla.free.resize(self.pla.values.len(), 0);
+        }
+        Open {
+            span: at..at,
+            first,
+            found: 0,
+        }
     }
 
     /// Takes an input in; `first` is the first word of its row.

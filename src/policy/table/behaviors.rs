@@ -31,6 +31,7 @@ pub(super) struct Behaviors {
     numbers: FxHashMap<String, u32>,
     /// The sets of several behaviours that rows allow, each sorted, once each.
     pub(super) sets: Vec<Vec<u32>>,
+    set_numbers: FxHashMap<Vec<u32>, u32>,
     /// The last cell that was looked up: neighbours are often alike.
     last: (Vec<u8>, u32),
 }
@@ -91,12 +92,12 @@ impl Behaviors {
         match numbers.as_slice() {
             [one] => *one,
             _ => {
-                let at = self.sets.iter().position(|set| *set == numbers);
-                let at = at.unwrap_or_else(|| {
+                let next = SET | u32::try_from(self.sets.len()).unwrap_or(0);
+                let number = *self.set_numbers.entry(numbers.clone()).or_insert(next);
+                if number == next {
                     self.sets.push(numbers);
-                    self.sets.len() - 1
-                });
-                SET | u32::try_from(at).unwrap_or(0)
+                }
+                number
             }
         }
     }

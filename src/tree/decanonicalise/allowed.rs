@@ -3,6 +3,7 @@
 //! A row is no exception to any behaviour that it allows. So lists of rules are found for classes of rows that overlap, and
 //! each gives every row one of its behaviours: a policy as any other, which the tree is made of and proved on.
 
+use super::alone::REACH;
 use super::{Decanonicalised, Options, decanonicalise};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
@@ -10,9 +11,6 @@ use crate::logic::covering::{List, lists};
 use crate::logic::{Account, Bits, Columns};
 use crate::policy::{Policy, Row};
 use crate::tree::prove::Refuted;
-
-/// The words that may be read in the search for one rule of one class.
-const REACH: u64 = 40_000;
 
 /// The part of the effort that the choice of behaviours may take, and that the trees that are compared may.
 const PARTS: u64 = 4;

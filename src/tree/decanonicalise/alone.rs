@@ -4,22 +4,20 @@
 //! are made of, look for a smaller tree. In a large table most rows say what others have said, so these work on a *core* of
 //! the rows; the rows on which a tree for the core is wrong join it, until there are none.
 
-use super::beam::{Beam, Bounds};
+use super::beams;
 use super::children::Children;
 use super::minimiser::Minimiser;
 use super::orders::{in_order, tree as listed};
 use super::parted;
 use super::problem::Problem;
-use super::rules::Rules;
 use super::share::shared;
 use super::subunit::behaviors;
 use crate::ir::tree::Node;
 use crate::logic::covering::{List, Worth, covering, lists};
 use crate::logic::partition::{Impurity, Partition, partition};
-use crate::logic::{Account, Bits, Order};
+use crate::logic::{Account, Bits, Cover, Cube, Order};
 use crate::policy::Policy;
 use crate::tree::Size;
-use rayon::prelude::*;
 
 /// The most rows of a table that is its own core, and the rows of the first core of a larger one.
 const WHOLE: usize = 1024;
@@ -27,21 +25,7 @@ const FIRST: usize = 512;
 /// The most rows of a core in which a beam searches.
 const SEARCHED: usize = 4096;
 /// The words that may be read in the search for one rule of one class.
-const REACH: u64 = 40_000;
-
-/// The beams: one without groups, and one with groups.
-pub(super) const BEAMS: [Bounds; 2] = [
-    Bounds {
-        width: 24,
-        inner: 1,
-        depth: 1,
-    },
-    Bounds {
-        width: 8,
-        inner: 2,
-        depth: 3,
-    },
-];
+pub(super) const REACH: u64 = 40_000;
 
 /// Partitions of all rows, and the trees that they come to.
 pub(super) struct Held {
@@ -206,25 +190,11 @@ fn searched(problem: &Problem, account: &Account) -> Vec<Node> {
     let mut found: Vec<Node> = ruled.iter().map(node).collect();
     found.extend(in_orders.iter().map(|(node, _)| node.clone()));
     if !problem.wide {
-        let searched = BEAMS.par_iter().map(|bounds| {
-            let minimiser = Minimiser::new(problem, account.part(BEAMS.len()));
-            let useful = in_orders.iter().flat_map(|(_, list)| list);
-            let cubes = ruled.iter().flat_map(|list| &list.rules);
-            let rules = Rules::new(
-                &minimiser,
-                useful.map(|(_, cover)| cover),
-                cubes.map(|rule| &rule.cube),
-            );
-            let mut beam = Beam::new(&minimiser, &subunits, rules, *bounds);
-            let trees = beam.trees();
-            drop(beam);
-            (minimiser.account, trees)
-        });
-        let searched: Vec<_> = searched.collect();
-        for (part, trees) in searched {
-            account.settle(&part);
-            found.extend(trees);
-        }
+        let covers = in_orders.iter().flat_map(|(_, list)| list);
+        let covers: Vec<&Cover> = covers.map(|(_, cover)| cover).collect();
+        let cubes = ruled.iter().flat_map(|list| &list.rules);
+        let cubes: Vec<&Cube> = cubes.map(|rule| &rule.cube).collect();
+        found.extend(beams::trees(problem, &subunits, &covers, &cubes, account));
     }
     found.into_iter().map(shared).collect()
 }

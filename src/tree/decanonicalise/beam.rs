@@ -396,7 +396,7 @@ mod tests {
         let problem = Problem::new(&policy);
         let minimiser = Minimiser::new(&problem, Account::unlimited());
         let subunits = behaviors(&problem);
-        let rules = Rules::new(&minimiser, std::iter::empty(), std::iter::empty());
+        let rules = Rules::new(&minimiser, &[], &[]);
         let bounds = Bounds {
             width: 8,
             inner: 2,

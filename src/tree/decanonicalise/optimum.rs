@@ -10,14 +10,11 @@ use super::problem::Problem;
 use crate::ir::tree::{Guard, Node};
 use crate::logic::Account;
 use crate::tree::unit::{guarded, selector};
-use formulas::Formulas;
+use formulas::{Formulas, NEVER};
 
 /// The most atoms, and the most rows that are always tried.
 const ATOMS: usize = 4;
 const FEW: usize = 10;
-
-/// The nodes that are more than any tree here has.
-const NEVER: u8 = u8::MAX / 4;
 
 /// A tree of fewest nodes among those in which each group decides all rows that reach it; `None` where there are too many atoms,
 /// or the account does not go so far.
@@ -27,7 +24,7 @@ pub(super) fn optimum(problem: &Problem, account: &Account) -> Option<Node> {
     if atoms == 0 || atoms > ATOMS || problem.wide || rows == 0 {
         return None;
     }
-    let divisions = 3_u64.pow(u32::try_from(rows).ok()?);
+    let divisions = 3_u64.checked_pow(u32::try_from(rows).ok()?)?;
     let work = divisions.saturating_mul(4);
     if rows > FEW && !account.affords(work.saturating_mul(2)) {
         return None;

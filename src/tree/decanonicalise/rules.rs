@@ -40,16 +40,11 @@ pub(super) struct Rules {
 
 impl Rules {
     /// The rules of these covers, these cubes, and the short cubes over their atoms.
-    pub(super) fn new<'c>(
-        minimiser: &Minimiser,
-        useful: impl Iterator<Item = &'c Cover>,
-        cubes: impl Iterator<Item = &'c Cube>,
-    ) -> Self {
+    pub(super) fn new(minimiser: &Minimiser, covers: &[&Cover], cubes: &[&Cube]) -> Self {
         let mut rules = Self::default();
-        for cover in useful {
-            rules.learn(minimiser, cover);
-        }
-        let cubes: Vec<&Cube> = cubes.collect();
+        covers
+            .iter()
+            .for_each(|cover| rules.learn(minimiser, cover));
         cubes.iter().for_each(|cube| rules.add(minimiser, cube));
         // What is left of a cube without a literal may stand in a group behind that literal.
         for cube in cubes {

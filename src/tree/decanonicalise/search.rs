@@ -2,23 +2,22 @@
 //!
 //! First trees without memory are sought ([`super::alone`]): one of them is held from the beginning. Then it is decided which
 //! behaviours memory nodes join ([`super::memory`]). The subunits of each such configuration form a list in the wanted order
-//! ([`super::orders`]). If the order is to be learned, a beam search starts from that list ([`super::beam`]). All draw on one
+//! ([`super::orders`]). If the order is to be learned, beam searches start from that list ([`super::beams`]). All draw on one
 //! account of work, and what runs at the same time has a part of it each, so that every machine finds the same tree on any
 //! number of threads.
 
-use super::alone::{self, BEAMS};
-use super::beam::Beam;
+use super::alone;
+use super::beams;
 use super::memory::configurations;
 use super::minimiser::{LARGE, Minimiser};
 use super::optimum::optimum;
 use super::orders::{in_order, tree as listed};
 use super::problem::Problem;
-use super::rules::Rules;
 use super::share::shared;
 use super::subunit::{Subunit, behaviors};
 use super::{Stage, paper};
 use crate::ir::tree::Node;
-use crate::logic::{Account, Order};
+use crate::logic::{Account, Cover, Order};
 use crate::tree::Size;
 use rayon::prelude::*;
 
@@ -137,15 +136,7 @@ fn joined(problem: &Problem, subunits: &[Subunit], account: &Account) -> Vec<Nod
     let bases = lists.iter().map(|list| listed(&minimiser, subunits, list));
     let bases: Vec<Node> = bases.collect();
     account.settle(&minimiser.account);
-    let searched = BEAMS.par_iter().map(|bounds| {
-        let minimiser = Minimiser::new(problem, account.part(BEAMS.len()));
-        let useful = lists.iter().flatten().map(|(_, cover)| cover);
-        let rules = Rules::new(&minimiser, useful, std::iter::empty());
-        let trees = Beam::new(&minimiser, subunits, rules, *bounds).trees();
-        (minimiser.account, trees)
-    });
-    let searched: Vec<_> = searched.collect();
-    searched.iter().for_each(|(part, _)| account.settle(part));
-    let searched = searched.into_iter().flat_map(|(_, trees)| trees);
+    let covers: Vec<&Cover> = lists.iter().flatten().map(|(_, cover)| cover).collect();
+    let searched = beams::trees(problem, subunits, &covers, &[], account);
     bases.into_iter().chain(searched).map(shared).collect()
 }

@@ -20,7 +20,7 @@ use rustc_hash::FxHashSet;
 /// Up to this many atoms, a truth table is quicker than a solver.
 const TABLE: usize = 20;
 
-/// Decisions after which the solver gives up.
+/// The work after which the solver gives up, in decisions over few clauses.
 const DECISIONS: u64 = 1_000_000;
 
 /// States after which the search gives up.

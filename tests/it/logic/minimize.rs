@@ -69,6 +69,10 @@ fn files_are_read_as_they_are() {
         111\n10\n01\n110 1000\n0 0 0 | 0\n010\n.e\n";
     let found = run(text, None).unwrap();
     check("minimize.as_they_are", &found.text);
+    // A line of bars says nothing, wherever it stands.
+    let bars = text.replace("111\n10", "|\n111\n| |\n10");
+    let bars = bars.replace(".e", "|\n.e");
+    assert_eq!(run(&bars, None).unwrap().text, found.text);
 }
 
 #[test]

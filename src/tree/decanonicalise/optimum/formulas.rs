@@ -7,6 +7,9 @@ use crate::tree::guard::{and, literal, not};
 /// Formulas of more nodes are not sought: a unit more costs less.
 const LARGEST: usize = 8;
 
+/// The nodes of what has no formula: more than any tree here has, and few enough that some of them can be added.
+pub(super) const NEVER: u8 = u8::MAX / 4;
+
 /// How a formula is made, as a child of a conjunction.
 #[derive(Clone, Copy, Debug)]
 enum Made {
@@ -35,7 +38,7 @@ impl Formulas {
         let minterms = 1_usize << atoms;
         let mut found = Self {
             atoms,
-            nodes: vec![u8::MAX / 4; 1 << minterms],
+            nodes: vec![NEVER; 1 << minterms],
             made: vec![Made::Not; 1 << minterms],
         };
         let mut levels: Vec<Vec<usize>> = vec![Vec::new(); LARGEST + 1];
@@ -89,9 +92,9 @@ impl Formulas {
         self.atoms
     }
 
-    /// The nodes of the smallest formula under a sequence, or more than any tree has.
+    /// The nodes of the smallest formula under a sequence, or [`NEVER`].
     pub(super) fn nodes(&self, function: usize) -> u8 {
-        self.nodes.get(function).copied().unwrap_or(u8::MAX / 4)
+        self.nodes.get(function).copied().unwrap_or(NEVER)
     }
 
     /// The smallest formula.
