@@ -5,7 +5,7 @@ use super::store::manifest::Manifest;
 use crate::diagnostic::{Code, Diagnostic, render};
 use crate::driver::digest::sha256;
 use crate::driver::load::{Reader, beside};
-use crate::facade::disk::Disk;
+use crate::facade::disk::{Disk, TABLE, regular};
 use crate::source::Span;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -51,13 +51,21 @@ pub(super) fn torn(path: &str) -> Option<Diagnostic> {
     Some(torn)
 }
 
+/// Folders that programs may use files of, besides their own and the current one.
+static ROOTS: OnceLock<Vec<PathBuf>> = OnceLock::new();
+
+/// Lets programs use files of these folders.
+pub(super) fn allow(roots: &[PathBuf]) {
+    let _ = ROOTS.set(roots.to_vec());
+}
+
 /// Reads the files of a program. If it is one that was learned, what it uses is also looked for beside its folder, where it
 /// may have been moved together with it.
 pub(super) struct Found {
     /// The name of the main file.
-    name: String,
-    /// The name of the main file, its folder, and what it was learned from.
-    result: Option<(String, PathBuf, Manifest)>,
+    main: String,
+    /// Its folder, and what it was learned from.
+    result: Option<(PathBuf, Manifest)>,
 }
 
 impl Found {
@@ -65,16 +73,16 @@ impl Found {
     pub(super) fn of(name: &str) -> Self {
         let result = result_of(name);
         Self {
-            name: name.to_owned(),
-            result: result.map(|(folder, manifest)| (name.to_owned(), folder.to_owned(), manifest)),
+            main: name.to_owned(),
+            result: result.map(|(folder, manifest)| (folder.to_owned(), manifest)),
         }
     }
 
     /// What to know of a program that was learned from other files than those that are there now.
     pub(super) fn changed(&self) -> Option<Diagnostic> {
-        let (_, folder, manifest) = self.result.as_ref()?;
+        let (folder, manifest) = self.result.as_ref()?;
         let changed = |(path, hash): &(&String, &String)| {
-            let now = std::fs::read(folder.join(path));
+            let now = regular(&folder.join(path), TABLE);
             now.is_ok_and(|bytes| sha256(&bytes) != **hash)
         };
         let mut changed = manifest.program.iter().filter(changed);
@@ -90,8 +98,8 @@ impl Found {
 
     /// The file in another place than it was learned from.
     fn moved(&self, path: &str) -> Option<Vec<u8>> {
-        let (main, folder, manifest) = self.result.as_ref()?;
-        let here = |(listed, _): &(&String, &String)| beside(main, listed) == path;
+        let (folder, manifest) = self.result.as_ref()?;
+        let here = |(listed, _): &(&String, &String)| beside(&self.main, listed) == path;
         let (listed, hash) = manifest.program.iter().find(here)?;
         // By way of a link, `..` may lead elsewhere than it seems to.
         let real = folder.canonicalize().ok()?;
@@ -101,35 +109,25 @@ impl Found {
             real.join(name),
             folder_of(&real).join(name),
         ];
-        let read = places.iter().filter_map(|place| std::fs::read(place).ok());
-        read.into_iter().find(|bytes| sha256(bytes) == *hash)
+        let mut read = places.iter().filter_map(|place| regular(place, TABLE).ok());
+        read.find(|bytes| sha256(bytes) == *hash)
     }
-}
 
-/// Folders that programs may use files of, besides their own and the current one.
-static ROOTS: OnceLock<Vec<PathBuf>> = OnceLock::new();
-
-/// Lets programs use files of these folders.
-pub(super) fn allow(roots: &[PathBuf]) {
-    let _ = ROOTS.set(roots.to_vec());
-}
-
-impl Found {
     /// Whether a program may use the file at a path: one of its own folder, of the current one or of one that was named, or
     /// one that it was learned from.
     fn may_read(&self, path: &str) -> bool {
         let Ok(real) = Path::new(path).canonicalize() else {
             return true;
         };
-        let own = folder_of(Path::new(&self.name));
+        let own = folder_of(Path::new(&self.main));
         let named = ROOTS.get().into_iter().flatten().map(PathBuf::as_path);
         let mut roots = named.chain([own, Path::new(".")]);
         let within = |root: &Path| root.canonicalize().is_ok_and(|root| real.starts_with(root));
         let listed = || {
             let program = real.extension().is_some_and(|ending| ending == "bt");
-            self.result.as_ref().is_some_and(|(main, _, manifest)| {
+            self.result.as_ref().is_some_and(|(_, manifest)| {
                 let mut listed = manifest.program.keys();
-                program && listed.any(|listed| beside(main, listed) == path)
+                program && listed.any(|listed| beside(&self.main, listed) == path)
             })
         };
         roots.any(within) || listed()
@@ -146,7 +144,7 @@ impl Reader for Found {
             let moved = self.moved(path);
             moved.ok_or_else(|| match &self.result {
                 None => why,
-                Some((_, folder, _)) => {
+                Some((folder, _)) => {
                     let folder = folder.to_string_lossy();
                     let name = path.rsplit('/').next().unwrap_or(path);
                     let (folder, name) = (render::visible(&folder), render::visible(name));

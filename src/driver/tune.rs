@@ -4,6 +4,7 @@ use super::learn::{self, Learned};
 use super::load::Loaded;
 use super::refused::Refused;
 use super::{target, world};
+use crate::checkpoint::Forgetful;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::task::{Task, TreeRef};
 use crate::ir::tree::Node;
@@ -162,7 +163,12 @@ pub fn of_learned(
         ..loaded.clone()
     };
     let heard = |stage| progress(Stage::Learning(stage));
-    let anew = learn::learn(&changed, how, &heard)?;
+    // The states that are kept are those of the values in use.
+    let how = learn::Options {
+        keeper: &Forgetful,
+        ..*how
+    };
+    let anew = learn::learn(&changed, &how, &heard)?;
     let subject = Subject {
         root: &anew.tree.root,
         ..searched.subject(&|_| None)

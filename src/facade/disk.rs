@@ -3,6 +3,7 @@
 use crate::driver::load::{MOST, Reader};
 use std::fs::File;
 use std::io::{self, Read};
+use std::path::Path;
 
 /// The most bytes of a table.
 pub(crate) const TABLE: u64 = 1 << 30;
@@ -12,19 +13,24 @@ pub(crate) struct Disk;
 
 impl Reader for Disk {
     fn read(&mut self, path: &str) -> Result<Vec<u8>, String> {
-        let read = || -> io::Result<Vec<u8>> {
-            // Whoever opens a pipe waits for its other end.
-            if !std::fs::metadata(path)?.is_file() {
-                return Err(io::Error::other("this is no file"));
-            }
-            let most = match path.ends_with(".csv") {
-                true => TABLE,
-                false => MOST as u64,
-            };
-            bounded(File::open(path)?, most)
+        let most = match path.ends_with(".csv") {
+            true => TABLE,
+            false => MOST as u64,
         };
-        read().map_err(|error| error.to_string())
+        regular(Path::new(path), most).map_err(|error| error.to_string())
     }
+}
+
+/// The bytes of a file that is neither a device nor a pipe, see [`bounded`].
+///
+/// # Errors
+/// It is no file, or as [`bounded`].
+pub(crate) fn regular(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+    // Whoever opens a pipe waits for its other end.
+    if !std::fs::metadata(path)?.is_file() {
+        return Err(io::Error::other("this is no file"));
+    }
+    bounded(File::open(path)?, most)
 }
 
 /// The bytes of a file. Of one that has more than `most`, one more is read, by which that is seen.

@@ -11,7 +11,7 @@ use std::fs;
 use std::process::{Command, Output, Stdio};
 
 /// Small delivery with its threshold to be tuned.
-fn small(threshold: &str) -> String {
+pub(super) fn small(threshold: &str) -> String {
     let text = include_str!("../../examples/delivery_small.bt");
     let plain = "battery <= 25%";
     assert!(text.contains(plain));
@@ -26,7 +26,7 @@ fn loaded(text: &str) -> Loaded {
 }
 
 /// A search that is over soon.
-const QUICK: Options = Options {
+pub(super) const QUICK: Options = Options {
     tree: Some("expert"),
     learner: None,
     effort: 1_500_000,

@@ -1,9 +1,9 @@
 //! `manifest.json`: what a result consists of, so that a folder can be told from a mix of two.
 
 use crate::driver::digest::sha256;
+use crate::facade::disk::{TABLE, regular};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use std::fs;
 use std::io;
 use std::path::Path;
 
@@ -39,9 +39,12 @@ impl Manifest {
         }
     }
 
-    /// The manifest in a folder, if there is one.
+    /// The manifest in a folder, if there is one. A result has no files elsewhere: what names some is none of btc's.
     pub fn of_folder(folder: &Path) -> Option<Self> {
-        serde_json::from_slice(&fs::read(folder.join(NAME)).ok()?).ok()
+        let text = regular(&folder.join(NAME), TABLE).ok()?;
+        let manifest: Self = serde_json::from_slice(&text).ok()?;
+        let is_here = |name: &String| Path::new(name).file_name() == Some(name.as_ref());
+        manifest.files.keys().all(is_here).then_some(manifest)
     }
 
     /// The text of the file.
@@ -58,7 +61,7 @@ impl Manifest {
 
     /// The files of the folder that are not those of the result. One that is gone is missed where it is used.
     pub fn changed(&self, folder: &Path) -> Vec<&str> {
-        let changed = |name: &&String| match fs::read(folder.join(name)) {
+        let changed = |name: &&String| match regular(&folder.join(name), TABLE) {
             Ok(bytes) => self.files.get(*name) != Some(&sha256(&bytes)),
             Err(error) => error.kind() != io::ErrorKind::NotFound,
         };

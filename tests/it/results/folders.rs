@@ -58,6 +58,28 @@ fn a_mix_of_two_runs_is_refused() {
     assert!(told(&output).contains("E0211"), "{}", told(&output));
 }
 
+/// A folder of results may come from anywhere.
+#[test]
+fn a_manifest_that_names_files_elsewhere_is_refused() {
+    let folder = project();
+    let at = folder.path();
+    fs::write(at.join("precious"), "mine").unwrap();
+    let outside = at.join("precious").to_str().unwrap().to_owned();
+    // A folder with another folder in it is written to file by file.
+    fs::create_dir_all(at.join("out/inner")).unwrap();
+    for name in ["../precious", "./../precious", &outside, "inner/..", ".."] {
+        let manifest = serde_json::json!({
+            "btc": "", "whole": false, "program": {}, "files": { name: "" },
+        });
+        fs::write(at.join("out/manifest.json"), manifest.to_string()).unwrap();
+        let output = learned(at, &["-o", "out"]);
+        assert_eq!(output.status.code(), Some(1), "{name}");
+        let said = told(&output);
+        assert!(said.contains("is not a manifest of btc"), "{name}: {said}");
+        assert_eq!(fs::read(at.join("precious")).unwrap(), b"mine");
+    }
+}
+
 #[test]
 fn files_that_are_not_used_may_go() {
     let folder = project();

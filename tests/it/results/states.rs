@@ -1,8 +1,11 @@
 //! A run that goes on from any state that it kept comes to the same end.
 
+use crate::program::NoFiles;
+use crate::tune::{QUICK, small};
 use btc::checkpoint::{Forgetful, Keeper};
 use btc::driver::learn::{Learned, Options, Shape, learn};
-use btc::driver::load::{Loaded, Reader, load};
+use btc::driver::load::{Loaded, load};
+use btc::driver::tune;
 use std::collections::BTreeMap;
 use std::sync::Mutex;
 
@@ -37,14 +40,6 @@ impl Keeper for Everything {
     }
 
     fn publish(&self, _: &str, _: &str) {}
-}
-
-struct NoFiles;
-
-impl Reader for NoFiles {
-    fn read(&mut self, path: &str) -> Result<Vec<u8>, String> {
-        Err(path.to_owned())
-    }
 }
 
 fn program(method: &str) -> Loaded {
@@ -122,6 +117,25 @@ fn a_run_goes_on_from_its_states() {
     goes_on("model", 19);
     goes_on("double_q", 61);
     goes_on("q_learning", 61);
+}
+
+/// What is learned again under better values has no states: they would be taken for those of the values in use.
+#[test]
+fn what_is_tuned_leaves_the_states_alone() {
+    let text = small("tune(18%, 10% .. 20%)");
+    let loaded = load("small.bt", text.into_bytes(), &mut NoFiles);
+    let keeper = Everything::default();
+    let options = options(&keeper);
+    let mut learned = learn(&loaded, &options, &|_| {}).unwrap();
+    // A tree for which other values are known to be better.
+    let expert = loaded.program.trees.values();
+    let mut expert = expert.filter(|tree| tree.name.family == "expert");
+    learned.tree.root = expert.next().unwrap().root.clone();
+    let states = || keeper.kept.lock().unwrap().clone();
+    let before = states();
+    let found = tune::of_learned(&loaded, &learned, &options, &QUICK, &|_| {}).unwrap();
+    assert!(found.text.is_some(), "{}", found.human);
+    assert_eq!(states(), before);
 }
 
 #[test]
