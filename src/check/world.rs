@@ -13,6 +13,7 @@ use crate::geometry::Shape;
 use crate::ir::Name;
 use crate::ir::table::Table;
 use crate::ir::world::{Place, Wall, World};
+use crate::source::Span;
 use crate::syntax::ast::{self, Expr, Item, ItemKind, WorldEntryKind};
 use robot::no_robot;
 use std::ops::RangeInclusive;
@@ -80,8 +81,11 @@ impl<'a> Checker<'a> {
             }
         }
         self.tick = tick.and_then(|field| self.tick(&field.value));
+        let arena_field = arena;
         let arena = arena.and_then(|field| self.arena(&field.value));
         self.stand_in(Name::word(&world.name.name), arena.clone());
+        let mut outside: Vec<(&'a ast::Ident, Span)> = Vec::new();
+        let mut places = 0;
         for entry in &world.entries {
             match &entry.kind {
                 WorldEntryKind::Place {
@@ -92,7 +96,9 @@ impl<'a> Checker<'a> {
                 } => {
                     let kind = of_kind.as_ref().map(|kind| kind.name.clone());
                     self.kinds.places.push((Name::word(&name.name), kind));
-                    self.place(name, shape, facing.as_ref(), arena.as_ref());
+                    let away = self.place(name, shape, facing.as_ref(), arena.as_ref());
+                    outside.extend(away.then_some((name, shape.span)));
+                    places += 1;
                 }
                 WorldEntryKind::Wall {
                     name,
@@ -107,7 +113,27 @@ impl<'a> Checker<'a> {
                 _ => {}
             }
         }
+        self.places_outside(&outside, places, arena_field.map(|field| field.value.span));
         self.robots(world);
+    }
+
+    /// Reports places that lie outside the arena; where all of several do, the arena.
+    fn places_outside(
+        &mut self,
+        outside: &[(&'a ast::Ident, Span)],
+        places: usize,
+        arena: Option<Span>,
+    ) {
+        if let (Some(arena), true) = (arena, places > 1 && outside.len() == places) {
+            self.error(Code::E0404, arena, "all places lie outside the arena")
+                .label("is it as large as it was meant to be?");
+            return;
+        }
+        for (name, span) in outside {
+            let message = format!("the place `{}` lies outside the arena", name.name);
+            self.error(Code::E0404, *span, message)
+                .label("its centre is out of every robot's reach");
+        }
     }
 
     /// The length of a tick in seconds.
@@ -164,29 +190,22 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Declares a place; whether it lies outside the arena.
     fn place(
         &mut self,
         name: &'a ast::Ident,
         shape: &'a Expr,
         facing: Option<&'a Expr>,
         arena: Option<&Shape>,
-    ) {
-        let span = shape.span;
+    ) -> bool {
         let shape = self.shape_of(shape, "a place");
         // One that is wrong is one nevertheless.
         let facing = facing.map(|facing| {
             let angle = self.constant(facing, &Type::ANGLE, "`facing`");
             angle.unwrap_or_default()
         });
-        let Some(shape) = shape else { return };
-        if arena.is_some_and(|arena| !arena.contains(shape.center())) {
-            self.error(
-                Code::E0404,
-                span,
-                format!("the place `{}` lies outside the arena", name.name),
-            )
-            .label("its centre is out of every robot's reach");
-        }
+        let Some(shape) = shape else { return false };
+        let outside = arena.is_some_and(|arena| !arena.contains(shape.center()));
         if let Some(world) = &mut self.program.world {
             world.places.push(Place {
                 name: Name::word(&name.name),
@@ -194,6 +213,7 @@ impl<'a> Checker<'a> {
                 facing: facing.map(crate::math::wrap),
             });
         }
+        outside
     }
 
     fn wall(&mut self, name: &'a ast::Ident, shape: &'a Expr) {
