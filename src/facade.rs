@@ -21,6 +21,7 @@ pub use tree::Tree;
 
 pub use crate::driver::decanonicalize::Options as DecanonicaliseOptions;
 pub use crate::driver::learn::{Options as LearnOptions, Shape};
+pub use crate::driver::table::Format as TableFormat;
 pub use crate::driver::verify::Proved;
 pub use crate::emit::form::TreeForm;
 pub use crate::environment::{Ended, Environment, Outcome};

@@ -1,16 +1,19 @@
 //! What learning hands to the tree: minterm → behaviour with its evidence, start minterms, greedy transitions.
 //!
 //! Three files hold it: the decisions in [`decisions`], the greedy process in [`transitions`], the evidence in
-//! [`evidence`]. Decisions of any origin are read by [`table`].
+//! [`evidence`]. Decisions of any origin are read by [`reader`], those that ask truth values into a
+//! [`table`], those that ask numbers and words into a [`valued`] one.
 
 pub mod decisions;
 pub mod error;
 pub mod evidence;
 mod names;
+pub mod reader;
 mod records;
 mod sheet;
 pub mod table;
 pub mod transitions;
+pub mod valued;
 
 pub use crate::logic::Minterm;
 

@@ -4,6 +4,7 @@ use super::body::Bodies;
 use super::context::{Bound, Context, Region};
 use super::decl::behavior::BehaviorId;
 use super::decl::event::EventId;
+use super::decl::input::InputSlot;
 use super::decl::predicate::PredicateId;
 use super::decl::state::StateSlot;
 use super::lint::Asked;
@@ -56,6 +57,8 @@ pub struct Checker<'a> {
     pub predicates: BTreeMap<Name, Option<PredicateId>>,
     /// The behaviours, by name with arguments; `None` for one with a mistake.
     pub behaviors: BTreeMap<Name, Option<BehaviorId>>,
+    /// The inputs, by name, each with its type; a category has none of its own.
+    pub inputs: BTreeMap<&'a str, InputSlot>,
     /// The states, by name.
     pub states: BTreeMap<&'a str, StateSlot>,
     /// The events that have been checked, by name: a single event is a family of one.
@@ -102,6 +105,7 @@ impl<'a> Checker<'a> {
             bound: BTreeMap::new(),
             predicates: BTreeMap::new(),
             behaviors: BTreeMap::new(),
+            inputs: BTreeMap::new(),
             states: BTreeMap::new(),
             events: BTreeMap::new(),
             kinds: Kinds::default(),
@@ -122,6 +126,7 @@ impl<'a> Checker<'a> {
         self.worlds(items());
         for item in items() {
             match &item.kind {
+                ItemKind::Input(input) if self.names.counts(&input.name) => self.input(input),
                 ItemKind::State(state) if self.names.counts(&state.name) => self.state(state),
                 ItemKind::Enum(decl) => self.enumeration(decl),
                 _ => {}

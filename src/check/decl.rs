@@ -3,6 +3,7 @@
 pub mod behavior;
 mod drive;
 pub mod event;
+pub mod input;
 mod instance;
 mod law;
 mod parameter;

@@ -26,10 +26,12 @@ pub use builtin::names as built_in_names;
 
 use crate::diagnostic::Diagnostic;
 use crate::ir::Program;
+use crate::ir::input::Measure;
 use crate::source::Span;
-use crate::syntax::ast;
+use crate::syntax::{self, ast};
 use checker::Checker;
 use std::collections::BTreeMap;
+use types::units;
 
 /// A parsed file.
 #[derive(Clone, Copy, Debug)]
@@ -49,6 +51,15 @@ pub struct Checked {
     pub tunes: Vec<Vec<Span>>,
     /// Every mistake and warning.
     pub diagnostics: Vec<Diagnostic>,
+}
+
+/// What a unit means that a table names; `None` if the language has none that is called so.
+pub fn unit(text: &str) -> Option<Measure> {
+    let meaning = units::meaning(&syntax::unit(text)?, None)?;
+    Some(Measure {
+        unit: meaning.scale.of_unit(text),
+        dim: meaning.dim,
+    })
 }
 
 /// Checks the files of a program, those that are used before those that use them.

@@ -18,6 +18,8 @@ use std::collections::{BTreeMap, BTreeSet};
 pub enum Decl<'a> {
     /// A variant of an enum, by its index.
     Variant(&'a Ident, &'a ast::Enum, usize),
+    /// An input.
+    Input(&'a ast::Input),
     /// A state variable, or a family of them.
     State(&'a ast::State),
     /// An event, or a family of them.
@@ -45,6 +47,7 @@ impl<'a> Decl<'a> {
     pub fn what(self) -> &'static str {
         match self {
             Decl::Variant(..) => "a variant of an enum",
+            Decl::Input(_) => "an input",
             Decl::State(_) => "a state variable",
             Decl::Event(_) => "an event",
             Decl::Let(_) => "a shared expression",
@@ -64,6 +67,8 @@ impl<'a> Decl<'a> {
         let only_declared = match self {
             Decl::Predicate(decl) => decl.value.is_none(),
             Decl::Behavior(decl) => matches!(decl.body, ast::BehaviorBody::Declared),
+            // Where there are inputs there is no world to ask.
+            Decl::Input(_) => true,
             _ => false,
         };
         only_declared && !matches!(name, "done" | "failed")
@@ -72,6 +77,7 @@ impl<'a> Decl<'a> {
     /// Where its name is declared.
     pub fn ident(self) -> &'a Ident {
         match self {
+            Decl::Input(decl) => &decl.name,
             Decl::State(decl) => &decl.name,
             Decl::Event(decl) => &decl.name,
             Decl::Let(decl) => &decl.name,

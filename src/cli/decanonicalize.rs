@@ -5,6 +5,7 @@ use super::progress::Progress;
 use super::report::{Reporter, tell};
 use super::{Failure, files};
 use crate::driver::decanonicalize::{self, Options};
+use crate::driver::table::Format;
 use crate::driver::table::Recorded;
 use crate::emit::form::TreeForm;
 use crate::spelling;
@@ -15,8 +16,11 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(after_long_help = FORMATS)]
 pub(super) struct Arguments {
-    /// The policy table, comma-separated or JSON Lines; `-` is standard input.
+    /// The policy table: comma-separated, JSON Lines, or of another tool; `-` is standard input.
     file: String,
+    /// How the policy is written, if its ending and its first characters do not say.
+    #[arg(long, value_name = "KIND")]
+    from: Option<Format>,
     /// What the policy does next, as `btc learn` writes it: memory is proved along these transitions.
     #[arg(long, value_name = "FILE", conflicts_with = "slack")]
     transitions: Option<String>,
@@ -58,6 +62,11 @@ Tables: a column for each predicate with 0, 1, or - for either; one for what is 
 action; if known, visits, q_gap, and q:NAME with the value of each behaviour. done(NAME) and failed(NAME) ask the \
 history. Rows that say the same are merged. A row may allow several behaviours, go|dock: the tree takes one of them.
 
+Columns of numbers and words say so in the header: x:number, x:number m with a unit, mode:{a,b} with the values. The
+tree asks comparisons, which are printed above it: predicate x_at_most_3 = x <= 3.
+
+Other tools: controllers of dtControl, schedulers that Storm exports as JSON, policies of refine-plan in YAML.
+
 JSON Lines: an object a line with the same names as keys. A predicate is 0, 1, false, true, or \"-\" or null for \
 either; several behaviours are a list of names; values may stand in an object under q:
   {\"low\": true, \"near\": null, \"behavior\": \"dock\", \"visits\": 12, \"q\": {\"dock\": 1.5, \"wander\": 0.2}}";
@@ -81,6 +90,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
         order: arguments.order,
         effort: arguments.effort,
         slack: arguments.slack,
+        from: arguments.from,
         name: &arguments.name,
         form: arguments.emit,
     };

@@ -4,6 +4,7 @@ use super::files::File;
 use super::report::{Reporter, tell};
 use super::{Failure, files};
 use crate::driver::load::Loaded;
+use crate::driver::table::Format;
 use crate::driver::table::Recorded;
 use crate::driver::verify::{self, Proved};
 use crate::facade::Answer;
@@ -13,10 +14,14 @@ use clap::Args;
 pub(super) struct Arguments {
     /// The program.
     file: String,
-    /// Two trees to compare, or a tree and a policy table (`.csv`, `.jsonl`, or `-` for standard input); without them,
+    /// Two trees to compare, or a tree and a policy table (`.csv`, `.jsonl`, `.json`,
+    /// `.yaml`, or `-` for standard input); without them,
     /// the claims of the program are proved.
     #[arg(value_name = "TREE", num_args = 0..=2)]
     sides: Vec<String>,
+    /// How the policy table is written, if its ending and its first characters do not say.
+    #[arg(long, value_name = "KIND")]
+    from: Option<Format>,
     /// What the policy of the table does next: the two are compared along these transitions.
     #[arg(long, value_name = "FILE")]
     transitions: Option<String>,
@@ -28,7 +33,9 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {
     let loaded = files::load(&arguments.file, say)?;
     let results = match arguments.sides.as_slice() {
-        [tree, table] if is_table(table) => vec![with_table(&loaded, tree, table, arguments, say)?],
+        [tree, table] if is_table(table) || arguments.from.is_some() => {
+            vec![with_table(&loaded, tree, table, arguments, say)?]
+        }
         _ if arguments.transitions.is_some() => {
             tell("error: `--transitions` belongs to a policy table: name a tree and a table");
             return Err(Failure::Usage);
@@ -65,7 +72,7 @@ pub(super) fn verdict(results: &[Proved]) -> Result<(), Failure> {
 
 /// Whether a side is the path of a table, and no tree.
 fn is_table(side: &str) -> bool {
-    let endings = [".csv", ".jsonl", ".ndjson"];
+    let endings = [".csv", ".jsonl", ".ndjson", ".json", ".yaml", ".yml"];
     side == files::STDIN || endings.iter().any(|ending| side.ends_with(ending))
 }
 
@@ -83,5 +90,6 @@ fn with_table(
         transitions: transitions.text(),
         starts: start.as_ref().map(File::text),
     });
-    verify::table(loaded, tree, table.text(), recorded).map_err(|refused| say.refused(&refused))
+    let table = (table.text(), arguments.from);
+    verify::table(loaded, tree, table, recorded).map_err(|refused| say.refused(&refused))
 }

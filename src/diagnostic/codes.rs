@@ -99,6 +99,7 @@ codes! {
     E0310 "cannot be set",
     E0311 "driven twice",
     E0312 "an enum without variants",
+    E0313 "a category that is not compared with its values",
 
     E0401 "more than one world",
     E0402 "something of the world is missing",
@@ -109,6 +110,7 @@ codes! {
     E0407 "a world is missing",
     E0408 "more than one robot that learns",
     E0409 "a world that cannot be built",
+    E0410 "an input beside a world",
 
     E0501 "unknown to a learner",
     E0502 "something of a task or a learner is missing",
@@ -149,6 +151,9 @@ codes! {
     E0821 "a node that the robot's library does not have",
     E0822 "a time that the robot's library cannot keep",
     E0823 "rows that allow several behaviours",
+    E0824 "a column without its kind",
+    E0825 "a policy that does not say enough",
+    E0826 "a table of values",
 
     W0101 "a character that is not seen",
 

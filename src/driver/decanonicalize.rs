@@ -1,6 +1,7 @@
 //! `btc decanonicalize`: from a policy table of any origin to a proved tree, in a program that declares its names.
 
 use super::export;
+use super::inputs::Inputs;
 use super::refused::Refused;
 use super::table::{self, Recorded};
 use super::text::Text;
@@ -10,6 +11,7 @@ use crate::emit::form::TreeForm;
 use crate::ir::law::Behavior;
 use crate::ir::tree::Tree;
 use crate::ir::{Id, Name, Program};
+use crate::policy::reader::{Format, Given};
 use crate::policy::table::{AtomName, Table};
 use crate::policy::{Policy, decisions};
 use crate::report::decanonicalised;
@@ -28,6 +30,8 @@ pub struct Options<'o> {
     pub effort: u64,
     /// The value that a decision may lose against the table's; 0 for a tree that is equal to the table.
     pub slack: f64,
+    /// How the table is written; `None` if that is to be seen.
+    pub from: Option<Format>,
     /// The name of the tree.
     pub name: &'o str,
     /// The form to write.
@@ -42,6 +46,7 @@ impl Default for Options<'_> {
             order: usual.order,
             effort: usual.effort,
             slack: 0.0,
+            from: None,
             name: "learned",
             form: TreeForm::Bt,
         }
@@ -55,6 +60,8 @@ pub struct Asked {
     policy: Policy,
     /// The behaviours that each row allows, if some row allows several.
     allowed: Option<Vec<Vec<Id<Behavior>>>>,
+    /// What the columns hold, if that is more than truth values.
+    inputs: Option<Inputs>,
     /// The name of the table.
     source: String,
 }
@@ -79,11 +86,22 @@ pub struct Made {
 /// # Errors
 /// The mistakes of the texts.
 pub fn read(text: Text, recorded: Option<Recorded>, options: &Options) -> Result<Asked, Refused> {
-    let read = table::read(text)?;
+    let (read, inputs) = match table::read(text, options.from)? {
+        Given::Truths(table) => (table, None),
+        Given::Values(values) => {
+            let (inputs, table) = Inputs::of(values, text, options.name)?;
+            (table, Some(inputs))
+        }
+    };
     let at_header = |code, message: String| {
         let span = |file| Span::new(file, read.header.start, read.header.end);
         move |file: FileId| Diagnostic::new(code, span(file), message)
     };
+    if inputs.is_some() && (options.slack > 0.0 || recorded.is_some()) {
+        let message = "a table of values has neither slack nor transitions";
+        let found = at_header(Code::E0826, message.to_owned());
+        return Err(Refused::text(text, |file| vec![found(file)]));
+    }
     if options.slack > 0.0 && !read.has_values() {
         let found = at_header(
             Code::E0817,
@@ -92,7 +110,9 @@ pub fn read(text: Text, recorded: Option<Recorded>, options: &Options) -> Result
         let help = "a column `q:NAME` for each behaviour says what it is worth";
         return Err(Refused::text(text, |file| vec![found(file).help(help)]));
     }
-    if let Some(what) = names(&read, options.name) {
+    let input = |inputs: &Inputs| inputs.has(options.name).then_some("an input");
+    let what = names(&read, options.name).or_else(|| inputs.as_ref().and_then(input));
+    if let Some(what) = what {
         let found = at_header(
             Code::E0816,
             format!("`{}` is the tree and {what}", options.name),
@@ -106,7 +126,10 @@ pub fn read(text: Text, recorded: Option<Recorded>, options: &Options) -> Result
         let help = "choose one behaviour for each row, or leave out the option";
         return Err(Refused::text(text, |file| vec![found(file).help(help)]));
     }
-    let (program, policy) = decisions::declared(&read);
+    let (mut program, policy) = decisions::declared(&read);
+    if let Some(inputs) = &inputs {
+        inputs.declare(&mut program);
+    }
     let sets = read.has_sets().then(|| {
         let of = |numbers: Vec<usize>| {
             let ids = numbers.into_iter().map(Id::new);
@@ -118,6 +141,7 @@ pub fn read(text: Text, recorded: Option<Recorded>, options: &Options) -> Result
         program,
         policy,
         allowed: sets,
+        inputs,
         source: called(text.name),
     };
     if let Some(recorded) = recorded {
@@ -161,6 +185,7 @@ pub fn decanonicalize(asked: Asked, options: &Options) -> Result<Made, Refused> 
         mut program,
         mut policy,
         allowed,
+        inputs,
         source,
     } = asked;
     let refused = |refuted: Refuted| internal(&source, &refuted.to_string());
@@ -181,7 +206,12 @@ pub fn decanonicalize(asked: Asked, options: &Options) -> Result<Made, Refused> 
     let found = loosened.as_ref().map_or(&exact, |loosened| &loosened.found);
     let report = decanonicalised::Report {
         policy: &policy,
-        several: allowed.map_or(0, |rows| rows.iter().filter(|all| all.len() > 1).count()),
+        several: match (&inputs, allowed) {
+            (Some(inputs), _) => inputs.several(),
+            (None, Some(rows)) => rows.iter().filter(|all| all.len() > 1).count(),
+            (None, None) => 0,
+        },
+        values: inputs.as_ref().map(Inputs::figures),
         exact: &exact,
         loosened: loosened.as_ref(),
         slack: options.slack,
@@ -192,11 +222,18 @@ pub fn decanonicalize(asked: Asked, options: &Options) -> Result<Made, Refused> 
         task: None,
         root: found.root.clone(),
     });
-    let text = match options.form {
-        TreeForm::Bt => {
-            let origin = format!("Made by `btc decanonicalize` from {source}.");
-            bt::declared(&program, &[origin])
+    let origin = [format!("Made by `btc decanonicalize` from {source}.")];
+    let declared = match &inputs {
+        None => bt::declared(&program, &origin),
+        Some(inputs) => {
+            let text = inputs.written(&program, &program.trees[id], &origin);
+            let proved = inputs.prove(&program, &program.trees[id], &text);
+            proved.map_err(|why| internal(&source, &why))?;
+            text
         }
+    };
+    let text = match options.form {
+        TreeForm::Bt => declared,
         form => {
             let written = export::tree(&program, &program.trees[id], form, |_| Span::default());
             written.map_err(|mistake| Refused::text(nothing(&source), |_| vec![mistake]))?
@@ -243,6 +280,7 @@ mod tests {
             order: decanonicalise::Order::Learned,
             effort: 1,
             slack: 0.0,
+            from: None,
             name: "learned",
             form: TreeForm::Bt,
         };

@@ -112,7 +112,7 @@ fn read(side: Side, base: Option<&Loaded>, program: &mut Program) -> Result<Read
         }
         Side::Tree(loaded, tree) => (loaded, tree),
         Side::Table(text) => {
-            let table = tables::read(text)?;
+            let table = tables::of_truths(text)?;
             return Ok(Read::Table(decisions::joined(&table, program)));
         }
     };

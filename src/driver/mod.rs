@@ -12,6 +12,7 @@ pub mod environment;
 pub mod explain;
 pub mod export;
 pub mod format;
+pub mod inputs;
 pub mod learn;
 pub mod load;
 pub mod minimize;

@@ -3,11 +3,14 @@
 use super::load::Loaded;
 use super::refused::Refused;
 use super::text::Text;
-use crate::diagnostic::{Code, Diagnostic};
+use crate::check;
+use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::ir::task::Task;
 use crate::ir::{Id, Program};
 use crate::policy::error::{TableError, TableErrorKind};
-use crate::policy::table::{self, Format, Table};
+pub use crate::policy::reader::Format;
+use crate::policy::reader::{self, Given};
+use crate::policy::table::{self, Table};
 use crate::policy::{Policy, decisions, transitions};
 use crate::source::{FileId, Span};
 
@@ -20,13 +23,33 @@ pub struct Recorded<'t> {
     pub starts: Option<Text<'t>>,
 }
 
-/// The policy table in a text of any origin.
+/// The policy table in a text of any origin; `from` says how it is written, if that is not to be seen.
 ///
 /// # Errors
 /// The mistakes of the text.
-pub fn read(text: Text) -> Result<Table, Refused> {
-    let format = Format::of(text.name, text.bytes);
-    Table::read(text.bytes, format).map_err(|errors| refused(text, &errors))
+pub fn read(text: Text, from: Option<Format>) -> Result<Given, Refused> {
+    let format = from.unwrap_or_else(|| Format::of(text.name, text.bytes));
+    let read = reader::read(text.bytes, format, &check::unit);
+    read.map_err(|errors| refused(text, &errors))
+}
+
+/// The policy table in a text, where truth values alone can be compared.
+///
+/// # Errors
+/// The mistakes of the text, or its columns hold something else.
+pub fn of_truths(text: Text) -> Result<Table, Refused> {
+    match read(text, None)? {
+        Given::Truths(table) => Ok(table),
+        Given::Values(values) => Err(Refused::text(text, |file| {
+            let span = Span::new(file, values.header.start, values.header.end);
+            let message =
+                "this table holds numbers or words, and here truth values alone are compared";
+            vec![
+                Diagnostic::new(Code::E0826, span, message)
+                    .help("`btc verify FILE TREE TABLE` compares such a table with a tree"),
+            ]
+        })),
+    }
 }
 
 /// Adds start minterms and greedy transitions to a policy. A table of starts adds to those that the transitions have.
@@ -89,7 +112,7 @@ pub fn environment(loaded: &Loaded, file: FileId, task: Id<Task>) -> Result<Poli
 }
 
 /// Mistakes of one table.
-fn refused(text: Text, errors: &[TableError]) -> Refused {
+pub(super) fn refused(text: Text, errors: &[TableError]) -> Refused {
     Refused::text(text, |file| located_all(file, errors))
 }
 
@@ -115,6 +138,8 @@ fn located(file: FileId, error: &TableError) -> Diagnostic {
                 None => found,
             }
         }
+        TableErrorKind::Wide => found.help("write out what it leaves open with `-`"),
+        TableErrorKind::Disagreement { earlier } => found.also(span(earlier), "this row differs"),
         TableErrorKind::Empty => found.label("a table has a header and a row for each minterm"),
         TableErrorKind::MissingColumn {
             likely: Some(likely),
@@ -125,6 +150,26 @@ fn located(file: FileId, error: &TableError) -> Diagnostic {
         }
         TableErrorKind::Nameless => {
             found.help("a table that pandas has written has a column of row numbers: write it with `index=False`")
+        }
+        TableErrorKind::Undeclared { header, .. } => found
+            .label("a column without a kind holds `0`, `1` or `-`")
+            .help(format!("write the kinds into the header: {header}"))
+            .note("a number may have a unit, `x:number m`"),
+        TableErrorKind::UnknownKind { name, .. } => found.help(format!(
+            "the kinds are `{name}:number`, `{name}:number m` with a unit, `{name}:{{a,b}}` with the values, and `{name}` alone for 0 and 1"
+        )),
+        TableErrorKind::UnknownUnit(_) => {
+            found.note("the units are those of the language: m, cm, mm, km, s, ms, min, h, deg, rad, Hz, %, and quotients such as m/s")
+        }
+        TableErrorKind::NoValue { found: word, values, .. } => {
+            match suggest::nearest(word, values.iter().map(String::as_str)) {
+                Some(likely) => found.label(format!("did you mean `{likely}`?")),
+                None => found,
+            }
+        }
+        TableErrorKind::Foreign { help: Some(help), .. } => found.help(*help),
+        TableErrorKind::SharedInput(_) => {
+            found.help("the language has one name for one thing: rename the column, or the behaviour")
         }
         TableErrorKind::SharedName(_) => {
             found.help("the language has one name for one thing: rename the column, or the behaviour")
@@ -144,9 +189,20 @@ fn code(kind: &TableErrorKind) -> Code {
         | TableErrorKind::SecondBehavior(_)
         | TableErrorKind::MissingColumn { .. }
         | TableErrorKind::Nameless => Code::E0813,
-        TableErrorKind::UnknownValue { .. } => Code::E0814,
-        TableErrorKind::Contradiction { .. } | TableErrorKind::Wide => Code::E0815,
-        TableErrorKind::UnusableName { .. } | TableErrorKind::SharedName(_) => Code::E0816,
+        TableErrorKind::UnknownValue { .. } | TableErrorKind::NoValue { .. } => Code::E0814,
+        TableErrorKind::Contradiction { .. }
+        | TableErrorKind::Disagreement { .. }
+        | TableErrorKind::Wide
+        | TableErrorKind::Open(_) => Code::E0815,
+        TableErrorKind::UnusableName { .. }
+        | TableErrorKind::SharedName(_)
+        | TableErrorKind::SharedInput(_) => Code::E0816,
+        TableErrorKind::Undeclared { .. }
+        | TableErrorKind::UnknownKind { .. }
+        | TableErrorKind::UnknownUnit(_)
+        | TableErrorKind::NoValues(_)
+        | TableErrorKind::RepeatedValue(_) => Code::E0824,
+        TableErrorKind::Foreign { .. } => Code::E0825,
         TableErrorKind::Several => Code::E0823,
         TableErrorKind::UnknownColumn(_)
         | TableErrorKind::UnknownBehavior(_)

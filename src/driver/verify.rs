@@ -2,6 +2,7 @@
 
 mod claims;
 mod rows;
+mod values;
 
 pub use claims::{claims, claims_of_learned};
 pub use rows::table;

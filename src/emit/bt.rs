@@ -2,9 +2,11 @@
 //!
 //! What is made here stands in no file, so its spans are empty.
 
-use crate::ir::Program;
+use crate::ir::input::InputKind;
 use crate::ir::name::{Given, Name};
+use crate::ir::program::Predicate;
 use crate::ir::tree::{Composite, Decorator, Guard, Node, Tree};
+use crate::ir::{Id, Program};
 use crate::source::Span;
 use crate::syntax::ast::{
     self, Arg, ArgKind, BehaviorBody, BinaryOp, Expr, ExprKind, Ident, Item, ItemKind, Literal,
@@ -18,14 +20,72 @@ pub fn tree(program: &Program, tree: &Tree) -> String {
     print::item(&tree_item(program, tree))
 }
 
+/// What is printed of a predicate.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Definition {
+    /// Its name alone.
+    None,
+    /// Nothing.
+    Unused,
+    /// That an input is at most a number in a unit, which may be empty.
+    AtMost {
+        /// The input.
+        name: String,
+        /// The number, perhaps with a sign.
+        number: String,
+        /// The unit.
+        unit: String,
+    },
+    /// That an input has a value.
+    Is {
+        /// The input.
+        name: String,
+        /// The value.
+        value: String,
+    },
+}
+
 /// A program of declared names and its trees as a file, with a `//!` line each of `docs`.
 pub fn declared(program: &Program, docs: &[String]) -> String {
-    let predicates = program.predicates.values().map(|predicate| {
-        item(ItemKind::Predicate(ast::Predicate {
+    defined(program, |_| Definition::None, docs)
+}
+
+/// A program of inputs, of names that are declared or defined, and of its trees as a file.
+pub fn defined(
+    program: &Program,
+    definition: impl Fn(Id<Predicate>) -> Definition,
+    docs: &[String],
+) -> String {
+    let inputs = program.inputs.values().map(|input| {
+        item(ItemKind::Input(ast::Input {
+            name: ident(&input.name.bare()),
+            kind: kind(&input.kind),
+        }))
+    });
+    let predicates = program.predicates.iter().filter_map(|(id, predicate)| {
+        let value = match definition(id) {
+            Definition::Unused => return None,
+            Definition::None => None,
+            Definition::AtMost { name, number, unit } => {
+                let unit = Some(unit.as_str()).filter(|unit| !unit.is_empty());
+                let number = match number.strip_prefix('-') {
+                    None => literal(number, unit),
+                    Some(number) => expr(ExprKind::Unary {
+                        op: spanned(UnaryOp::Neg),
+                        operand: Box::new(literal(number, unit)),
+                    }),
+                };
+                Some(compared(&name, BinaryOp::Le, number))
+            }
+            Definition::Is { name, value } => {
+                Some(compared(&name, BinaryOp::Eq, reference(&Name::word(value))))
+            }
+        };
+        Some(item(ItemKind::Predicate(ast::Predicate {
             name: ident(&predicate.name.bare()),
             params: None,
-            value: None,
-        }))
+            value,
+        })))
     });
     let behaviors = program.behaviors.values().map(|behavior| {
         item(ItemKind::Behavior(ast::Behavior {
@@ -36,11 +96,50 @@ pub fn declared(program: &Program, docs: &[String]) -> String {
     });
     let trees = program.trees.values().map(|tree| tree_item(program, tree));
     let file = ast::File {
-        items: predicates.chain(behaviors).chain(trees).collect(),
+        items: inputs
+            .chain(predicates)
+            .chain(behaviors)
+            .chain(trees)
+            .collect(),
         ..ast::File::default()
     };
     let docs: String = docs.iter().map(|line| format!("//! {line}\n")).collect();
     format!("{docs}\n{}", print::file(&file, None))
+}
+
+/// What an input may be.
+fn kind(kind: &InputKind) -> ast::InputKind {
+    match kind {
+        InputKind::Number { dim, ratio } => {
+            let written = match ratio {
+                true => "ratio".to_owned(),
+                false => dim.written(),
+            };
+            let mut divides = false;
+            let mut factors = Vec::new();
+            for name in written.split_inclusive(['*', '/']) {
+                factors.push((ident(name.trim_end_matches(['*', '/'])), divides));
+                divides = name.ends_with('/');
+            }
+            ast::InputKind::Number(ast::TypeExpr {
+                factors,
+                span: Span::default(),
+            })
+        }
+        InputKind::Category(values) => {
+            let values = values.iter().map(|value| ident(&value.bare()));
+            ast::InputKind::Category(values.collect())
+        }
+    }
+}
+
+/// An input, compared with something.
+fn compared(input: &str, op: BinaryOp, with: Expr) -> Expr {
+    expr(ExprKind::Binary {
+        op: spanned(op),
+        left: Box::new(reference(&Name::word(input))),
+        right: Box::new(with),
+    })
 }
 
 /// A guard on one line.

@@ -1,6 +1,7 @@
 //! The checked program as text, for reading and for snapshots.
 
 use crate::ir::expr::{Draw, Expr, ExprId};
+use crate::ir::input::InputKind;
 use crate::ir::law::{Block, Law, Stmt};
 use crate::ir::name;
 use crate::ir::program::{Program, ValueKind};
@@ -15,6 +16,7 @@ pub fn program(program: &Program) -> String {
         text: String::new(),
     };
     out.world();
+    out.inputs();
     out.states();
     out.behaviors();
     out.tasks();
@@ -88,6 +90,17 @@ impl Out<'_> {
                 0,
                 format!("tune {id:?} {} = {value} in {low} .. {high}", tunable.name),
             );
+        }
+    }
+
+    fn inputs(&mut self) {
+        for (id, input) in self.program.inputs.iter() {
+            let kind = match &input.kind {
+                InputKind::Number { ratio: true, .. } => "ratio".to_owned(),
+                InputKind::Number { dim, .. } => dim.written(),
+                InputKind::Category(values) => format!("{{{}}}", name::list(values)),
+            };
+            self.line(0, format!("input {id:?} {}: {kind}", input.name));
         }
     }
 
@@ -322,6 +335,7 @@ impl Out<'_> {
             Expr::Num(value) => format!("{value}"),
             Expr::Bool(value) => format!("{value}"),
             Expr::State(id) => program.states[id].name.to_string(),
+            Expr::Input(id) => program.inputs[id].name.to_string(),
             Expr::Local(id) => format!("local{id:?}"),
             Expr::Temp(id) => format!("t{}", id.index()),
             Expr::Pose(pose) => lower(&pose),

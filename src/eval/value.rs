@@ -22,6 +22,8 @@ impl Compiler<'_> {
             Expr::Num(value) => self.layout.constant(value)?,
             Expr::Bool(value) => self.layout.constant(f64::from(value))?,
             Expr::State(state) => self.layout.state(state),
+            // A program with a world has no inputs.
+            Expr::Input(_) => self.layout.constant(0.0)?,
             Expr::Local(local) => self.local(local),
             Expr::Temp(temp) => match self.temps.get(&temp) {
                 Some(&Binding::Known(register)) => register,

@@ -107,7 +107,12 @@ impl Program {
     /// # Errors
     /// There is no such tree, or the table has mistakes, or it does not say what the tree asks.
     pub fn prove_decisions(&self, tree: &str, table: &PolicyTable) -> Result<Proved, Error> {
-        Ok(verify::table(&self.loaded, tree, table.text(), None)?)
+        Ok(verify::table(
+            &self.loaded,
+            tree,
+            (table.text(), None),
+            None,
+        )?)
     }
 }
 

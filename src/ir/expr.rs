@@ -3,6 +3,7 @@
 //! Points are two nodes, targets have become arithmetic on the pose, `let`s that only name a value are shared nodes.
 //! What is left is numbers and truth values; both run as `f64`.
 
+use super::input::Input;
 use super::law::Behavior;
 use super::name::Name;
 pub use super::operator::{Binary, Kind, Unary};
@@ -48,6 +49,8 @@ pub enum Expr {
     Bool(bool),
     /// A state variable as it is now.
     State(Id<State>),
+    /// An input as it is now.
+    Input(Id<Input>),
     /// A variable of the behaviour as it is now.
     Local(Id<Local>),
     /// A name that a statement has bound.
@@ -306,6 +309,7 @@ fn key(expr: Expr) -> Key {
         Expr::Num(value) => (value.to_bits(), 0),
         Expr::Bool(value) => (u64::from(value), 0),
         Expr::State(id) => (id.index() as u64, 0),
+        Expr::Input(id) => (id.index() as u64, 0),
         Expr::Local(id) => (id.index() as u64, 0),
         Expr::Temp(id) => (id.index() as u64, 0),
         Expr::Pose(pose) => (pose as u64, 0),

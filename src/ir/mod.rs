@@ -3,8 +3,10 @@
 //! The IR knows neither syntax nor files. Every number is an `f64` in SI base units (m, s, rad), a `bool` is 0 or 1,
 //! an enum its variant's index; every reference is a typed id.
 
+pub mod dimension;
 pub mod expr;
 pub mod history;
+pub mod input;
 pub mod law;
 pub mod name;
 pub(crate) mod operator;

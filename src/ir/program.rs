@@ -1,6 +1,7 @@
 //! The whole program.
 
 use super::expr::{ExprId, Pool, Temp};
+use super::input::Input;
 use super::law::{Behavior, Block};
 use super::name::Name;
 use super::table::{Id, Table};
@@ -18,6 +19,8 @@ pub struct Program {
     pub temps: Table<Temp>,
     /// The world; a program of declared names alone has none.
     pub world: Option<World>,
+    /// The inputs; a program with a world has none.
+    pub inputs: Table<Input>,
     /// The state variables.
     pub states: Table<State>,
     /// The events, in the order in which they are evaluated.

@@ -4,8 +4,9 @@
 //! far as they are known, `visits`, `q_gap` and `q:NAME` for each behaviour that could be chosen.
 
 use super::error::{TableError, TableErrorKind};
+use super::reader::Format;
 use super::sheet;
-use super::table::{Format, Table};
+use super::table::Table;
 use super::{Policy, Row};
 use crate::ir::law::Behavior;
 use crate::ir::program::Predicate;

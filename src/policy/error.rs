@@ -72,12 +72,59 @@ pub enum TableErrorKind {
         /// What holds where both rows speak; `None` if they speak of the same minterms.
         overlap: Option<String>,
     },
+    /// One state, two behaviours.
+    Disagreement {
+        /// The row that says otherwise.
+        earlier: Range<usize>,
+    },
     /// A minterm without a row among the decisions.
     Unseen,
     /// Rows that allow several behaviours where each has to have one.
     Several,
     /// A row that stands for too many minterms because of its `-`.
     Wide,
+    /// A row that leaves open what this predicate asks.
+    Open(String),
+    /// Columns hold numbers or words and do not say so.
+    Undeclared {
+        /// The first of them.
+        name: String,
+        /// Whether it holds numbers.
+        numbers: bool,
+        /// The header that says so.
+        header: String,
+    },
+    /// Behind the name of a column stands something that is no kind.
+    UnknownKind {
+        /// The name of the column.
+        name: String,
+        /// What stands behind it.
+        found: String,
+    },
+    /// A unit that the language does not have.
+    UnknownUnit(String),
+    /// A column may have none of some values.
+    NoValues(String),
+    /// A column may have a value twice.
+    RepeatedValue(String),
+    /// A cell has a value that its column may not have.
+    NoValue {
+        /// The value.
+        found: String,
+        /// The column.
+        column: String,
+        /// The values that it may have.
+        values: Vec<String>,
+    },
+    /// A behaviour is called as an input is.
+    SharedInput(String),
+    /// A policy of another tool does not say what a table needs.
+    Foreign {
+        /// What is wrong.
+        message: String,
+        /// What to do about it.
+        help: Option<&'static str>,
+    },
 }
 
 impl fmt::Display for TableError {
@@ -122,11 +169,35 @@ impl fmt::Display for TableError {
                     "an earlier row does something else in a minterm of this one"
                 )
             }
+            TableErrorKind::Disagreement { .. } => {
+                write!(f, "an earlier row does something else in this state")
+            }
             TableErrorKind::Unseen => write!(f, "no decision is known in this minterm"),
             TableErrorKind::Several => {
                 write!(f, "a row allows several behaviours; here each has one")
             }
             TableErrorKind::Wide => write!(f, "this row stands for too many minterms"),
+            TableErrorKind::Open(name) => {
+                write!(f, "this row does not say whether `{name}` holds")
+            }
+            TableErrorKind::Undeclared { name, numbers, .. } => {
+                let what = if *numbers { "numbers" } else { "words" };
+                write!(f, "`{name}` holds {what}, and the header does not say so")
+            }
+            TableErrorKind::UnknownKind { name, found } => {
+                write!(f, "`{found}` is not a kind of column, as `{name}` would be")
+            }
+            TableErrorKind::UnknownUnit(unit) => write!(f, "`{unit}` is not a unit"),
+            TableErrorKind::NoValues(name) => write!(f, "`{name}` has no values"),
+            TableErrorKind::RepeatedValue(value) => write!(f, "the value `{value}` stands twice"),
+            TableErrorKind::NoValue { found, column, .. } if found.is_empty() => {
+                write!(f, "an empty cell is no value of `{column}`")
+            }
+            TableErrorKind::NoValue { found, column, .. } => {
+                write!(f, "`{found}` is no value of `{column}`")
+            }
+            TableErrorKind::SharedInput(name) => write!(f, "`{name}` is an input and a behaviour"),
+            TableErrorKind::Foreign { message, .. } => f.write_str(message),
         }
     }
 }

@@ -33,7 +33,7 @@ impl AtomName {
     }
 
     /// What a column of this name asks. `done(NAME)` and `failed(NAME)` ask the history; all else is a predicate.
-    pub(super) fn read(column: &str) -> Self {
+    pub fn read(column: &str) -> Self {
         let inside = |word: &str| {
             let argument = column.strip_prefix(word)?.strip_prefix('(')?;
             argument.strip_suffix(')')

@@ -11,7 +11,7 @@
 mod behaviors;
 mod columns;
 mod csv;
-mod json;
+pub(super) mod json;
 mod merge;
 mod overlap;
 mod rows;
@@ -19,13 +19,15 @@ mod rows;
 pub use super::names::AtomName;
 
 use super::error::{TableError, TableErrorKind};
+use super::reader::Format;
 use super::records::{self, Records};
 use super::{Policy, Row};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::task::History;
 use crate::ir::tree::Atom;
-use behaviors::Behaviors;
+pub(super) use behaviors::Behaviors;
+pub(super) use columns::BEHAVIOR;
 use columns::Role;
 use rows::{Draft, Rows, Truth};
 use std::borrow::Cow;
@@ -33,39 +35,6 @@ use std::ops::Range;
 
 /// The most mistakes that are reported for one table; the rest of it is not read.
 pub const MISTAKES: usize = 20;
-
-/// How a table is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
-    /// Comma-separated text with a header.
-    Csv,
-    /// JSON Lines.
-    Json,
-}
-
-impl Format {
-    /// The format, by the ending of the file's name or else by the first character that is not blank.
-    pub fn of(name: &str, text: &[u8]) -> Self {
-        let ends = |ending: &str| {
-            let tail = name
-                .len()
-                .checked_sub(ending.len())
-                .and_then(|at| name.get(at..));
-            tail.is_some_and(|tail| tail.eq_ignore_ascii_case(ending))
-        };
-        if ends(".csv") {
-            return Self::Csv;
-        }
-        if ends(".jsonl") || ends(".ndjson") {
-            return Self::Json;
-        }
-        let text = text.get(records::start(text)..).unwrap_or_default();
-        match text.trim_ascii_start().first() {
-            Some(b'{') => Self::Json,
-            _ => Self::Csv,
-        }
-    }
-}
 
 /// A table that was read. Its rows do not contradict each other, and each minterm or cube stands once.
 #[derive(Clone, Debug)]
@@ -96,8 +65,8 @@ impl Table {
     pub fn read(text: &[u8], format: Format) -> Result<Self, Vec<TableError>> {
         let mut reading = Reading::default();
         match format {
-            Format::Csv => csv::read(text, &mut reading),
-            Format::Json => json::read(text, &mut reading),
+            Format::Jsonl => json::read(text, &mut reading),
+            _ => csv::read(text, &mut reading),
         }
         reading.finish(text)
     }
@@ -209,6 +178,9 @@ fn window(atoms: &[Atom], rows: &[Row]) -> History {
 /// The place of a row in its text.
 fn place(rows: &Rows, text: &[u8], row: usize) -> Range<usize> {
     let start = rows.start.get(row).map_or(0, |start| *start as usize);
+    if let Some(end) = rows.end.get(row) {
+        return start..*end as usize;
+    }
     let mut cells = Vec::new();
     if text.get(start) == Some(&b'{') {
         let rest = text.get(start..).unwrap_or_default();
@@ -223,7 +195,7 @@ fn place(rows: &Rows, text: &[u8], row: usize) -> Range<usize> {
 
 /// A table that is being read.
 #[derive(Debug, Default)]
-struct Reading {
+pub(super) struct Reading {
     atoms: Vec<(AtomName, Range<usize>)>,
     behaviors: Behaviors,
     values: Vec<u32>,
@@ -237,15 +209,48 @@ struct Reading {
 }
 
 impl Reading {
+    /// A table over atoms that follow from what has been read.
+    pub(super) fn over(
+        atoms: impl Iterator<Item = (AtomName, Range<usize>)>,
+        behaviors: Behaviors,
+        header: Range<usize>,
+    ) -> Self {
+        let atoms: Vec<_> = atoms.collect();
+        Self {
+            rows: Rows::new(atoms.len(), 0),
+            atoms,
+            behaviors,
+            header,
+            ..Self::default()
+        }
+    }
+
+    /// A row of which everything is known: its atoms, those that are free, what is done, how often, and where it stands.
+    pub(super) fn row(
+        &mut self,
+        (words, free): (&[u64], &[u64]),
+        behavior: Option<u32>,
+        visits: u64,
+        place: &Range<usize>,
+    ) {
+        self.begin();
+        self.draft.say_words(words, free);
+        self.draft.behavior = behavior;
+        self.draft.visits = visits;
+        self.rows.push(&self.draft, place.start);
+        let end = u32::try_from(place.end).unwrap_or(u32::MAX);
+        self.rows.end.push(end);
+    }
+
     /// Says what is wrong at a place.
-    fn report(&mut self, place: &Range<usize>, kind: TableErrorKind) {
+    pub(super) fn report(&mut self, place: &Range<usize>, kind: TableErrorKind) {
         self.mistake(TableError {
             span: place.clone(),
             kind,
         });
     }
 
-    fn mistake(&mut self, error: TableError) {
+    pub(super) fn mistake(&mut self, error: TableError) {
         self.clean = false;
         if self.mistakes.len() < MISTAKES {
             self.mistakes.push(error);
@@ -318,7 +323,7 @@ impl Reading {
         self.report(cell, TableErrorKind::UnknownValue { found, expected });
     }
 
-    fn finish(mut self, text: &[u8]) -> Result<Table, Vec<TableError>> {
+    pub(super) fn finish(mut self, text: &[u8]) -> Result<Table, Vec<TableError>> {
         let chosen = self.behaviors.names.len();
         for (atom, place) in &self.atoms {
             if let Some(name) = atom.behavior() {

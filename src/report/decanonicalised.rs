@@ -6,6 +6,15 @@ use crate::policy::Policy;
 use crate::tree::Size;
 use crate::tree::decanonicalise::{Decanonicalised, Loosened, Stage};
 
+/// What there is to report of a table of numbers and words.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Values {
+    /// Its rows.
+    pub rows: usize,
+    /// The columns that hold more than truth values.
+    pub inputs: usize,
+}
+
 /// What there is to report of a tree that was made from a table.
 #[derive(Clone, Copy, Debug)]
 pub struct Report<'a> {
@@ -13,6 +22,8 @@ pub struct Report<'a> {
     pub policy: &'a Policy,
     /// The rows that allow several behaviours, of which the policy takes one.
     pub several: usize,
+    /// What the table holds, if that is more than truth values.
+    pub values: Option<Values>,
     /// The tree that is equal to the table.
     pub exact: &'a Decanonicalised,
     /// The smaller tree that slack allows, if there is one.
@@ -33,13 +44,10 @@ impl Report<'_> {
             ),
             None if self.several > 0 => format!(
                 "Made from {source}: proved to take an allowed behaviour on {}; {} of them allow several.",
-                proved(self.policy, self.exact),
+                self.proved(),
                 self.several
             ),
-            None => format!(
-                "Made from {source}: proved on {}.",
-                proved(self.policy, self.exact)
-            ),
+            None => format!("Made from {source}: proved on {}.", self.proved()),
         }
     }
 
@@ -72,11 +80,19 @@ impl Report<'_> {
         let policy = self.policy;
         let mut lines = Vec::new();
         let mut line = |title: &str, text: String| lines.push(words::line(title, &text));
+        let over = match self.values {
+            Some(values) => format!(
+                "{} with {}, which come to {}",
+                counted(values.rows, "row"),
+                counted(values.inputs, "input"),
+                rows(policy)
+            ),
+            None => rows(policy),
+        };
         line(
             "table",
             format!(
-                "{} over {}, {}",
-                rows(policy),
+                "{over} over {}, {}",
                 counted(policy.atoms.len(), "atom"),
                 counted(policy.behaviors.len(), "behaviour")
             ),
@@ -104,7 +120,7 @@ impl Report<'_> {
                 format!("{}: a greater effort goes further", stages.join(", ")),
             );
         }
-        line("proved", format!("on {}", proved(policy, self.exact)));
+        line("proved", format!("on {}", self.proved()));
         match self.loosened {
             Some(loosened) => line(
                 "slack",
@@ -128,31 +144,35 @@ impl Report<'_> {
         }
         lines
     }
-}
 
-/// What was proved of a tree, in words.
-fn proved(policy: &Policy, found: &Decanonicalised) -> String {
-    let proof = &found.proof;
-    if proof.recorded {
-        let closed = if proof.closed {
-            "closed under them"
-        } else {
-            "not closed under them"
+    /// What was proved of the tree, in words.
+    fn proved(&self) -> String {
+        let (policy, found) = (self.policy, self.exact);
+        let rows = match self.values {
+            Some(values) => counted(values.rows, "row"),
+            None => rows(policy),
         };
-        return format!(
-            "{} of the table and {}, {closed}",
-            rows(policy),
-            counted(proof.transitions, "transition")
-        );
+        let proof = &found.proof;
+        if proof.recorded {
+            let closed = if proof.closed {
+                "closed under them"
+            } else {
+                "not closed under them"
+            };
+            return format!(
+                "{rows} of the table and {}, {closed}",
+                counted(proof.transitions, "transition")
+            );
+        }
+        let of = format!("{rows} of the table");
+        if found.root.remembers() {
+            let window = policy.history.window;
+            return format!(
+                "{of}, with memory in any environment consistent with a history of {window}"
+            );
+        }
+        of
     }
-    let of = format!("{} of the table", rows(policy));
-    if found.root.remembers() {
-        let window = policy.history.window;
-        return format!(
-            "{of}, with memory in any environment consistent with a history of {window}"
-        );
-    }
-    of
 }
 
 fn size(size: &Size) -> String {

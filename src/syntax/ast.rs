@@ -15,7 +15,8 @@ use crate::source::Span;
 pub use behavior::{Behavior, BehaviorBody, Clause, ClauseKind};
 pub use block::{AssignOp, Binding, Block, Branch, Else, Stmt, StmtKind};
 pub use declaration::{
-    Enum, Event, Let, LetBody, On, Param, Params, Predicate, State, Trigger, TypeExpr, Use, UseWhat,
+    Enum, Event, Input, InputKind, Let, LetBody, On, Param, Params, Predicate, State, Trigger,
+    TypeExpr, Use, UseWhat,
 };
 pub(super) use expr::chain_depth;
 pub use expr::{
@@ -130,6 +131,8 @@ pub enum ItemKind {
     Enum(Enum),
     /// `state name: type = expr`
     State(State),
+    /// `input name: type`
+    Input(Input),
     /// `event name = expr`
     Event(Event),
     /// `each tick { … }`

@@ -20,6 +20,7 @@ use super::grammar::{Node, Parts, Rule};
 use super::tokens::{Kind, Token, is_blank};
 use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::source::{FileId, Span};
+pub use number::unit;
 
 /// What the tree is built with.
 pub(super) struct Builder<'i> {

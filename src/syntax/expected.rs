@@ -117,6 +117,7 @@ fn name(rule: Rule) -> Option<(Rank, &'static str)> {
         Rule::use_item | Rule::kw_use => (Word, "`use`"),
         Rule::world | Rule::kw_world => (Word, "`world`"),
         Rule::enum_item | Rule::kw_enum => (Word, "`enum`"),
+        Rule::input | Rule::kw_input => (Word, "`input`"),
         Rule::state | Rule::kw_state => (Word, "`state`"),
         Rule::event | Rule::kw_event => (Word, "`event`"),
         Rule::each_tick | Rule::kw_each => (Word, "`each`"),
@@ -223,6 +224,7 @@ fn name(rule: Rule) -> Option<(Rank, &'static str)> {
         | Rule::WHITESPACE
         | Rule::COMMENT
         | Rule::item
+        | Rule::values
         | Rule::world_entry
         | Rule::robot_entry
         | Rule::clause

@@ -14,4 +14,5 @@ pub mod print;
 mod tokens;
 mod words;
 
+pub use build::unit;
 pub use parse::parse;

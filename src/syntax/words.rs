@@ -3,10 +3,11 @@
 use super::ast::{AssignOp, BinaryOp, Link, Outcome, UnaryOp, Word};
 
 /// The words that begin an item.
-pub(super) const ITEMS: [&str; 14] = [
+pub(super) const ITEMS: [&str; 15] = [
     "use",
     "world",
     "enum",
+    "input",
     "state",
     "event",
     "each",

@@ -77,8 +77,8 @@ fn printed_trees_mean_what_they_meant() {
             )
             .unwrap();
             let renamed = printed.replace(
-                &format!("tree {} for", tree.name),
-                &format!("tree {}_again for", tree.name),
+                &format!("tree {} ", tree.name),
+                &format!("tree {}_again ", tree.name),
             );
             let again = load(
                 "again.bt",

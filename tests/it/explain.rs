@@ -39,7 +39,7 @@ fn codes(diagnostics: &[Diagnostic]) -> Vec<Code> {
 }
 
 /// The codes that loading a program does not meet; each has a test below.
-const LATER: [Code; 29] = [
+const LATER: [Code; 32] = [
     Code::E0130,
     Code::E0211,
     Code::E0212, // this and W0203: results
@@ -62,6 +62,9 @@ const LATER: [Code; 29] = [
     Code::E0821,
     Code::E0822,
     Code::E0823,
+    Code::E0824,
+    Code::E0825,
+    Code::E0826,
     Code::W0502, // this and those below: what learning finds
     Code::W0503,
     Code::W0504,

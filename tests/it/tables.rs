@@ -5,6 +5,7 @@ mod cases;
 mod command;
 mod laws;
 mod slack;
+mod values;
 
 use btc::diagnostic::render;
 use btc::driver::decanonicalize::{self, Made, Options};
@@ -23,6 +24,7 @@ pub(crate) const USUAL: Options = Options {
     order: Order::Learned,
     effort: 10,
     slack: 0.0,
+    from: None,
     name: "learned",
     form: TreeForm::Bt,
 };
@@ -51,5 +53,6 @@ fn loaded(made: &Made) -> Loaded {
 
 /// What comes of a comparison of the tree that was made with a table.
 fn compared(made: &Made, table: Text) -> Proved {
-    verify::table(&loaded(made), "learned", table, None).unwrap_or_else(|r| panic!("{}", shown(&r)))
+    verify::table(&loaded(made), "learned", (table, None), None)
+        .unwrap_or_else(|r| panic!("{}", shown(&r)))
 }

@@ -150,6 +150,9 @@ impl<'a> Checker<'a> {
         right: &'a Expr,
         span: Span,
     ) -> Typed {
+        if let Some(typed) = self.category(op, left, right, span) {
+            return typed;
+        }
         let (a, b) = (self.expr(left), self.expr(right));
         if a.ty == Type::Error || b.ty == Type::Error {
             return Typed::unknown(Type::Bool, span);

@@ -17,6 +17,11 @@ impl<'a> Checker<'a> {
         let name = reference.name.name.as_str();
         let span = reference.span;
         if reference.args.is_none() {
+            if let Some((Decl::Input(input), _)) = self.names.value(name, self.context.library)
+                && self.context.lookup(name).is_none()
+            {
+                return self.input_value(input, reference);
+            }
             if let Some(binding) = self.context.lookup(name).cloned() {
                 self.reads(binding.name.span);
                 return Some(Typed::new(binding.ty, binding.value, span));
@@ -130,6 +135,7 @@ impl<'a> Checker<'a> {
                 let value = self.behavior_instance(behavior, library, reference)?;
                 return Some(Typed::new(Type::Behavior, value, span));
             }
+            Decl::Input(input) => return self.input_value(input, reference),
             Decl::State(state) => return self.state_value(state, reference),
             Decl::Event(event) => return self.event_value(event, reference),
             _ => {}

@@ -23,6 +23,7 @@ impl<'a> Mentions<'a> {
         match &item.kind {
             ItemKind::Use(_) | ItemKind::Enum(_) | ItemKind::Error => {}
             ItemKind::World(world) => self.world(world),
+            ItemKind::Input(_) => {}
             ItemKind::State(state) => {
                 self.params(state.params.as_ref());
                 self.ty(state.ty.as_ref());

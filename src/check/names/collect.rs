@@ -47,6 +47,7 @@ impl<'a> Collector<'_, 'a> {
                 }
                 self.type_name(TypeDecl::Enum(decl));
             }
+            ItemKind::Input(decl) => self.value(Decl::Input(decl)),
             ItemKind::State(decl) => self.value(Decl::State(decl)),
             ItemKind::Event(decl) => self.value(Decl::Event(decl)),
             ItemKind::Let(decl) => self.value(Decl::Let(decl)),

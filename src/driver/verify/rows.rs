@@ -1,12 +1,13 @@
 //! A tree against a policy table of any origin.
 
-use super::Proved;
+use super::{Proved, values};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::driver::load::Loaded;
 use crate::driver::table::Recorded;
 use crate::driver::{Refused, Text, table, target};
 use crate::ir::Program;
 use crate::ir::tree::{Node, Status};
+use crate::policy::reader::{Format, Given};
 use crate::policy::table::Table;
 use crate::policy::{Minterm, Policy, decisions};
 use crate::report::verdict::{Answer, difference};
@@ -27,11 +28,19 @@ const LISTED: usize = 10;
 pub fn table(
     loaded: &Loaded,
     name: &str,
-    text: Text,
+    (text, from): (Text, Option<Format>),
     recorded: Option<Recorded>,
 ) -> Result<Proved, Refused> {
     let id = target::tree(loaded, name)?;
-    let read = table::read(text)?;
+    let read = match table::read(text, from)? {
+        Given::Truths(table) => table,
+        Given::Values(values) => {
+            if let Some(recorded) = recorded {
+                return Err(values::no_transitions(recorded.transitions));
+            }
+            return values::table(loaded, id, text, &values);
+        }
+    };
     let mut program = loaded.program.clone();
     let mut policy = decisions::joined(&read, &mut program);
     if let Some(task) = loaded.program.trees[id].task {

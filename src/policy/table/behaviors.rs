@@ -26,8 +26,8 @@ fn alternatives(text: &str) -> Vec<&str> {
 
 /// Names with the places where they are met first.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Behaviors {
-    pub(super) names: Vec<(String, Range<usize>)>,
+pub(in crate::policy) struct Behaviors {
+    pub(in crate::policy) names: Vec<(String, Range<usize>)>,
     numbers: FxHashMap<String, u32>,
     /// The sets of several behaviours that rows allow, each sorted, once each.
     pub(super) sets: Vec<Vec<u32>>,
@@ -37,8 +37,14 @@ pub(super) struct Behaviors {
 }
 
 impl Behaviors {
+    /// The behaviours that a number stands for.
+    pub(in crate::policy) fn all<'s>(&'s self, number: &'s u32) -> &'s [u32] {
+        let several = set(*number).and_then(|at| self.sets.get(at));
+        several.map_or(std::slice::from_ref(number), Vec::as_slice)
+    }
+
     /// The number of a behaviour by its name.
-    pub(super) fn number(&mut self, name: &str, place: Range<usize>) -> u32 {
+    pub(in crate::policy) fn number(&mut self, name: &str, place: Range<usize>) -> u32 {
         if let Some(number) = self.numbers.get(name) {
             return *number;
         }
@@ -52,7 +58,7 @@ impl Behaviors {
     ///
     /// # Errors
     /// Nothing can be called so.
-    pub(super) fn cell(
+    pub(in crate::policy) fn cell(
         &mut self,
         text: &[u8],
         place: &Range<usize>,
@@ -73,7 +79,7 @@ impl Behaviors {
     ///
     /// # Errors
     /// Nothing can be called so.
-    pub(super) fn named(
+    pub(in crate::policy) fn named(
         &mut self,
         name: &str,
         place: &Range<usize>,
@@ -86,7 +92,7 @@ impl Behaviors {
     }
 
     /// The number of a set of behaviours, that of the behaviour itself if it is one alone.
-    pub(super) fn several(&mut self, mut numbers: Vec<u32>) -> u32 {
+    pub(in crate::policy) fn several(&mut self, mut numbers: Vec<u32>) -> u32 {
         numbers.sort_unstable();
         numbers.dedup();
         match numbers.as_slice() {

@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// How the column is called that says what is done.
-pub(super) const BEHAVIOR: [&str; 3] = ["behavior", "behaviour", "action"];
+pub(in crate::policy) const BEHAVIOR: [&str; 3] = ["behavior", "behaviour", "action"];
 
 /// What a column says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

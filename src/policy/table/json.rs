@@ -12,7 +12,7 @@ use object::{Object, Value};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-mod object;
+pub(in crate::policy) mod object;
 
 pub(super) fn read(text: &[u8], reading: &mut Reading) {
     let mut keys: Option<Keys> = None;
@@ -51,9 +51,9 @@ pub(super) fn read(text: &[u8], reading: &mut Reading) {
 }
 
 /// A line of the text.
-struct Line<'t> {
-    text: &'t [u8],
-    start: usize,
+pub(in crate::policy) struct Line<'t> {
+    pub(in crate::policy) text: &'t [u8],
+    pub(in crate::policy) start: usize,
 }
 
 /// What the keys of an object say.
@@ -111,7 +111,7 @@ impl Keys {
 }
 
 impl Line<'_> {
-    fn whole(&self) -> Range<usize> {
+    pub(in crate::policy) fn whole(&self) -> Range<usize> {
         self.start..self.start + self.text.len()
     }
 
@@ -204,7 +204,7 @@ impl Line<'_> {
     }
 
     /// The place of a key with its value: the first text of this name before a colon.
-    fn place(&self, key: &str) -> Range<usize> {
+    pub(in crate::policy) fn place(&self, key: &str) -> Range<usize> {
         let quoted = serde_json::to_string(key).unwrap_or_default();
         let line = String::from_utf8_lossy(self.text);
         let found = line.match_indices(&quoted).find_map(|(at, _)| {

@@ -32,6 +32,8 @@ pub(super) struct Rows {
     columns: usize,
     /// Where each row starts in its text.
     pub(super) start: Vec<u32>,
+    /// Where each ends, if its text does not say.
+    pub(super) end: Vec<u32>,
 }
 
 /// A row that is being read.
@@ -64,6 +66,15 @@ impl Draft {
         if let Some(slot) = self.words.get_mut(number) {
             *slot = word;
         }
+    }
+
+    /// Says all atoms at once, and which of them are free.
+    pub(super) fn say_words(&mut self, words: &[u64], free: &[u64]) {
+        self.words.clear();
+        self.words.extend_from_slice(words);
+        self.free.clear();
+        self.free.extend_from_slice(free);
+        self.leaves_free = free.iter().any(|word| *word != 0);
     }
 
     /// Gives the value in a column of values, or nothing.

@@ -30,6 +30,24 @@ pub struct Enum {
     pub variants: Vec<Ident>,
 }
 
+/// `input name: type` or `input name: {a, b}`
+#[derive(Clone, Debug, PartialEq)]
+pub struct Input {
+    /// Its name.
+    pub name: Ident,
+    /// What it may be.
+    pub kind: InputKind,
+}
+
+/// What an input may be.
+#[derive(Clone, Debug, PartialEq)]
+pub enum InputKind {
+    /// A number of this type.
+    Number(TypeExpr),
+    /// One of these values.
+    Category(Vec<Ident>),
+}
+
 /// `state name(params): type = expr`
 #[derive(Clone, Debug, PartialEq)]
 pub struct State {

@@ -3,8 +3,8 @@
 use super::Builder;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::syntax::ast::{
-    Enum, Event, Ident, ItemKind, Let, LetBody, On, Param, Params, Predicate, State, Trigger,
-    TypeExpr, Use, UseWhat,
+    Enum, Event, Ident, Input, InputKind, ItemKind, Let, LetBody, On, Param, Params, Predicate,
+    State, Trigger, TypeExpr, Use, UseWhat,
 };
 use crate::syntax::grammar::{Node, Parts, Rule};
 
@@ -14,6 +14,7 @@ impl<'i> Builder<'i> {
             Rule::use_item => self.use_item(node),
             Rule::world => ItemKind::World(self.world(node)),
             Rule::enum_item => ItemKind::Enum(self.enum_item(node)),
+            Rule::input => ItemKind::Input(self.input(node)),
             Rule::state => ItemKind::State(self.state(node)),
             Rule::event => ItemKind::Event(self.event(node)),
             Rule::each_tick => ItemKind::EachTick(self.last_block(node)),
@@ -73,18 +74,40 @@ impl<'i> Builder<'i> {
         let mut parts = Parts::of(node);
         parts.has(Rule::kw_enum);
         let name = self.take_name(&mut parts);
-        let mut variants: Vec<Ident> = Vec::new();
+        let variants = self.names(parts, "variants");
+        Enum { name, variants }
+    }
+
+    /// The names of a list, `what` they are.
+    fn names(&mut self, parts: Parts<'i>, what: &str) -> Vec<Ident> {
+        let mut names: Vec<Ident> = Vec::new();
         for part in parts {
             match part.as_rule() {
-                Rule::name => variants.push(self.name(&part)),
+                Rule::name => names.push(self.name(&part)),
                 Rule::missing_comma => {
-                    let before = variants.last().map(|variant| variant.span);
-                    self.missing_comma(&part, before, "variants");
+                    let before = names.last().map(|name| name.span);
+                    self.missing_comma(&part, before, what);
                 }
                 _ => {}
             }
         }
-        Enum { name, variants }
+        names
+    }
+
+    fn input(&mut self, node: Node<'i>) -> Input {
+        let mut parts = Parts::of(node);
+        parts.has(Rule::kw_input);
+        let name = self.take_name(&mut parts);
+        let kind = match self.maybe_type(&mut parts) {
+            Some(ty) => InputKind::Number(ty),
+            None => {
+                parts.has(Rule::colon);
+                let values = parts.maybe(Rule::values);
+                let values = values.map(|values| self.names(Parts::of(values), "values"));
+                InputKind::Category(values.unwrap_or_default())
+            }
+        };
+        Input { name, kind }
     }
 
     fn state(&mut self, node: Node<'i>) -> State {

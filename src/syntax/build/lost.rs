@@ -6,9 +6,10 @@ use crate::spelling::RESERVED;
 use crate::syntax::tokens::{Kind, Token};
 
 /// The words that declare the name after them.
-const DECLARING: [&str; 15] = [
+const DECLARING: [&str; 16] = [
     "world",
     "enum",
+    "input",
     "state",
     "event",
     "let",

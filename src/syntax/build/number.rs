@@ -248,6 +248,17 @@ impl<'i> Builder<'i> {
     }
 }
 
+/// The unit in a text that is not of a program, such as `m/s`; `None` if it cannot be one.
+pub fn unit(text: &str) -> Option<Unit> {
+    let is_factor = |factor: &str| {
+        let (name, power) = factor.split_once('^').unwrap_or((factor, "1"));
+        let small = matches!(power.as_bytes(), [b'1'..=b'9']);
+        small && (name == "%" || !name.is_empty() && name.chars().all(|c| c.is_ascii_alphabetic()))
+    };
+    let whole = text.split('/').all(is_factor);
+    whole.then(|| unit_of(text, Span::default()))
+}
+
 /// The unit that the grammar has taken.
 fn unit_of(text: &str, span: Span) -> Unit {
     let factors = text

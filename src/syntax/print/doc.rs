@@ -104,6 +104,14 @@ impl Brackets {
         comma: ",",
         gap: " ",
     };
+    /// `{a, b}`
+    pub(super) const VALUES: Self = Self {
+        open: "{",
+        close: "}",
+        pad: "",
+        comma: ",",
+        gap: " ",
+    };
     /// `{ a b }`
     pub(super) const BLOCK: Self = Self {
         open: "{",

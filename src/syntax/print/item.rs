@@ -7,8 +7,8 @@ use super::expr::typed;
 use super::levels::Level;
 use super::names::{ident, type_expr};
 use crate::syntax::ast::{
-    Behavior, BehaviorBody, Claim, ClaimWhat, Clause, ClauseKind, Enum, Item, ItemKind, Let,
-    LetBody, On, Predicate, Trigger, UseWhat,
+    Behavior, BehaviorBody, Claim, ClaimWhat, Clause, ClauseKind, Enum, Ident, Input, InputKind,
+    Item, ItemKind, Let, LetBody, On, Predicate, Trigger, UseWhat,
 };
 
 impl Printer<'_> {
@@ -36,6 +36,7 @@ impl Printer<'_> {
             ),
             ItemKind::World(world) => (Align::None, self.world(world, item.span)),
             ItemKind::Enum(kind) => (Align::None, self.enum_item(kind, item)),
+            ItemKind::Input(input) => (Align::None, self.input(input, item)),
             ItemKind::State(state) => {
                 let params = self.flat_params(state.params.as_ref());
                 let head = row!["state ", ident(&state.name), params];
@@ -66,14 +67,34 @@ impl Printer<'_> {
 
     fn enum_item<'a>(&self, item: &'a Enum, whole: &Item) -> Doc<'a> {
         let head = item.name.span.range().end;
-        let variants = item
-            .variants
-            .iter()
-            .map(|variant| Entry::new(variant.span, ident(variant)))
-            .collect();
-        let inside = self.braces_after(head, whole.span);
-        let list = Doc::list(Brackets::BRACES, inside, variants).grouped(inside, Break::TooLong);
+        let list = self.names(&item.variants, head, whole, Brackets::BRACES);
         row!["enum ", ident(&item.name), " ", Doc::hoist(head), list]
+    }
+
+    fn input<'a>(&self, item: &'a Input, whole: &Item) -> Doc<'a> {
+        let head = item.name.span.range().end;
+        let kind = match &item.kind {
+            InputKind::Number(ty) => type_expr(ty),
+            InputKind::Category(values) => row![
+                Doc::hoist(head),
+                self.names(values, head, whole, Brackets::VALUES)
+            ],
+        };
+        row!["input ", ident(&item.name), ": ", kind]
+    }
+
+    /// Names in braces behind the head of an item.
+    fn names<'a>(
+        &self,
+        names: &'a [Ident],
+        head: usize,
+        whole: &Item,
+        brackets: Brackets,
+    ) -> Doc<'a> {
+        let names = names.iter();
+        let names = names.map(|name| Entry::new(name.span, ident(name)));
+        let inside = self.braces_after(head, whole.span);
+        Doc::list(brackets, inside, names.collect()).grouped(inside, Break::TooLong)
     }
 
     fn on_item<'a>(&self, on: &'a On) -> Doc<'a> {
@@ -173,6 +194,7 @@ fn belong_together(a: &Item, b: &Item) -> bool {
         matches!(
             item.kind,
             ItemKind::Use(_)
+                | ItemKind::Input(_)
                 | ItemKind::State(_)
                 | ItemKind::Event(_)
                 | ItemKind::Predicate(_)

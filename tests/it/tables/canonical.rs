@@ -68,14 +68,19 @@ fn tables_of_trees_read_back() {
     for name in ["plain", "shared", "alone", "partial"] {
         let (table, _) = canonicalize(&program, name, Form::Csv).unwrap();
         let table = text("t.csv", table.as_bytes());
-        let proved = verify::table(&program, name, table, None).unwrap();
+        let proved = verify::table(&program, name, (table, None), None).unwrap();
         assert!(proved.holds(), "{name}: {}", proved.text);
         let made = made(table, None, &USUAL).unwrap_or_else(|r| panic!("{}", shown(&r)));
         let (again, _) = canonicalize(&loaded(&made), "learned", Form::Csv).unwrap();
-        let proved = verify::table(&loaded(&made), "learned", table, None).unwrap();
+        let proved = verify::table(&loaded(&made), "learned", (table, None), None).unwrap();
         assert!(proved.holds(), "{name}: {}", proved.text);
         if name != "partial" {
-            let proved = verify::table(&program, name, text("a.csv", again.as_bytes()), None);
+            let proved = verify::table(
+                &program,
+                name,
+                (text("a.csv", again.as_bytes()), None),
+                None,
+            );
             assert!(proved.unwrap().holds(), "{name}");
         }
     }

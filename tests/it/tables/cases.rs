@@ -120,7 +120,7 @@ fn transitions_allow_memory() {
     assert_eq!(refused.diagnostics[0].code, Code::E0818);
     // The tree remembers what the table tells by its history: they are equal along the transitions.
     let program = loaded(&tree);
-    let proved = verify::table(&program, "learned", table, Some(whole)).unwrap();
+    let proved = verify::table(&program, "learned", (table, None), Some(whole)).unwrap();
     snapshot::check("table_recorded_verified", &proved.text);
     assert!(proved.holds());
 }
@@ -135,14 +135,14 @@ fn a_tree_that_decides_otherwise_is_told_the_lines() {
     let loaded = load("other.bt", program.into(), &mut NoFiles);
     assert_eq!(program::shown(&loaded), "");
     let table = text("t.csv", table.as_bytes());
-    let proved = verify::table(&loaded, "other", table, None).unwrap();
+    let proved = verify::table(&loaded, "other", (table, None), None).unwrap();
     assert!(!proved.holds());
     snapshot::check("table_verify_rows", &proved.text);
     let code = |tree| {
-        let refused = verify::table(&loaded, tree, table, None).unwrap_err();
+        let refused = verify::table(&loaded, tree, (table, None), None).unwrap_err();
         refused.diagnostics[0].code
     };
-    let hasty = verify::table(&loaded, "hasty", table, None).unwrap();
+    let hasty = verify::table(&loaded, "hasty", (table, None), None).unwrap();
     assert!(hasty.text.contains("t.csv:3: "), "{}", hasty.text);
     assert_eq!(code("asks"), Code::E0610);
     assert_eq!(code("nobody"), Code::E0504);

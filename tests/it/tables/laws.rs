@@ -2,7 +2,7 @@
 
 use super::{USUAL, compared, made, shown, text};
 use btc::driver::decanonicalize::Options;
-use btc::policy::table::{Format, Table};
+use btc::policy::reader::{self, Format};
 use btc::tree::decanonicalise::{Method, Order};
 use proptest::prelude::*;
 
@@ -129,8 +129,15 @@ proptest! {
 
 /// Every mistake lies in the text, and what has none becomes a tree that is equal to it.
 fn total(bytes: &[u8]) {
-    for format in [Format::Csv, Format::Json] {
-        if let Err(mistakes) = Table::read(bytes, format) {
+    let formats = [
+        Format::Csv,
+        Format::Jsonl,
+        Format::Dtcontrol,
+        Format::Storm,
+        Format::RefinePlan,
+    ];
+    for format in formats {
+        if let Err(mistakes) = reader::read(bytes, format, &btc::check::unit) {
             assert!(!mistakes.is_empty());
             for mistake in mistakes {
                 assert!(mistake.span.start <= mistake.span.end, "{mistake:?}");

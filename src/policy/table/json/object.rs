@@ -5,10 +5,10 @@ use std::borrow::Cow;
 use std::fmt;
 
 /// The fields of an object.
-pub(super) struct Object<'t>(Vec<(Cow<'t, str>, Value<'t>)>);
+pub(in crate::policy) struct Object<'t>(Vec<(Cow<'t, str>, Value<'t>)>);
 
 /// The value of a field.
-pub(super) enum Value<'t> {
+pub(in crate::policy) enum Value<'t> {
     Null,
     Bool(bool),
     Number(serde_json::Number),
@@ -19,7 +19,7 @@ pub(super) enum Value<'t> {
 }
 
 impl Object<'_> {
-    pub(super) fn fields(&self) -> impl Iterator<Item = (&str, &Value<'_>)> {
+    pub(in crate::policy) fn fields(&self) -> impl Iterator<Item = (&str, &Value<'_>)> {
         self.0.iter().map(|(name, value)| (name.as_ref(), value))
     }
 }

@@ -1,0 +1,213 @@
+//! Partitions of rows by their values (CART: Breiman, Friedman, Olshen and Stone 1984), for the comparisons that they use.
+
+use super::{Asks, Comparison, Kind, OPEN, Valued};
+use rustc_hash::FxHashMap;
+use std::collections::BTreeSet;
+
+/// How mixed a part is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Impurity {
+    /// The chance that two of its rows do different things.
+    Gini,
+    /// The entropy of what its rows do.
+    Entropy,
+}
+
+/// The rows of one part that do each thing, and a sum over them from which its impurity is calculated.
+#[derive(Clone, Debug)]
+struct Mixture {
+    impurity: Impurity,
+    counts: Vec<u32>,
+    total: u32,
+    sum: f64,
+}
+
+impl Mixture {
+    fn new(impurity: Impurity, classes: usize) -> Self {
+        Self {
+            impurity,
+            counts: vec![0; classes],
+            total: 0,
+            sum: 0.0,
+        }
+    }
+
+    fn term(&self, count: u32) -> f64 {
+        let count = f64::from(count);
+        match self.impurity {
+            Impurity::Gini => count * count,
+            Impurity::Entropy if count > 0.0 => count * count.log2(),
+            Impurity::Entropy => 0.0,
+        }
+    }
+
+    fn change(&mut self, class: usize, by: i32) {
+        let Some(count) = self.counts.get(class).copied() else {
+            return;
+        };
+        let new = count.saturating_add_signed(by);
+        self.sum += self.term(new) - self.term(count);
+        self.total = self.total.saturating_add_signed(by);
+        if let Some(slot) = self.counts.get_mut(class) {
+            *slot = new;
+        }
+    }
+
+    /// The impurity of the part, times the number of its rows.
+    fn mixed(&self) -> f64 {
+        let total = f64::from(self.total);
+        match self.impurity {
+            _ if self.total == 0 => 0.0,
+            Impurity::Gini => total - self.sum / total,
+            Impurity::Entropy => total * total.log2() - self.sum,
+        }
+    }
+}
+
+/// The most cells that are looked at: rows which leave inputs open are on both sides of what asks them.
+const WORK: usize = 500_000_000;
+
+/// The comparisons that a partition uses which ends where all rows of a part do the same, or cannot be told apart; `None` if
+/// that would be too much work.
+pub(super) fn used(valued: &Valued, impurity: Impurity) -> Option<BTreeSet<Comparison>> {
+    let mut found = BTreeSet::new();
+    let mut work = 0_usize;
+    let rows = u32::try_from(valued.len()).unwrap_or(u32::MAX);
+    let mut open: Vec<Vec<u32>> = vec![(0..rows).collect()];
+    while let Some(part) = open.pop() {
+        work = work.saturating_add(part.len() * valued.columns.len());
+        if work > WORK {
+            return None;
+        }
+        let Some(best) = best(valued, &part, impurity) else {
+            continue;
+        };
+        let best = shared(valued, best, &found);
+        if !matches!(kind(valued, best.column), Some(Kind::Truth(_))) {
+            found.insert(best);
+        }
+        let side = |wanted: bool| {
+            let rows = part.iter().copied();
+            let on = rows.filter(|row| match code(valued, best.column, *row) {
+                OPEN => true,
+                code => best.asks.holds(code) == wanted,
+            });
+            on.collect::<Vec<u32>>()
+        };
+        open.extend([side(true), side(false)]);
+    }
+    Some(found)
+}
+
+fn kind(valued: &Valued, column: usize) -> Option<&Kind> {
+    valued.columns.get(column).map(|column| &column.kind)
+}
+
+fn code(valued: &Valued, column: usize, row: u32) -> u32 {
+    let column = valued.columns.get(column);
+    let code = column.and_then(|column| column.codes.get(row as usize));
+    code.copied().unwrap_or(OPEN)
+}
+
+/// A split between two values of a part, moved to where a comparison is used already, if one divides the part alike.
+fn shared(valued: &Valued, split: Split, used: &BTreeSet<Comparison>) -> Comparison {
+    let Split { best, next } = split;
+    let (Asks::AtMost(last), Some(next)) = (best.asks, next) else {
+        return best;
+    };
+    let at = |last: u32| Comparison {
+        column: best.column,
+        asks: Asks::AtMost(last),
+    };
+    if let Some(known) = used.range(at(last)..at(next)).next() {
+        return *known;
+    }
+    // Of the gaps between the two values, the one in which the shortest number lies.
+    let Some(Kind::Number(_, values)) = kind(valued, best.column) else {
+        return best;
+    };
+    let (Some((low, _)), Some((high, _))) = (values.get(last as usize), values.get(next as usize))
+    else {
+        return best;
+    };
+    let cut = low.up_to(high).value();
+    let gap = values.get(last as usize..next as usize).unwrap_or_default();
+    let below = gap.partition_point(|(number, _)| number.value() <= cut);
+    at(last + (below.max(1) - 1) as u32)
+}
+
+/// A comparison that divides a part, with the next greater code of the part.
+struct Split {
+    best: Comparison,
+    next: Option<u32>,
+}
+
+/// The comparison that makes the two sides least mixed; `None` where all rows do the same or nothing divides them.
+fn best(valued: &Valued, part: &[u32], impurity: Impurity) -> Option<Split> {
+    let mut numbers: FxHashMap<u32, usize> = FxHashMap::default();
+    let local = part.iter().map(|row| {
+        let next = numbers.len();
+        let class = valued.decided.get(*row as usize).copied().unwrap_or(0);
+        *numbers.entry(class).or_insert(next)
+    });
+    let local: Vec<usize> = local.collect();
+    if numbers.len() <= 1 {
+        return None;
+    }
+    let none = Mixture::new(impurity, numbers.len());
+    let mut best: Option<(f64, Split)> = None;
+    for (column, of) in valued.columns.iter().enumerate() {
+        let mut left_open = none.clone();
+        let mut cells: Vec<u64> = Vec::with_capacity(part.len());
+        for (row, class) in part.iter().zip(&local) {
+            match of.codes.get(*row as usize).copied().unwrap_or(OPEN) {
+                OPEN => left_open.change(*class, 1),
+                code => cells.push(u64::from(code) << 32 | *class as u64),
+            }
+        }
+        cells.sort_unstable();
+        let same = |a: &u64, b: &u64| a >> 32 == b >> 32;
+        let groups: Vec<&[u64]> = cells.chunk_by(same).collect();
+        let mut all = left_open.clone();
+        for cell in &cells {
+            all.change((cell & 0xffff_ffff) as usize, 1);
+        }
+        let mut rest = all.clone();
+        let mut taken = left_open.clone();
+        let ordered = matches!(of.kind, Kind::Number(..));
+        for (at, group) in groups.iter().enumerate() {
+            if !ordered {
+                (rest, taken) = (all.clone(), left_open.clone());
+            }
+            let Some(code) = group.first().map(|cell| (cell >> 32) as u32) else {
+                continue;
+            };
+            for cell in *group {
+                let class = (cell & 0xffff_ffff) as usize;
+                taken.change(class, 1);
+                rest.change(class, -1);
+            }
+            let next = groups.get(at + 1).and_then(|group| group.first());
+            let divides = if ordered {
+                next.is_some()
+            } else {
+                groups.len() > 1
+            };
+            let mixed = taken.mixed() + rest.mixed();
+            let better = |least: f64| mixed < least - 1e-9 * (1.0 + least);
+            if divides && best.as_ref().is_none_or(|(least, _)| better(*least)) {
+                let asks = if ordered {
+                    Asks::AtMost(code)
+                } else {
+                    Asks::Is(code)
+                };
+                let split = Split {
+                    best: Comparison { column, asks },
+                    next: next.map(|cell| (cell >> 32) as u32),
+                };
+                best = Some((mixed, split));
+            }
+        }
+    }
+    best.map(|(_, split)| split)
+}
