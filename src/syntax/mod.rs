@@ -11,7 +11,7 @@ mod grammar;
 mod nesting;
 mod parse;
 pub mod print;
-mod tokens;
-mod words;
+pub mod tokens;
+pub mod words;
 
 pub use parse::parse;

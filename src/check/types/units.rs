@@ -68,6 +68,36 @@ impl Dim {
         (self == Self::FREQUENCY || one_above).then(|| self.in_si())
     }
 
+    /// The dimension as the language writes it, by the names of types: `length*length/time`. A product of its own begins
+    /// with what is above the line.
+    pub fn written(self) -> Option<String> {
+        let bases = [
+            ("length", self.length),
+            ("angle", self.angle),
+            ("time", self.time),
+        ];
+        let above = bases.iter().flat_map(|&(name, exponent)| {
+            std::iter::repeat_n(name, usize::try_from(exponent).unwrap_or(0))
+        });
+        let below = bases.iter().flat_map(|&(name, exponent)| {
+            std::iter::repeat_n(name, usize::try_from(-i64::from(exponent)).unwrap_or(0))
+        });
+        let (above, below): (Vec<&str>, Vec<&str>) =
+            (above.take(9).collect(), below.take(9).collect());
+        if above.len() + below.len() > 8 {
+            return None;
+        }
+        let mut text = match above.as_slice() {
+            [] => "number".to_owned(),
+            above => above.join("*"),
+        };
+        for factor in below {
+            text.push('/');
+            text.push_str(factor);
+        }
+        Some(text)
+    }
+
     /// The dimension in SI units, as a person reads it: `rad·s/m^2`, `1/m`.
     fn in_si(self) -> String {
         if self == Self::FREQUENCY {
