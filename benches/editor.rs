@@ -77,7 +77,9 @@ behavior empty_{n}(pace: speed = 20 cm/s) {{
         .unwrap();
         n += 1;
     }
-    text.push_str("task serve {\n    observe due_0, due_1, due_2\n    choose  empty_0, empty_1, empty_2\n    end on emptied_0\n    end after 5 min\n    reward {\n        on emptied_0: 1\n        otherwise: -0.01\n    }\n}\n\n");
+    let chosen: Vec<String> = (0..n).map(|n| format!("empty_{n}")).collect();
+    let task = "task serve {\n    observe due_0, due_1, due_2\n    choose  empty_0, empty_1, empty_2\n    end on emptied_0\n    end after 5 min\n    reward {\n        on emptied_0: 1\n        otherwise: -0.01\n    }\n}\n\n";
+    text.push_str(&task.replace("empty_0, empty_1, empty_2", &chosen.join(", ")));
     text.push_str("tree hand for serve = selector {\n    due_0 => empty_0,\n    due_1 => empty_1,\n    due_2 => empty_2,\n    empty_0,\n}\n");
     text
 }
