@@ -212,4 +212,7 @@ pub mod report;
 pub mod driver;
 
 #[cfg(feature = "cli")]
+pub mod lsp;
+
+#[cfg(feature = "cli")]
 pub mod cli;

@@ -118,6 +118,27 @@ impl Source {
         (line, column)
     }
 
+    /// The byte at a zero-based line and a column in UTF-16 code units. What lies beyond the end of a line or of the text is
+    /// its end; what lies within a character is its start.
+    pub fn offset_utf16(&self, line: usize, column: usize) -> u32 {
+        let Some(start) = self.line_start(line) else {
+            return u32::try_from(self.text.len()).unwrap_or(u32::MAX);
+        };
+        let rest = self.text.get(start as usize..).unwrap_or_default();
+        let line = rest.split('\n').next().unwrap_or_default();
+        let line = line.strip_suffix('\r').unwrap_or(line);
+        let mut units = 0;
+        let mut bytes = 0;
+        for letter in line.chars() {
+            units += letter.len_utf16();
+            if units > column {
+                break;
+            }
+            bytes += letter.len_utf8();
+        }
+        start.saturating_add(u32::try_from(bytes).unwrap_or(u32::MAX))
+    }
+
     /// How many lines the text has; a last line without a newline counts.
     pub fn line_count(&self) -> usize {
         self.line_starts.len()

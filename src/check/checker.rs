@@ -8,6 +8,7 @@ use super::decl::input::InputSlot;
 use super::decl::predicate::PredicateId;
 use super::decl::state::StateSlot;
 use super::lint::Asked;
+use super::meaning::Meanings;
 use super::members::{Kinds, Member};
 use super::names::Names;
 use super::report;
@@ -27,6 +28,8 @@ use std::collections::{BTreeMap, BTreeSet};
 pub struct Checker<'a> {
     /// Every declared name.
     pub names: Names<'a>,
+    /// What the names of the text stand for.
+    pub meanings: Meanings,
     /// The program, as far as it is checked.
     pub program: Program,
     /// What has been reported.
@@ -88,8 +91,10 @@ impl<'a> Checker<'a> {
     /// Collects the names of the files; nothing is checked yet.
     pub fn new(files: &[Input<'a>]) -> Self {
         let mut diagnostics = Vec::new();
+        let mut meanings = Meanings::default();
         Self {
-            names: Names::collect(files, &mut diagnostics),
+            names: Names::collect(files, &mut meanings, &mut diagnostics),
+            meanings,
             program: Program::default(),
             diagnostics,
             context: Context::new(Region::World),
@@ -192,6 +197,7 @@ impl<'a> Checker<'a> {
         Checked {
             program: self.program,
             tunes: self.tunes.sites(),
+            meanings: self.meanings,
             diagnostics: self.diagnostics,
         }
     }

@@ -1,6 +1,7 @@
 //! The context of an expression: what is in scope and what is allowed.
 
 use super::Checker;
+use super::meaning::Entity;
 use super::names::Decl;
 use super::types::{Type, Value};
 use crate::diagnostic::Code;
@@ -160,6 +161,11 @@ impl<'a> Checker<'a> {
     /// Notes a name that a body of the user binds, with what it is.
     pub fn binds(&mut self, name: &'a Ident, what: &'static str) {
         if !self.context.library {
+            let entity = match what {
+                "parameter" => Entity::Parameter,
+                _ => Entity::Local,
+            };
+            self.meanings.declare(name, entity);
             self.bound.entry(name.span).or_insert(Bound {
                 name: &name.name,
                 what,
@@ -172,6 +178,7 @@ impl<'a> Checker<'a> {
     pub fn bind(&mut self, binding: Binding<'a>, what: &'static str, depth: usize) {
         let name = binding.name;
         self.binds(name, what);
+        self.is_of_type(name, &binding.ty);
         if what == "value"
             && !self.context.library
             && matches!(

@@ -34,7 +34,11 @@ impl<'a> Checker<'a> {
             self.meaning(expr)
         };
         self.depth -= 1;
-        self.settled(typed, expr)
+        let typed = self.settled(typed, expr);
+        if let ExprKind::Ref(reference) = &expr.kind {
+            self.is_of_type(&reference.name, &typed.ty);
+        }
+        typed
     }
 
     /// What an expression came to, as a value of that expression.

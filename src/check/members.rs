@@ -402,6 +402,7 @@ impl<'a> Checker<'a> {
                 return None;
             }
             let ty = self.named_type(domain);
+            self.binds_member(name, &ty);
             let members = self.members_of(&ty, domain.span, &domain.name)?;
             ranges.push((name, ty, members));
         }

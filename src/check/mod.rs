@@ -12,6 +12,7 @@ mod context;
 mod decl;
 mod expr;
 mod lint;
+mod meaning;
 mod members;
 mod names;
 mod report;
@@ -23,6 +24,8 @@ mod types;
 mod world;
 
 pub use builtin::names as built_in_names;
+pub use meaning::{Entity, Meaning, Meanings};
+pub use types::written::names as built_in_types;
 
 use crate::diagnostic::Diagnostic;
 use crate::ir::Program;
@@ -49,6 +52,8 @@ pub struct Checked {
     pub program: Program,
     /// Where the values of the program's tunables stand; several places where they are arguments that are spelled alike.
     pub tunes: Vec<Vec<Span>>,
+    /// What the names of the text stand for.
+    pub meanings: Meanings,
     /// Every mistake and warning.
     pub diagnostics: Vec<Diagnostic>,
 }

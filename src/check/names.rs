@@ -8,6 +8,7 @@ mod collect;
 mod lookup;
 
 use super::builtin;
+use super::meaning::Entity;
 use crate::diagnostic::suggest;
 use crate::source::Span;
 use crate::syntax::ast::{self, Ident};
@@ -58,6 +59,24 @@ impl<'a> Decl<'a> {
             Decl::Wall(..) => "a wall",
             Decl::Robot(_) => "a robot",
             Decl::Sensor(_) => "a sensor",
+        }
+    }
+
+    /// What is declared.
+    pub fn entity(self) -> Entity {
+        match self {
+            Decl::Variant(..) => Entity::Variant,
+            Decl::Input(_) => Entity::Input,
+            Decl::State(_) => Entity::State,
+            Decl::Event(_) => Entity::Event,
+            Decl::Let(_) => Entity::Let,
+            Decl::Predicate(_) => Entity::Predicate,
+            Decl::Behavior(_) => Entity::Behavior,
+            Decl::Tree(_) => Entity::Tree,
+            Decl::Place(..) => Entity::Place,
+            Decl::Wall(..) => Entity::Wall,
+            Decl::Robot(_) => Entity::Robot,
+            Decl::Sensor(_) => Entity::Sensor,
         }
     }
 
@@ -134,6 +153,8 @@ pub struct Names<'a> {
     pub tasks: BTreeMap<&'a str, &'a ast::Task>,
     /// The learners, by the name of what they learn.
     pub learners: BTreeMap<&'a str, &'a ast::Learn>,
+    /// The sensors of robots that run a tree of their own, each with its robot.
+    pub other_sensors: Vec<(&'a Ident, &'a Ident)>,
     /// The names of declarations that were not understood.
     lost: BTreeSet<String>,
     /// Whether a world was not understood.

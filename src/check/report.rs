@@ -4,6 +4,7 @@ use super::Checker;
 use super::types::Typed;
 use crate::diagnostic::{Applicability, Code, Diagnostic, Label, suggest};
 use crate::source::Span;
+use crate::spelling::spelled;
 use crate::syntax::ast::{Expr, ExprKind, Ident};
 use std::collections::BTreeMap;
 use std::fmt::Display;
@@ -97,8 +98,12 @@ impl<'d> Draft<'d> {
             None => self,
             Some(likely) => {
                 let question = format!("did you mean `{likely}`?");
-                self.label(question.clone())
-                    .fix(question, name.span, likely, Applicability::Unsafe)
+                self.label(question.clone()).fix(
+                    question,
+                    name.span,
+                    spelled(likely),
+                    Applicability::Unsafe,
+                )
             }
         }
     }

@@ -116,7 +116,8 @@ impl<'a> Checker<'a> {
                 self.not_named(expr, "a predicate", &declaration);
                 continue;
             };
-            let predicate = self.declared_as(reference, "a predicate", |decl| match decl {
+            let help = self.predicate_of(reference);
+            let predicate = self.declared_as(reference, "a predicate", help, |decl| match decl {
                 Decl::Predicate(predicate) => Some(predicate),
                 _ => None,
             });

@@ -2,8 +2,9 @@
 
 use super::report::Reporter;
 use super::results::Found;
+use super::store::manifest::Manifest;
 use super::{Failure, files, results};
-use crate::diagnostic::{Applicability, Code, Diagnostic, render};
+use crate::diagnostic::{Code, Diagnostic, render};
 use crate::driver::load::Loaded;
 use crate::driver::{check, load};
 use crate::source::{Sources, Span};
@@ -102,7 +103,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
 }
 
 /// The programs under a path: itself, or those in a folder and in its folders, in the order of their names. What begins
-/// with a dot is left out.
+/// with a dot is left out, and so are the folders of results: what they hold was learned, and is checked where it is named.
 pub(super) fn programs(path: &str) -> Vec<String> {
     fn walk(folder: &Path, programs: &mut Vec<String>) {
         let entries = std::fs::read_dir(folder).into_iter().flatten();
@@ -116,6 +117,9 @@ pub(super) fn programs(path: &str) -> Vec<String> {
                 continue;
             }
             if path.is_dir() {
+                if Manifest::of_folder(&path).is_some() {
+                    continue;
+                }
                 walk(&path, programs);
             } else if path.extension().is_some_and(|extension| extension == "bt") {
                 programs.push(path.to_string_lossy().into_owned());
@@ -170,19 +174,6 @@ fn found(arguments: &Arguments, path: &str) -> Result<Checked, Failure> {
 
 /// The main file with the fixes that may be applied unseen; `None` if there are none.
 fn fixed(loaded: &Loaded) -> Option<String> {
-    let mut edits: Vec<(Span, String)> = Vec::new();
-    let fixes = loaded.diagnostics.iter().flat_map(|found| &found.fixes);
-    for fix in fixes.filter(|fix| fix.applicability == Applicability::Safe) {
-        let fits = |(span, _): &(Span, String)| {
-            span.file == loaded.main
-                && edits
-                    .iter()
-                    .all(|(other, _)| span.end < other.start || other.end < span.start)
-        };
-        if fix.edits.iter().all(fits) {
-            edits.extend(fix.edits.iter().cloned());
-        }
-    }
-    let mut texts = loaded.texts(&edits);
+    let mut texts = loaded.texts(&check::fixes(loaded));
     Some(texts.remove(&loaded.main)?.text)
 }

@@ -14,6 +14,7 @@ mod files;
 mod fmt;
 mod interrupt;
 mod learn;
+mod lsp;
 mod minimize;
 mod new;
 mod paths;
@@ -82,6 +83,8 @@ enum Command {
     Fmt(fmt::Arguments),
     /// Explain a diagnostic code.
     Explain(explain::Arguments),
+    /// Answer an editor, by the Language Server Protocol over standard input and output.
+    Lsp(lsp::Arguments),
 }
 
 /// Why a command stops without its result. The reason stands on standard error already.
@@ -132,6 +135,7 @@ pub fn main() -> ExitCode {
         Command::Minimize(arguments) => minimize::run(&arguments, &say),
         Command::Fmt(arguments) => fmt::run(&arguments, &say),
         Command::Explain(arguments) => explain::run(&arguments),
+        Command::Lsp(arguments) => lsp::run(&arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -6,6 +6,7 @@ use super::files;
 use super::progress::Progress;
 use super::report::{Reporter, tell};
 use super::{Failure, PLAYED};
+use crate::diagnostic::render;
 use crate::driver::learn::Shape;
 use crate::driver::load::Loaded;
 use crate::driver::snapshot;
@@ -49,17 +50,36 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
         return Err(Failure::Usage);
     }
     let mut count = Count::default();
-    for path in arguments.paths.iter().flat_map(|path| programs(path)) {
-        let loaded = match files::load(&path, say) {
-            Ok(loaded) => loaded,
-            Err(_) => {
+    let mut snapshots = Vec::new();
+    let mut empty = Vec::new();
+    for named in &arguments.paths {
+        let programs = programs(named);
+        let mut is_tested = false;
+        for path in &programs {
+            let Ok(loaded) = files::load(path, say) else {
                 count.failed += 1;
+                is_tested = true;
                 continue;
+            };
+            for learner in snapshot::learners(&loaded) {
+                one(arguments, path, &loaded, &learner, &mut count, say)?;
+                snapshots.push(beside(path, &learner));
+                is_tested = true;
             }
-        };
-        for learner in snapshot::learners(&loaded) {
-            one(arguments, &path, &loaded, &learner, &mut count, say)?;
         }
+        if !is_tested {
+            empty.push((named, programs.len()));
+        }
+    }
+    // A snapshot that is named beside its program is tested with it.
+    let snapshots: Vec<PathBuf> = snapshots.iter().flat_map(|it| it.canonicalize()).collect();
+    let is_snapshot = |named: &str| {
+        let real = Path::new(named).canonicalize();
+        real.is_ok_and(|real| snapshots.contains(&real))
+    };
+    empty.retain(|(named, _)| !is_snapshot(named));
+    for (named, programs) in &empty {
+        files::complain(&nothing(named, *programs));
     }
     let accepted = match count.accepted {
         0 => String::new(),
@@ -69,10 +89,26 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
         "{} passed, {} failed{accepted}",
         count.passed, count.failed
     ));
-    match count.failed {
+    match count.failed + empty.len() {
         0 => Ok(()),
         _ => Err(Failure::Input),
     }
+}
+
+/// Why nothing can be tested at a path with so many programs.
+fn nothing(named: &str, programs: usize) -> String {
+    let why = match programs {
+        _ if !Path::new(named).is_dir() => {
+            "it has no `learn`, so no tree is learned from it".to_owned()
+        }
+        0 => "no file in this folder ends in `.bt`".to_owned(),
+        1 => "the program in this folder has no `learn`".to_owned(),
+        n => format!("none of the {n} programs in this folder has a `learn`"),
+    };
+    format!(
+        "there is nothing to test in `{}`: {why}",
+        render::visible(named)
+    )
 }
 
 /// Learns one tree and holds it against its snapshot.

@@ -2,9 +2,10 @@
 
 use super::load::Loaded;
 use super::world;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Applicability, Diagnostic};
 use crate::ir::Program;
 use crate::ir::task::{StartLine, Task};
+use crate::source::Span;
 use crate::world::Simulator;
 
 /// The first world that cannot be built: the robot fits nowhere, or not where it starts, or the task is too large. Tasks
@@ -27,6 +28,25 @@ pub fn worlds(loaded: &Loaded) -> Option<Diagnostic> {
         let error = Simulator::build(program, id, &starts, &[]).err()?;
         Some(world::unbuilt(loaded, &error))
     })
+}
+
+/// The changes to the main file that may be made unseen: the fixes that keep or restore what was meant, as far as they do
+/// not touch each other.
+pub fn fixes(loaded: &Loaded) -> Vec<(Span, String)> {
+    let mut edits: Vec<(Span, String)> = Vec::new();
+    let fixes = loaded.diagnostics.iter().flat_map(|found| &found.fixes);
+    for fix in fixes.filter(|fix| fix.applicability == Applicability::Safe) {
+        let fits = |(span, _): &(Span, String)| {
+            span.file == loaded.main
+                && edits
+                    .iter()
+                    .all(|(other, _)| span.end < other.start || other.end < span.start)
+        };
+        if fix.edits.iter().all(fits) {
+            edits.extend(fix.edits.iter().cloned());
+        }
+    }
+    edits
 }
 
 fn is_defined(program: &Program, task: &Task) -> bool {

@@ -2,7 +2,7 @@
 
 use super::digest::sha256;
 use super::text::{Text, decode};
-use crate::check::{self, Input};
+use crate::check::{self, Input, Meanings};
 use crate::diagnostic::{self, Applicability, Code, Diagnostic, render};
 use crate::ir::{Name, Program};
 use crate::source::{FileId, Source, Sources, Span};
@@ -10,8 +10,8 @@ use crate::syntax;
 use crate::syntax::ast::{self, ItemKind, Spanned, UseWhat};
 use std::collections::BTreeMap;
 
-/// The embedded library.
-const LIBRARY: &str = include_str!("../library/std.bt");
+/// The text of the embedded library.
+pub const LIBRARY: &str = include_str!("../library/std.bt");
 
 /// The name of the library in diagnostics.
 const LIBRARY_NAME: &str = "std";
@@ -54,6 +54,8 @@ pub struct Loaded {
     pub tables: Vec<(FileId, Span)>,
     /// Where the values of the program's tunables stand, a list for each.
     pub tunes: Vec<Vec<Span>>,
+    /// What the names of the text stand for.
+    pub meanings: Meanings,
     /// Every mistake and warning, sorted.
     pub diagnostics: Vec<Diagnostic>,
     /// The files that the main file uses, used files first.
@@ -67,7 +69,7 @@ impl Loaded {
     }
 
     /// The syntax trees of all files of the program, the main one first.
-    pub(super) fn asts(&self) -> impl Iterator<Item = &ast::File> {
+    pub fn asts(&self) -> impl Iterator<Item = &ast::File> {
         let used = self.used.iter().map(|parsed| &parsed.ast);
         std::iter::once(&self.ast).chain(used)
     }
@@ -165,6 +167,7 @@ pub fn load(name: &str, text: Vec<u8>, reader: &mut dyn Reader) -> Loaded {
         files,
         tables: loader.tables,
         tunes: checked.tunes,
+        meanings: checked.meanings,
         diagnostics,
         used: loader.parsed,
     }

@@ -65,6 +65,15 @@ impl Dim {
         (self == Self::FREQUENCY || one_above).then(|| self.in_si())
     }
 
+    /// The factors of the type, above the line and below it.
+    pub fn factors(self) -> u64 {
+        let powers = [self.length, self.angle, self.time];
+        powers
+            .iter()
+            .map(|power| u64::from(power.unsigned_abs()))
+            .sum()
+    }
+
     /// The dimension in SI units, as a person reads it: `rad·s/m^2`, `1/m`.
     fn in_si(self) -> String {
         if self == Self::FREQUENCY {

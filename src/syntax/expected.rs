@@ -69,6 +69,7 @@ fn beginnings(strict: Rule) -> &'static [&'static str] {
             "`use`",
             "`world`",
             "`enum`",
+            "`input`",
             "`state`",
             "`event`",
             "`each`",
@@ -250,6 +251,7 @@ fn name(rule: Rule) -> Option<(Rank, &'static str)> {
         | Rule::wrong_link
         | Rule::wrong_facing
         | Rule::wrong_control
+        | Rule::wrong_memory
         | Rule::wrong_start
         | Rule::wrong_per
         | Rule::wrong_field

@@ -11,8 +11,8 @@ mod grammar;
 mod nesting;
 mod parse;
 pub mod print;
-mod tokens;
-mod words;
+pub mod tokens;
+pub mod words;
 
 pub use build::unit;
 pub use parse::parse;

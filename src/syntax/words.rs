@@ -3,7 +3,7 @@
 use super::ast::{AssignOp, BinaryOp, Link, Outcome, UnaryOp, Word};
 
 /// The words that begin an item.
-pub(super) const ITEMS: [&str; 15] = [
+pub const ITEMS: [&str; 15] = [
     "use",
     "world",
     "enum",
@@ -22,7 +22,7 @@ pub(super) const ITEMS: [&str; 15] = [
 ];
 
 /// The words that begin an aspect of a task; without parentheses or backquotes, they do not stand in a list.
-pub(super) const ASPECTS: [&str; 7] = [
+pub const ASPECTS: [&str; 7] = [
     "observe", "choose", "history", "patience", "start", "end", "reward",
 ];
 
@@ -149,13 +149,51 @@ pub(super) const FOREIGN: [(&str, &str); 97] = [
     ("each", "per"),
 ];
 
+/// What other languages declare, and this one does not.
+pub(super) const KINDS: [&str; 8] = [
+    "kind", "class", "category", "sort", "group", "tag", "species", "subtype",
+];
+
+/// The words that stand within an item, with what that item is and how they stand in it.
+pub(super) const INNER: [(&[&str], &str, &str); 5] = [
+    (
+        &["place", "wall", "arena", "tick", "robot"],
+        "a world",
+        "world NAME { … }",
+    ),
+    (
+        &["sensor", "body", "drive", "contact", "runs"],
+        "a robot, which stands in a world",
+        "world NAME { robot NAME { … } }",
+    ),
+    (
+        &[
+            "observe", "choose", "history", "patience", "start", "end", "reward",
+        ],
+        "a task",
+        "task NAME { … }",
+    ),
+    (
+        &["local", "requires", "succeed", "fail", "control"],
+        "a behaviour",
+        "behavior NAME { … }",
+    ),
+    (
+        &[
+            "selector", "sequence", "memory", "parallel", "invert", "retry", "repeat", "timeout",
+        ],
+        "a tree",
+        "tree NAME = …",
+    ),
+];
+
 /// The units, as a person would list them.
-pub(super) const UNITS: [&str; 14] = [
+pub const UNITS: [&str; 14] = [
     "m", "cm", "mm", "km", "s", "ms", "min", "h", "tick", "ticks", "deg", "rad", "Hz", "%",
 ];
 
 /// The words of composites and decorators.
-pub(super) const NODES: [(&str, Word); 9] = [
+pub const NODES: [(&str, Word); 9] = [
     ("selector", Word::Selector),
     ("sequence", Word::Sequence),
     ("parallel", Word::Parallel),

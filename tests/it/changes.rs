@@ -142,3 +142,72 @@ fn learned_trees_are_held_against_snapshots() {
     let output = test(&["--review"]);
     assert_eq!(output.status.code(), Some(2), "{}", err(&output));
 }
+
+/// Where nothing can be tested, that is said, and is a mistake.
+#[test]
+fn to_test_nothing_is_a_mistake() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    fs::create_dir(path.join("none")).unwrap();
+    fs::create_dir(path.join("two")).unwrap();
+    fs::write(path.join("two/a.bt"), "predicate low\n").unwrap();
+    fs::write(path.join("two/b.bt"), "").unwrap();
+    fs::write(path.join("alone.bt"), "").unwrap();
+    for (named, why) in [
+        ("none", "no file in this folder ends in `.bt`"),
+        ("two", "none of the 2 programs in this folder has a `learn`"),
+        (
+            "alone.bt",
+            "it has no `learn`, so no tree is learned from it",
+        ),
+        (".", "none of the 3 programs in this folder has a `learn`"),
+    ] {
+        let output = btc(path, &["test", named]);
+        assert_eq!(output.status.code(), Some(1), "{named}");
+        let expected =
+            format!("error: there is nothing to test in `{named}`: {why}\n0 passed, 0 failed\n");
+        assert_eq!(err(&output), expected);
+    }
+    // Beside what can be tested too; but a snapshot is tested with its program.
+    world(path, "-1");
+    let test = |more: &[&str]| btc(path, &[&["test", "--shape", "exact"], more].concat());
+    let output = test(&["--accept", "yard.bt", "alone.bt"]);
+    assert_eq!(output.status.code(), Some(1), "{}", err(&output));
+    let output = test(&["yard.bt", "./yard.learned.bt"]);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    let output = test(&["yard.learned.bt"]);
+    assert_eq!(output.status.code(), Some(1), "{}", err(&output));
+}
+
+/// What was learned into a folder is left out where folders are walked, and read where it is named.
+#[test]
+fn results_are_left_out_of_walks() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    world(path, "-1");
+    let learn = [
+        "learn",
+        "yard.bt",
+        "--shape",
+        "exact",
+        "--roll-outs",
+        "20",
+        "-o",
+        "out/first",
+    ];
+    let output = btc(path, &learn);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    assert!(path.join("out/first/manifest.json").exists());
+    // The result is now of another program.
+    world(path, "5");
+    let output = btc(path, &["check", "."]);
+    assert_eq!((output.status.code(), out(&output)), (Some(0), "ok\n"));
+    assert_eq!(err(&output), "");
+    let output = btc(path, &["check", "out/first"]);
+    assert!(err(&output).contains("W0203"), "{}", err(&output));
+    // Another tool's manifest makes no result of a folder.
+    fs::create_dir(path.join("web")).unwrap();
+    fs::write(path.join("web/manifest.json"), "{ \"name\": \"app\" }").unwrap();
+    fs::write(path.join("web/a.bt"), "predicate\n").unwrap();
+    assert_eq!(btc(path, &["check", "."]).status.code(), Some(1));
+}

@@ -22,6 +22,7 @@ mod house;
 mod learn;
 mod limits;
 mod logic;
+mod lsp;
 mod naive;
 mod planted;
 mod program;

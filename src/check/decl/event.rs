@@ -214,7 +214,7 @@ impl<'a> Checker<'a> {
 
     /// The family behind `on name(params)`; reported if there is none.
     fn family_of_events(&mut self, name: &Ident) -> Option<&'a ast::Event> {
-        let found = match self.names.value(&name.name, false) {
+        let found = match self.value_of(name) {
             Some((Decl::Event(event), _)) if event.params.is_some() => return Some(event),
             Some((Decl::Event(_), _)) => "a single event",
             Some((decl, _)) => decl.what(),

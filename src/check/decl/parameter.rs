@@ -7,7 +7,7 @@ use crate::check::names::Decl;
 use crate::check::signature::{Signature, Takes};
 use crate::check::types::Type;
 use crate::diagnostic::Code;
-use crate::syntax::ast::{Param, Params, Ref};
+use crate::syntax::ast::{ArgKind, Param, Params, Ref};
 
 impl<'a> Checker<'a> {
     /// Parameters that are known by their type only.
@@ -37,6 +37,7 @@ impl<'a> Checker<'a> {
                 .also(first.name.span, "first declared here");
             }
             self.binds(name, "parameter");
+            self.is_of_type(name, &ty);
             bindings.push(Binding::unknown(name, ty));
         }
         bindings
@@ -65,6 +66,13 @@ impl<'a> Checker<'a> {
             },
         };
         let args = reference.args.as_deref().unwrap_or_default();
+        for arg in args {
+            if let ArgKind::Named(given, _) = &arg.kind
+                && let Some(param) = params.iter().find(|it| it.name.name == given.name)
+            {
+                self.stands_for(given, param.name.span);
+            }
+        }
         let matched = self.matched(&signature, args);
         let called = self.names.value(name, self.context.library);
         let makes_instance = !matches!(called, Some((Decl::Let(_), _)));

@@ -13,7 +13,8 @@ impl<'a> Checker<'a> {
         }
         let bindings = self.unknown_parameters(shared.params.as_ref());
         self.body_for_itself(&shared.name, Region::Let, bindings, |checker| {
-            checker.shared_body(shared);
+            let typed = checker.shared_body(shared);
+            checker.is_of_type(&shared.name, &typed.ty);
         });
     }
 

@@ -20,7 +20,7 @@ type Meant = (Type, Vec<(ExprId, Vec<Id<State>>)>);
 #[derive(Clone, Debug)]
 pub struct StateSlot {
     /// The declared type.
-    ty: Type,
+    pub ty: Type,
     /// The variables.
     members: Vec<Member<Vec<Id<State>>>>,
 }
@@ -36,6 +36,7 @@ impl<'a> Checker<'a> {
                     is: ids,
                 };
                 let members = vec![member];
+                self.is_of_type(&state.name, &ty);
                 let slot = StateSlot { ty, members };
                 self.states.insert(&state.name.name, slot);
             }
@@ -75,6 +76,7 @@ impl<'a> Checker<'a> {
             (None, Some(written)) => self.type_expr(written),
             (None, None) => return,
         };
+        self.is_of_type(&state.name, &ty);
         let slot = StateSlot { ty, members };
         self.states.insert(&state.name.name, slot);
     }

@@ -63,6 +63,7 @@ impl<'a> Checker<'a> {
         block: &'a ast::Block,
     ) -> Option<Vec<Stmt>> {
         let ty = self.named_type(domain);
+        self.binds_member(name, &ty);
         let members = self.members_of(&ty, domain.span, &domain.name);
         // Once for itself, so that a mistake is told once.
         self.context.scope.push(Binding::unknown(name, ty.clone()));
@@ -200,6 +201,7 @@ impl<'a> Checker<'a> {
         if target.args.is_none()
             && let Some(binding) = self.context.lookup(name).cloned()
         {
+            self.stands_for(&target.name, binding.name.span);
             let Some(locals) = binding.locals else {
                 return self
                     .error(Code::E0310, target.span, cannot)
@@ -212,7 +214,7 @@ impl<'a> Checker<'a> {
             let slots = locals.into_iter().map(Slot::Local).collect();
             return Some((binding.ty, vec![(always, slots)], Vec::new()));
         }
-        match self.names.value(name, self.context.library) {
+        match self.value_of(&target.name) {
             Some((Decl::State(state), _)) => {
                 let (ty, variables) = self.state_variables(state, target)?;
                 if !matches!(self.context.region, Region::Effect | Region::EachTick) {
@@ -271,7 +273,7 @@ impl<'a> Checker<'a> {
         for arg in call.args.iter().flatten() {
             self.stray_argument(arg);
         }
-        match self.names.value(&name.name, self.context.library) {
+        match self.value_of(name) {
             Some((decl, _)) => self
                 .error(
                     Code::E0203,

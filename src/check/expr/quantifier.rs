@@ -32,6 +32,7 @@ impl<'a> Checker<'a> {
                 .none();
         };
         let of = self.named_type(domain);
+        self.binds_member(name, &of);
         let members = self.members_of(&of, domain.span, &domain.name)?;
         if function == Function::Nearest {
             if !of.is_target() {

@@ -24,9 +24,12 @@ impl<'a> Checker<'a> {
             }
             if let Some(binding) = self.context.lookup(name).cloned() {
                 self.reads(binding.name.span);
+                self.stands_for(&reference.name, binding.name.span);
+                self.is_of_type(binding.name, &binding.ty);
                 return Some(Typed::new(binding.ty, binding.value, span));
             }
             if let Some(value) = builtin::Constant::named(name) {
+                self.is_built_in(&reference.name);
                 return self.built_in_value(value, span);
             }
         }
@@ -55,14 +58,16 @@ impl<'a> Checker<'a> {
         if let Some(called) = builtin::BuiltIn::named(name)
             && !(own && called.gives_way())
         {
+            self.is_built_in(&reference.name);
             return self.built_in_call(called, reference);
         }
         if reference.args.is_none()
             && let Some(sensor) = self.sensor_of_subject(name)
         {
+            self.stands_for_sensor(&reference.name);
             return Some(Typed::new(Type::Sensor, sensor, span));
         }
-        match self.names.value(name, self.context.library) {
+        match self.value_of(&reference.name) {
             Some((decl, library)) => self.declared_reference(decl, library, reference),
             None => self.unknown_reference(reference),
         }

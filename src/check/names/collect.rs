@@ -2,18 +2,24 @@
 
 use super::{Decl, Names, START_WORDS, TypeDecl, is_built_in, learned_name};
 use crate::check::Input;
+use crate::check::meaning::{Entity, Meaning, Meanings};
 use crate::check::report::Draft;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::syntax::ast::{Ident, Item, ItemKind, RobotEntryKind, World, WorldEntryKind};
 
 impl<'a> Names<'a> {
     /// Collects the names of all files; a name that is declared twice is reported once.
-    pub fn collect(files: &[Input<'a>], diagnostics: &mut Vec<Diagnostic>) -> Self {
+    pub fn collect(
+        files: &[Input<'a>],
+        meanings: &mut Meanings,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Self {
         let mut names = Self::default();
         for input in files {
             let mut collector = Collector {
                 names: &mut names,
                 library: input.library,
+                meanings,
                 diagnostics,
             };
             for item in &input.ast.items {
@@ -27,6 +33,9 @@ impl<'a> Names<'a> {
                 .filter(|item| item.docs.is_empty())
                 .map(|item| item.span.before());
         }
+        for decl in names.library.values().chain(names.user.values()) {
+            meanings.name_value(decl.ident());
+        }
         names
     }
 }
@@ -35,6 +44,7 @@ impl<'a> Names<'a> {
 struct Collector<'c, 'a> {
     names: &'c mut Names<'a>,
     library: bool,
+    meanings: &'c mut Meanings,
     diagnostics: &'c mut Vec<Diagnostic>,
 }
 
@@ -56,12 +66,16 @@ impl<'a> Collector<'_, 'a> {
             ItemKind::Tree(decl) => self.value(Decl::Tree(decl)),
             ItemKind::World(world) => self.world(world),
             ItemKind::Task(task) => {
+                self.meanings.declare(&task.name, Entity::Task);
                 let first = *self.names.tasks.entry(&task.name.name).or_insert(task);
                 if !std::ptr::eq(first, task) {
                     self.twice(&task.name, &first.name, "a task");
                 }
             }
             ItemKind::Learn(learn) => {
+                if let Some(name) = &learn.name {
+                    self.meanings.declare(name, Entity::Learner);
+                }
                 let name = learned_name(learn);
                 let first = *self.names.learners.entry(name).or_insert(learn);
                 if !std::ptr::eq(first, learn) {
@@ -82,6 +96,7 @@ impl<'a> Collector<'_, 'a> {
     }
 
     fn world(&mut self, world: &'a World) {
+        self.meanings.declare(&world.name, Entity::World);
         for entry in &world.entries {
             match &entry.kind {
                 WorldEntryKind::Place { name, of_kind, .. } => {
@@ -96,15 +111,24 @@ impl<'a> Collector<'_, 'a> {
                         self.kind(TypeDecl::WallKind(kind));
                     }
                 }
-                WorldEntryKind::Robot { name, entries } => {
-                    self.value(Decl::Robot(name));
+                WorldEntryKind::Robot {
+                    name: robot,
+                    entries,
+                } => {
+                    self.value(Decl::Robot(robot));
                     // Only the sensors of the acting robot are in scope by name.
                     let runs = entries.iter().any(|entry| {
                         matches!(&entry.kind, RobotEntryKind::Field(field) if field.name.name == "runs")
                     });
-                    for entry in entries.iter().filter(|_| !runs) {
+                    for entry in entries {
                         if let RobotEntryKind::Sensor { name, .. } = &entry.kind {
-                            self.value(Decl::Sensor(name));
+                            match runs {
+                                true => {
+                                    self.meanings.declare(name, Entity::Sensor);
+                                    self.names.other_sensors.push((robot, name));
+                                }
+                                false => self.value(Decl::Sensor(name)),
+                            }
                         }
                     }
                 }
@@ -115,6 +139,7 @@ impl<'a> Collector<'_, 'a> {
 
     fn value(&mut self, decl: Decl<'a>) {
         let name = decl.ident();
+        self.meanings.declare(name, decl.entity());
         let starts = matches!(decl, Decl::State(_)) && START_WORDS.contains(&name.name.as_str());
         if starts || is_built_in(&name.name) && !decl.shadows(&name.name) {
             self.error(Code::E0204, name, format!("`{}` is built in", name.name))
@@ -141,6 +166,11 @@ impl<'a> Collector<'_, 'a> {
 
     fn type_name(&mut self, decl: TypeDecl<'a>) {
         let name = decl.ident();
+        let entity = match decl {
+            TypeDecl::Enum(_) => Entity::Enum,
+            TypeDecl::PlaceKind(_) | TypeDecl::WallKind(_) => Entity::Kind,
+        };
+        self.meanings.declare(name, entity);
         match self.names.types.get(name.name.as_str()).copied() {
             Some(first) => self.twice(name, first.ident(), "a type"),
             None => {
@@ -152,8 +182,10 @@ impl<'a> Collector<'_, 'a> {
     /// A kind is declared by its first member; a place and a wall cannot be of one kind.
     fn kind(&mut self, decl: TypeDecl<'a>) {
         match (self.names.types.get(decl.ident().name.as_str()), decl) {
-            (Some(TypeDecl::PlaceKind(_)), TypeDecl::PlaceKind(_))
-            | (Some(TypeDecl::WallKind(_)), TypeDecl::WallKind(_)) => {}
+            (Some(TypeDecl::PlaceKind(first)), TypeDecl::PlaceKind(name))
+            | (Some(TypeDecl::WallKind(first)), TypeDecl::WallKind(name)) => {
+                self.meanings.mean(name, Meaning::Declared(first.span));
+            }
             _ => self.type_name(decl),
         }
     }

@@ -28,16 +28,26 @@ const LIBRARY: [&str; 12] = [
 ];
 
 impl<'a> Checker<'a> {
+    /// The declaration of a value's name as seen from the text at hand, with whether it is of the library.
+    pub fn value_of(&mut self, name: &Ident) -> Option<(Decl<'a>, bool)> {
+        let found = self.names.value(&name.name, self.context.library);
+        if let Some((decl, _)) = found {
+            self.stands_for(name, decl.ident().span);
+        }
+        found
+    }
+
     /// What a reference of the user names, if `is` accepts it, with whether it is of the library; anything else is
-    /// reported. `wanted` says what is accepted, with its article.
+    /// reported. `wanted` says what is accepted, with its article, and `help` what to do where it is something else.
     pub fn declared_as<T>(
         &mut self,
         reference: &Ref,
         wanted: &str,
+        help: Option<String>,
         is: impl Fn(Decl<'a>) -> Option<T>,
     ) -> Option<(T, bool)> {
         let name = &reference.name;
-        match self.names.value(&name.name, false) {
+        match self.value_of(name) {
             Some((decl, library)) => match is(decl) {
                 Some(found) => Some((found, library)),
                 None => self
@@ -47,21 +57,19 @@ impl<'a> Checker<'a> {
                         format!("{wanted} is needed here"),
                     )
                     .label(format!("`{}` is {}", name.name, decl.what()))
+                    .help_if(help)
                     .none(),
             },
             None if BuiltIn::named(&name.name).is_some()
                 || Constant::named(&name.name).is_some() =>
             {
-                let history = matches!(name.name.as_str(), "done" | "failed");
                 self.error(
                     Code::E0203,
                     reference.span,
                     format!("{wanted} is needed here"),
                 )
                 .label(format!("`{}` is built in", name.name))
-                .help_if(history.then(|| {
-                    "what has ended is observed by `history last 1 success, failure`".to_owned()
-                }))
+                .help_if(help)
                 .none()
             }
             None => {
@@ -75,7 +83,7 @@ impl<'a> Checker<'a> {
     /// The behaviour that a reference of the user names, with its arguments; anything else is reported.
     pub fn behavior_ref(&mut self, reference: &'a Ref) -> Option<Id<Behavior>> {
         let (behavior, library) =
-            self.declared_as(reference, "a behaviour", |decl| match decl {
+            self.declared_as(reference, "a behaviour", None, |decl| match decl {
                 Decl::Behavior(behavior) => Some(behavior),
                 _ => None,
             })?;
@@ -87,9 +95,12 @@ impl<'a> Checker<'a> {
 
     /// The task of that name; one that nothing declares is reported.
     pub fn task_of(&mut self, name: &Ident) -> Option<Id<Task>> {
-        if !self.names.tasks.contains_key(name.name.as_str()) {
-            let likely = self.likely(&name.name, self.names.tasks.keys().copied());
-            self.undeclared(name, "task", likely);
+        match self.names.tasks.get(name.name.as_str()) {
+            Some(task) => self.stands_for(name, task.name.span),
+            None => {
+                let likely = self.likely(&name.name, self.names.tasks.keys().copied());
+                self.undeclared(name, "task", likely);
+            }
         }
         let name = Name::word(&name.name);
         self.program.tasks.find(|task| task.name == name)

@@ -174,7 +174,7 @@ impl<'a> Checker<'a> {
 
     fn state_line(&mut self, line: &'a ast::StartLine) -> Option<Vec<StartLine>> {
         let name = line.target.name.name.as_str();
-        let state = match self.names.value(name, false) {
+        let state = match self.value_of(&line.target.name) {
             Some((Decl::State(state), _)) => state,
             Some((decl, _)) => {
                 return self

@@ -37,6 +37,11 @@ impl<'a> Checker<'a> {
     /// A tree of the program, or one that a learner will learn.
     fn tree_ref(&mut self, name: &Ident) -> Option<TreeRef> {
         let called = Name::word(&name.name);
+        let learner = self.names.learners.get(name.name.as_str());
+        if let Some(learner) = learner.and_then(|learn| learn.name.as_ref()) {
+            self.stands_for(name, learner.span);
+        }
+        self.value_of(name);
         if let Some(id) = self.program.trees.find(|tree| tree.name == called) {
             return Some(TreeRef::Tree(id));
         }
@@ -111,7 +116,7 @@ impl<'a> Checker<'a> {
             self.not_named(event, "an event", &declaration);
             return None;
         };
-        let (decl, _) = self.declared_as(reference, "an event", |decl| match decl {
+        let (decl, _) = self.declared_as(reference, "an event", None, |decl| match decl {
             Decl::Event(decl) => Some(decl),
             _ => None,
         })?;

@@ -4,9 +4,11 @@ use crate::check::Checker;
 use crate::check::expr::plain_ref;
 use crate::check::lint::Asked;
 use crate::check::names::{Decl, is_built_in};
+use crate::check::types::Type;
 use crate::diagnostic::Code;
 use crate::ir::tree::{Atom, Guard};
 use crate::source::Span;
+use crate::spelling::spelled;
 use crate::syntax::ast::{BinaryOp, Expr, ExprKind, Outcome, Ref, UnaryOp};
 use crate::syntax::print;
 
@@ -41,37 +43,34 @@ impl<'a> Checker<'a> {
     fn atom(&mut self, reference: &'a Ref) -> Option<Atom> {
         let name = reference.name.name.as_str();
         match name {
-            "done" => return self.asked(reference, Outcome::Success),
-            "failed" => return self.asked(reference, Outcome::Failure),
+            "done" | "failed" => {
+                self.is_built_in(&reference.name);
+                let outcome = match name {
+                    "done" => Outcome::Success,
+                    _ => Outcome::Failure,
+                };
+                return self.asked(reference, outcome);
+            }
             _ => {}
         }
-        let name_it = || {
-            let asked = Expr {
-                kind: ExprKind::Ref(reference.clone()),
-                span: reference.span,
-            };
-            format!("give it a name: {}", declaration(&asked))
-        };
-        match self.names.value(name, self.context.library) {
+        match self.value_of(&reference.name) {
             Some((Decl::Predicate(predicate), library)) => self
                 .predicate_instance(predicate, library, reference)
                 .map(Atom::Predicate),
             Some((decl, _)) => {
                 let help = match decl {
                     Decl::Behavior(_) | Decl::Tree(_) => {
-                        "nodes that follow each other: `sequence { …, … }`".to_owned()
+                        Some("nodes that follow each other: `sequence { …, … }`".to_owned())
                     }
-                    Decl::Event(_) => {
-                        "remember it in a state, and ask that by a predicate".to_owned()
-                    }
-                    _ => name_it(),
+                    _ => self.predicate_of(reference),
                 };
                 let label = format!("`{name}` is {}", decl.what());
-                self.no_predicate(reference.span, &label, Some(help))
+                self.no_predicate(reference.span, &label, help)
             }
             None if is_built_in(name) => {
                 let label = format!("`{name}` is built in");
-                self.no_predicate(reference.span, &label, Some(name_it()))
+                let help = self.predicate_of(reference);
+                self.no_predicate(reference.span, &label, help)
             }
             None => self
                 .undeclared_value(&reference.name, "predicate", |decl| {
@@ -79,6 +78,48 @@ impl<'a> Checker<'a> {
                 })
                 .none(),
         }
+    }
+
+    /// What to do about a reference that stands where a predicate is needed, if it names something else.
+    pub fn predicate_of(&self, reference: &Ref) -> Option<String> {
+        let name = reference.name.name.as_str();
+        let decl = self.names.value(name, self.context.library);
+        if decl.is_none() && !is_built_in(name) {
+            return None;
+        }
+        let is_number = |ty: &Type| ty.dim().is_some();
+        Some(match decl.map(|(decl, _)| decl) {
+            Some(Decl::Predicate(_)) => return None,
+            Some(Decl::Behavior(_)) => "behaviours are listed by `choose`".to_owned(),
+            Some(Decl::Tree(_)) => return None,
+            Some(Decl::Event(_)) => {
+                "remember it in a state, and ask that by a predicate".to_owned()
+            }
+            Some(Decl::Place(..) | Decl::Wall(..) | Decl::Robot(_)) => {
+                let called = spelled(name);
+                format!("say what is asked of it: `predicate NAME = visible({called})`")
+            }
+            Some(Decl::Sensor(_)) => {
+                let called = spelled(name);
+                format!("say what is asked of it: `predicate NAME = distance({called}) < …`")
+            }
+            Some(Decl::Variant(_, of, _)) => {
+                let (called, of) = (spelled(name), &of.name.name);
+                format!("ask a state of the enum `{of}`: `predicate NAME = STATE is {called}`")
+            }
+            None if matches!(name, "done" | "failed") => {
+                "what has ended is observed by `history last 1 success, failure`".to_owned()
+            }
+            Some(Decl::State(_)) if self.states.get(name).is_some_and(|it| is_number(&it.ty)) => {
+                let asked = print::expr(&called(reference));
+                format!("compare it, and give that a name: `predicate NAME = {asked} > …`")
+            }
+            None if !TRUTHS.contains(&name) => {
+                let asked = print::expr(&called(reference));
+                format!("compare it, and give that a name: `predicate NAME = {asked} > …`")
+            }
+            _ => format!("give it a name: {}", declaration(&called(reference))),
+        })
     }
 
     /// `done(b)`, `failed(b)`: whether the history window holds that end of a behaviour.
@@ -115,6 +156,19 @@ impl<'a> Checker<'a> {
             .label(label)
             .help_if(help)
             .none()
+    }
+}
+
+/// What is built in and holds or does not.
+const TRUTHS: [&str; 8] = [
+    "visible", "inside", "touching", "any", "all", "success", "failure", "running",
+];
+
+/// A reference as an expression.
+fn called(reference: &Ref) -> Expr {
+    Expr {
+        kind: ExprKind::Ref(reference.clone()),
+        span: reference.span,
     }
 }
 

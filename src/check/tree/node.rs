@@ -203,7 +203,7 @@ impl<'a> Checker<'a> {
             return condition(self);
         };
         let name = reference.name.name.as_str();
-        let Some((decl, library)) = self.names.value(name, self.context.library) else {
+        let Some((decl, library)) = self.value_of(&reference.name) else {
             if matches!(name, "done" | "failed") {
                 return condition(self);
             }

@@ -5,7 +5,11 @@ use crate::check::names::TypeDecl;
 use crate::check::types::Type;
 use crate::check::types::units::Dim;
 use crate::diagnostic::Code;
+use crate::spelling::spelled;
 use crate::syntax::ast::{Ident, TypeExpr};
+
+/// The most factors of a type that anybody would write.
+const FACTORS: u64 = 8;
 
 /// The names of built-in types.
 const BUILT_IN: &[(&str, Type)] = &[
@@ -25,6 +29,27 @@ const BUILT_IN: &[(&str, Type)] = &[
     ("sensor", Type::Sensor),
     ("target", Type::Target),
 ];
+
+/// The names of built-in types.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    BUILT_IN.iter().map(|(name, _)| *name)
+}
+
+impl Type {
+    /// The type as the language writes it; `None` of what is never written.
+    pub fn written(&self) -> Option<String> {
+        let named = BUILT_IN.iter().find(|(_, ty)| ty == self);
+        match self {
+            Type::Enum(name) | Type::Place(Some(name)) | Type::Wall(Some(name)) => {
+                Some(spelled(name).into_owned())
+            }
+            Type::Quantity(dim) if named.is_none() => {
+                (dim.factors() <= FACTORS).then(|| dim.written())
+            }
+            _ => named.map(|(name, _)| (*name).to_owned()),
+        }
+    }
+}
 
 impl<'a> Checker<'a> {
     /// The type that is written.
@@ -62,9 +87,14 @@ impl<'a> Checker<'a> {
     /// The type of that name: built in, an enum or a kind.
     pub fn named_type(&mut self, name: &Ident) -> Type {
         if let Some((_, ty)) = BUILT_IN.iter().find(|(known, _)| *known == name.name) {
+            self.is_built_in(name);
             return ty.clone();
         }
-        match self.names.types.get(name.name.as_str()) {
+        let found = self.names.types.get(name.name.as_str()).copied();
+        if let Some(decl) = found {
+            self.stands_for(name, decl.ident().span);
+        }
+        match found {
             Some(TypeDecl::Enum(_)) => Type::Enum(name.name.clone()),
             Some(TypeDecl::PlaceKind(_)) => Type::Place(Some(name.name.clone())),
             Some(TypeDecl::WallKind(_)) => Type::Wall(Some(name.name.clone())),

@@ -3,9 +3,34 @@
 use super::Builder;
 use crate::diagnostic::{Applicability, Code, Diagnostic, suggest};
 use crate::source::Span;
-use crate::syntax::ast::{self, Claim, ClaimWhat, NodeKind, Spanned, Tree, Word};
+use crate::syntax::ast::{
+    self, Arg, ArgKind, Claim, ClaimWhat, Expr, ExprKind, NodeKind, Ref, Spanned, Tree, Word,
+};
 use crate::syntax::grammar::{Node, Parts, Rule};
 use crate::syntax::words::{FOREIGN_NODES, NODES};
+
+/// The composite with memory that a single word means elsewhere: `SequenceWithMemory`, `memory_selector`.
+fn remembering(written: &str) -> Option<Word> {
+    let plain = written.replace('_', "").to_ascii_lowercase();
+    let ends = ["withmemory", "withmem", "memory", "mem"];
+    let rest = (ends.iter().find_map(|end| plain.strip_suffix(end)))
+        .or_else(|| ends.iter().find_map(|start| plain.strip_prefix(start)))?;
+    let mut words = NODES.iter().chain(&FOREIGN_NODES);
+    let (_, word) = words.find(|(spelling, _)| *spelling == rest)?;
+    matches!(word, Word::Selector | Word::Sequence).then_some(*word)
+}
+
+/// Whether an argument says `memory`, or `memory = true`.
+fn is_memory(arg: &Arg) -> bool {
+    match &arg.kind {
+        ArgKind::Positional(Expr {
+            kind: ExprKind::Ref(Ref { name, args, .. }),
+            ..
+        }) => name.name == "memory" && args.is_none(),
+        ArgKind::Named(name, value) => name.name == "memory" && value.kind == ExprKind::Bool(true),
+        _ => false,
+    }
+}
 
 impl<'i> Builder<'i> {
     pub(super) fn tree(&mut self, node: Node<'i>) -> Tree {
@@ -107,11 +132,32 @@ impl<'i> Builder<'i> {
         let Some(written) = written.or_else(|| parts.maybe(Rule::known_word)) else {
             return NodeKind::Error;
         };
-        let word = self.node_word(&written, memory.is_some());
-        let args = parts.maybe(Rule::args).map(|args| {
-            self.touching(&written, &args);
-            self.args(args)
+        let joined = remembering(written.as_str()).filter(|_| memory.is_none());
+        let word = match joined {
+            Some(_) => joined.map(|word| self.spanned(&written, word)),
+            None => self.node_word(&written, memory.is_some()),
+        };
+        let list = parts.maybe(Rule::args);
+        let mut wrong = joined.map(|_| self.span(&written));
+        let args = list.as_ref().map(|args| self.span(args));
+        let mut args = list.map(|list| {
+            self.touching(&written, &list);
+            (self.args(list), args)
         });
+        if let Some(late) = parts.maybe(Rule::wrong_memory) {
+            wrong = Some(self.span(&late));
+        } else if let Some((list, span)) = &args
+            && list.as_slice().first().is_some_and(is_memory)
+            && list.len() == 1
+        {
+            wrong = *span;
+            args = None;
+        }
+        let args = args.map(|(args, _)| args);
+        if let (Some(late), Some(word)) = (wrong, &word) {
+            self.late_memory(late, *word, memory.is_some());
+        }
+        let memory = memory.or(wrong);
         if let Some(node) = parts.maybe(Rule::unopened) {
             // Where its children end nobody knows.
             self.children(node);
@@ -130,6 +176,27 @@ impl<'i> Builder<'i> {
             },
             None => NodeKind::Error,
         }
+    }
+
+    /// Reports `memory` where it does not stand before its node.
+    fn late_memory(&mut self, late: Span, word: Spanned<Word>, twice: bool) {
+        let right = match twice {
+            true => word.node.spelling().to_owned(),
+            false => format!("memory {}", word.node.spelling()),
+        };
+        let message = match twice {
+            true => "`memory` is said twice".to_owned(),
+            false => format!("`memory` goes before `{}`", word.node.spelling()),
+        };
+        let diagnostic = Diagnostic::new(Code::E0101, late, message)
+            .label(format!("write `{right}`"))
+            .fix(
+                format!("write `{right}`"),
+                word.span.to(late),
+                right,
+                Applicability::Safe,
+            );
+        self.report(diagnostic);
     }
 
     /// The composite that `written` names; if none, what was likely meant.

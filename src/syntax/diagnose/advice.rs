@@ -71,6 +71,12 @@ impl Place<'_> {
             (Rule::strict_child, "{") if self.expects(Rule::node) => {
                 "braces belong to the word of a node: `sequence { … }`, `selector { … }`"
             }
+            (_, "{") if self.before() == "memory" => {
+                "`memory` goes before the word of a node: `memory sequence { … }`"
+            }
+            (_, "selector" | "sequence") if self.before() == "reactive" => {
+                "without `memory` a node asks all its children again in every tick: drop `reactive`"
+            }
             _ => return self.advised_on_names(diagnostic),
         };
         diagnostic.help(help)

@@ -1,4 +1,5 @@
-//! Habits of other languages: their comments, letters that only backquotes allow, outcomes that no history keeps.
+//! Habits of other languages: their comments, letters that only backquotes allow, outcomes that no history keeps, items
+//! that need none.
 
 use super::Place;
 use crate::diagnostic::{Applicability, Code, Diagnostic};
@@ -6,6 +7,7 @@ use crate::source::Span;
 use crate::spelling::quoted;
 use crate::syntax::grammar::Rule;
 use crate::syntax::tokens::Kind;
+use crate::syntax::words::{INNER, KINDS};
 
 /// What begins a comment elsewhere.
 const COMMENTS: [&str; 4] = ["#", "/*", "--", "<!--"];
@@ -72,6 +74,33 @@ impl Place<'_> {
         Some(
             Diagnostic::new(Code::E0101, self.span(), message)
                 .label("expected `success` or `failure`"),
+        )
+    }
+
+    /// A word that begins no item because what it says needs none, or stands within one.
+    pub(super) fn no_item(&self, code: Code) -> Option<Diagnostic> {
+        let word = self.found();
+        let message = format!("`{word}` does not begin an item");
+        let diagnostic = Diagnostic::new(code, self.span(), message);
+        let next = self.next().filter(|next| !self.parted(self.found, *next));
+        if let Some(next) = next.filter(|_| KINDS.contains(&word))
+            && matches!(next.kind, Kind::Word | Kind::Name)
+        {
+            let kind = next.of(self.text);
+            return Some(
+                diagnostic
+                    .label("a kind needs no declaration")
+                    .help(format!(
+                        "say it where a place or a wall is of this kind: `place NAME: {kind} = …`"
+                    )),
+            );
+        }
+        let mut inner = INNER.iter();
+        let (_, whole, example) = inner.find(|(words, ..)| words.contains(&word))?;
+        Some(
+            diagnostic
+                .label(format!("this stands in {whole}"))
+                .help(format!("put it there: `{example}`")),
         )
     }
 }

@@ -234,6 +234,9 @@ impl Place<'_> {
                 .to(Span::new(self.file, self.found.end, self.next()?.start));
             return Some(diagnostic.fix(format!("drop `{word}`"), drop, "", Applicability::Unsafe));
         }
+        if at_item && let Some(diagnostic) = self.no_item(code) {
+            return Some(diagnostic);
+        }
         let near = (FOREIGN.iter())
             .filter(|(foreign, _)| *foreign == word)
             .map(|(_, meant)| *meant)
