@@ -3,7 +3,9 @@
 use super::ground::Ground;
 use crate::ir::Id;
 use crate::ir::law::Behavior;
-use crate::ir::tree::Status;
+use crate::ir::tree::{Node, Status};
+use crate::tree::Runner;
+use crate::trial::play::Ticked;
 use crate::learn::discount::Discounting;
 use crate::learn::episode::Controller;
 use crate::learn::process::{Earned, End, Key, Process, World};
@@ -187,6 +189,7 @@ impl Evidence {
     ) -> (Visits, u64) {
         let mut visits = Visits::default();
         let (mut used, mut episodes) = (0, 0);
+        let excursions = Excursion::all(ground, self);
         while used < ticks {
             // As many as are left at the length of those before.
             let length = used.checked_div(episodes).unwrap_or(start.limit);
@@ -203,7 +206,7 @@ impl Evidence {
                         ground,
                         &mut process,
                         &mut controller.clone(),
-                        explore,
+                        (explore, &excursions),
                         start,
                     )
                 })
@@ -432,34 +435,29 @@ impl Gathered {
         ground: &Ground<W>,
         process: &mut impl Process,
         controller: &mut impl Controller,
-        explore: f64,
+        (explore, excursions): (f64, &[Excursion]),
         start: Start,
     ) -> Self {
         let mut random = Random::new(start.seed, EXPLORATION + start.stream, start.episode);
         let mut gathered = Self::default();
         process.start(start);
         controller.reset();
+        let mut excursion: Option<Excursion> = None;
         loop {
-            let end = if random.unit() < explore {
+            if excursion.is_none() && random.unit() < explore {
                 controller.reset();
-                let choice = random.below(ground.choices.len() as u64) as usize;
-                let Some(behavior) = ground.choices.get(choice) else {
-                    return gathered;
-                };
-                let from = process.key();
-                let step = process.decide(*behavior, ground.patience, 0);
-                gathered.taken.push(Taken {
-                    from,
-                    choice,
-                    to: step.to,
-                    reward: step.reward,
-                    ticks: step.ticks,
-                    status: step.status,
-                    end: step.end,
-                });
-                step.end
-            } else {
-                gathered.follow(ground, process, controller)
+                let at = random.below(excursions.len() as u64) as usize;
+                excursion = excursions.get(at).cloned();
+            }
+            let end = match &mut excursion {
+                Some(trip) => {
+                    let (end, driver) = gathered.follow(ground, process, &mut trip.runner);
+                    if trip.is_over(driver) || random.unit() < HOME {
+                        excursion = None;
+                    }
+                    end
+                }
+                None => gathered.follow(ground, process, controller).0,
             };
             if end != End::Not {
                 gathered.ticks = process.ticks();
@@ -474,7 +472,7 @@ impl Gathered {
         ground: &Ground<W>,
         process: &mut impl Process,
         controller: &mut impl Controller,
-    ) -> End {
+    ) -> (End, Option<(Id<Behavior>, Status)>) {
         let from = process.key();
         let patience = ground.patience.unwrap_or(u64::MAX);
         let mut ticks = 0;
@@ -528,7 +526,44 @@ impl Gathered {
             } else if self.visits.last() != Some(&(from, usize::MAX)) {
                 self.visits.push((from, usize::MAX));
             }
-            return end;
+            return (end, driver);
+        }
+    }
+}
+
+/// The part of the decisions of an excursion after which it is given up.
+const HOME: f64 = 0.1;
+
+/// A way to explore: a small tree that is followed until it is done, or fails.
+#[derive(Clone, Debug)]
+struct Excursion {
+    runner: Ticked,
+    /// The behaviour that ends it when it succeeds.
+    last: Option<Id<Behavior>>,
+}
+
+impl Excursion {
+    fn all<W: World>(ground: &Ground<W>, evidence: &Evidence) -> Vec<Self> {
+        let bodies = super::bodies::bodies(ground, evidence).into_iter();
+        let remembers = |node: &Node| matches!(node, Node::Composite { memory: true, .. });
+        let bodies = bodies.filter(|body| !remembers(body));
+        bodies
+            .filter_map(|body| {
+                let mut last = None;
+                body.visit_behaviors(&mut |behavior| last = last.or(Some(behavior)));
+                Some(Self {
+                    runner: Ticked(Runner::new(&body, ground.world.atoms()).ok()?),
+                    last,
+                })
+            })
+            .collect()
+    }
+
+    fn is_over(&self, driver: Option<(Id<Behavior>, Status)>) -> bool {
+        match driver {
+            None | Some((_, Status::Failure)) => true,
+            Some((behavior, Status::Success)) => self.last == Some(behavior),
+            Some(_) => false,
         }
     }
 }
