@@ -171,7 +171,11 @@ fn bringers<W: World>(
             };
             all += cell.count;
             for (to, count) in cell.next() {
-                if evidence.keys().get(to).is_some_and(|to| holds(*to, literal)) {
+                if evidence
+                    .keys()
+                    .get(to)
+                    .is_some_and(|to| holds(*to, literal))
+                {
                     brought += count;
                 }
             }
