@@ -10,6 +10,7 @@ pub mod cover;
 pub mod evidence;
 pub mod field;
 pub mod front;
+mod gathered;
 pub mod ground;
 mod grower;
 pub mod guards;

@@ -6,14 +6,24 @@
 use super::evidence::{Evidence, KNOWN};
 use super::ground::Ground;
 use crate::ir::tree::{Composite, Guard, Node};
-use crate::learn::process::World;
-use crate::tree::guard::not;
+use crate::learn::process::{Key, World};
+use crate::tree::guard::{and, not};
 use crate::tree::unit::{guarded, memory, selector};
 
-/// How far the parts that fail at once must be apart for a literal to tell them.
-const TELLS: f64 = 0.8;
+/// The most of its decisions that fail at once where a behaviour counts as working.
+const WORKS: f64 = 0.2;
+/// The fewest of its decisions that fail at once elsewhere.
+const FAILS: f64 = 0.6;
+/// The literals of a condition, and the conditions of a behaviour, at most.
+const LITERALS: usize = 3;
+const CONDITIONS: usize = 4;
 /// The behaviours that are tried as what brings a literal about.
 const BRINGERS: usize = 2;
+/// How much oftener than behaviours do on average one brings a literal about that it is tried for.
+const OFTENER: f64 = 1.5;
+
+/// A literal: the number of an atom, and its value.
+type Literal = (usize, bool);
 
 /// The bodies, the behaviours first.
 pub fn bodies<W: World>(ground: &Ground<W>, evidence: &Evidence) -> Vec<Node> {
@@ -27,65 +37,120 @@ pub fn bodies<W: World>(ground: &Ground<W>, evidence: &Evidence) -> Vec<Node> {
             found.push(node);
         }
     };
-    for choice in 0..ground.choices.len() {
-        let Some((bit, value)) = condition(ground, evidence, choice) else {
-            continue;
-        };
-        let (Some(atom), Some(then)) = (ground.world.atoms().get(bit), ground.choices.get(choice))
-        else {
-            continue;
-        };
-        let literal = match value {
-            true => Guard::Atom(*atom),
-            false => not(Guard::Atom(*atom)),
-        };
-        for bringer in bringers(ground, evidence, choice, (bit, value)) {
-            let Some(first) = ground.choices.get(bringer) else {
-                continue;
-            };
-            let (first, then) = (Node::Behavior(*first), Node::Behavior(*then));
-            let unit = guarded(literal.clone(), then.clone());
-            add(selector([unit, first.clone()]));
-            add(memory(Composite::Sequence, [first, then]));
+    for (choice, then) in ground.choices.iter().enumerate() {
+        for condition in conditions(ground, evidence, choice) {
+            let literals = condition.iter().filter_map(|(bit, value)| {
+                let atom = Guard::Atom(*ground.world.atoms().get(*bit)?);
+                Some(if *value { atom } else { not(atom) })
+            });
+            let guard = and(literals);
+            for literal in &condition {
+                for bringer in bringers(ground, evidence, choice, *literal) {
+                    let Some(first) = ground.choices.get(bringer) else {
+                        continue;
+                    };
+                    let (first, then) = (Node::Behavior(*first), Node::Behavior(*then));
+                    let unit = guarded(guard.clone(), then.clone());
+                    add(selector([unit, first.clone()]));
+                    add(memory(Composite::Sequence, [first, then]));
+                }
+            }
         }
     }
     found
 }
 
-/// The literal that best tells where a choice fails at once; `None` if it seldom does, or no literal tells.
-fn condition<W: World>(
+/// Decisions for one behaviour in a minterm.
+#[derive(Clone, Copy)]
+struct Tried {
+    key: Key,
+    all: f64,
+    refused: f64,
+}
+
+fn holds(key: Key, (bit, value): Literal) -> bool {
+    (key >> bit & 1 == 1) == value
+}
+
+/// Decisions, and those of them that failed at once.
+fn sums(tried: &[Tried]) -> (f64, f64) {
+    tried.iter().fold((0.0, 0.0), |(all, refused), it| {
+        (all + it.all, refused + it.refused)
+    })
+}
+
+/// Where a choice works that fails at once elsewhere: conjunctions, one for each place or reason, the most common first.
+fn conditions<W: World>(
     ground: &Ground<W>,
     evidence: &Evidence,
     choice: usize,
-) -> Option<(usize, bool)> {
-    // For each literal: how often the choice failed at once where it holds, and how often it was taken.
-    let mut sums = vec![[[0.0; 2]; 2]; ground.observed];
-    for (row, key) in evidence.keys().iter().enumerate() {
-        let Some(cell) = evidence.cells(row).get(choice) else {
-            continue;
+) -> Vec<Vec<Literal>> {
+    let rows = evidence.keys().iter().enumerate();
+    let mut left: Vec<Tried> = rows
+        .filter_map(|(row, key)| {
+            let cell = evidence.cells(row).get(choice)?;
+            let refused = cell.refused() * cell.count;
+            (cell.count > 0.0).then_some(Tried {
+                key: *key,
+                all: cell.count,
+                refused,
+            })
+        })
+        .collect();
+    let mut found = Vec::new();
+    while found.len() < CONDITIONS {
+        let (all, refused) = sums(&left);
+        if all - refused < KNOWN || refused < FAILS * all {
+            break;
+        }
+        let Some(condition) = condition(&left, ground.observed) else {
+            break;
         };
-        for (bit, sum) in sums.iter_mut().enumerate() {
-            let at = usize::from(key >> bit & 1 == 1);
-            if let Some([refused, all]) = sum.get_mut(at) {
-                *refused += cell.refused() * cell.count;
-                *all += cell.count;
+        left.retain(|it| !condition.iter().all(|literal| holds(it.key, *literal)));
+        found.push(condition);
+    }
+    found
+}
+
+/// The conjunction that keeps most of the decisions that do not fail at once, and hardly another, literal by literal.
+fn condition(tried: &[Tried], atoms: usize) -> Option<Vec<Literal>> {
+    let mut rows = tried.to_vec();
+    let mut condition: Vec<Literal> = Vec::new();
+    loop {
+        let (all, refused) = sums(&rows);
+        if refused <= WORKS * all {
+            return (!condition.is_empty()).then_some(condition);
+        }
+        if condition.len() == LITERALS {
+            return None;
+        }
+        let now = information(all, refused);
+        let mut best: Option<(f64, Literal)> = None;
+        for bit in 0..atoms {
+            for value in [true, false] {
+                let literal = (bit, value);
+                let kept = rows.iter().filter(|it| holds(it.key, literal));
+                let (all, refused) = kept.fold((0.0, 0.0), |(all, refused), it| {
+                    (all + it.all, refused + it.refused)
+                });
+                if all - refused < KNOWN {
+                    continue;
+                }
+                let gain = (all - refused) * (now - information(all, refused));
+                if gain > 1e-9 && best.is_none_or(|(most, _)| gain > most) {
+                    best = Some((gain, literal));
+                }
             }
         }
+        let (_, literal) = best?;
+        rows.retain(|it| holds(it.key, literal));
+        condition.push(literal);
     }
-    let mut best: Option<((usize, bool), f64)> = None;
-    for (bit, [off, on]) in sums.into_iter().enumerate() {
-        let part = |[refused, all]: [f64; 2]| (all >= KNOWN).then(|| refused / all);
-        let (Some(off), Some(on)) = (part(off), part(on)) else {
-            continue;
-        };
-        // The choice works where the literal holds.
-        for (value, gap) in [(true, off - on), (false, on - off)] {
-            if gap >= TELLS && best.is_none_or(|(_, most)| gap > most) {
-                best = Some(((bit, value), gap));
-            }
-        }
-    }
-    best.map(|(literal, _)| literal)
+}
+
+/// The information of knowing that a decision does not fail at once, in nats (the gain of FOIL: Quinlan 1990).
+fn information(all: f64, refused: f64) -> f64 {
+    -crate::math::ln(((all - refused) / all).max(f64::MIN_POSITIVE))
 }
 
 /// The choices after which a literal most often came to hold where it did not.
@@ -93,27 +158,35 @@ fn bringers<W: World>(
     ground: &Ground<W>,
     evidence: &Evidence,
     choice: usize,
-    (bit, value): (usize, bool),
+    literal: Literal,
 ) -> Vec<usize> {
-    let holds = |key: u128| (key >> bit & 1 == 1) == value;
     let mut rates: Vec<(f64, usize)> = Vec::new();
-    for other in (0..ground.choices.len()).filter(|other| *other != choice) {
+    let (mut whole, mut everywhere) = (0.0, 0.0);
+    for other in 0..ground.choices.len() {
         let (mut brought, mut all) = (0.0, 0.0);
         for (row, key) in evidence.keys().iter().enumerate() {
-            let Some(cell) = evidence.cells(row).get(other).filter(|_| !holds(*key)) else {
+            let cells = evidence.cells(row);
+            let Some(cell) = cells.get(other).filter(|_| !holds(*key, literal)) else {
                 continue;
             };
             all += cell.count;
             for (to, count) in cell.next() {
-                if evidence.keys().get(to).is_some_and(|to| holds(*to)) {
+                if evidence
+                    .keys()
+                    .get(to)
+                    .is_some_and(|to| holds(*to, literal))
+                {
                     brought += count;
                 }
             }
         }
-        if brought > 0.0 {
+        whole += brought;
+        everywhere += all;
+        if other != choice && brought > 0.0 {
             rates.push((brought / all, other));
         }
     }
+    rates.retain(|(rate, _)| rate * everywhere >= OFTENER * whole);
     rates.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
     rates
         .into_iter()

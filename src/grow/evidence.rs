@@ -1,41 +1,16 @@
 //! What decisions led to, counted: a model of the process as the trees that grow meet it.
 
+use super::gathered::{Excursion, Gathered, Taken};
 use super::ground::Ground;
-use crate::ir::Id;
-use crate::ir::law::Behavior;
 use crate::ir::tree::Status;
 use crate::learn::discount::Discounting;
 use crate::learn::episode::Controller;
-use crate::learn::process::{Earned, End, Key, Process, World};
+use crate::learn::process::{End, Key, World};
 use crate::learn::solve::{Outlook, Problem};
-use crate::random::Random;
-use crate::world::{self, Start, Tick};
+use crate::world::Start;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 use serde::{Deserialize, Serialize};
-
-/// A decision with its outcome.
-#[derive(Clone, Copy, Debug)]
-struct Taken {
-    from: Key,
-    choice: usize,
-    to: Key,
-    reward: f64,
-    ticks: u64,
-    status: Status,
-    end: End,
-}
-
-/// The behaviour that drove for a while, and the minterm.
-type Visit = (Key, usize);
-
-/// What one episode gave.
-#[derive(Debug, Default)]
-struct Gathered {
-    taken: Vec<Taken>,
-    visits: Vec<Visit>,
-    ticks: u64,
-}
 
 /// How the future counts: as the learner says, or far.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -187,6 +162,7 @@ impl Evidence {
     ) -> (Visits, u64) {
         let mut visits = Visits::default();
         let (mut used, mut episodes) = (0, 0);
+        let excursions = Excursion::all(ground, self);
         while used < ticks {
             // As many as are left at the length of those before.
             let length = used.checked_div(episodes).unwrap_or(start.limit);
@@ -203,7 +179,7 @@ impl Evidence {
                         ground,
                         &mut process,
                         &mut controller.clone(),
-                        explore,
+                        (explore, &excursions),
                         start,
                     )
                 })
@@ -213,7 +189,7 @@ impl Evidence {
                 for taken in &gathered.taken {
                     self.count(taken);
                 }
-                for (key, _) in gathered.visits {
+                for key in gathered.visits {
                     *visits.entry(key).or_default() += 1.0;
                 }
             }
@@ -421,158 +397,5 @@ impl Sight {
             Self::Learner => *learner,
             Self::Far => *far,
         }
-    }
-}
-
-/// The stream of the random choices, apart from those of the world.
-const EXPLORATION: u64 = 1 << 40;
-
-impl Gathered {
-    fn of<W: World>(
-        ground: &Ground<W>,
-        process: &mut impl Process,
-        controller: &mut impl Controller,
-        explore: f64,
-        start: Start,
-    ) -> Self {
-        let mut random = Random::new(start.seed, EXPLORATION + start.stream, start.episode);
-        let mut gathered = Self::default();
-        process.start(start);
-        controller.reset();
-        loop {
-            let end = if random.unit() < explore {
-                controller.reset();
-                let choice = random.below(ground.choices.len() as u64) as usize;
-                let Some(behavior) = ground.choices.get(choice) else {
-                    return gathered;
-                };
-                let from = process.key();
-                let step = process.decide(*behavior, ground.patience, 0);
-                gathered.taken.push(Taken {
-                    from,
-                    choice,
-                    to: step.to,
-                    reward: step.reward,
-                    ticks: step.ticks,
-                    status: step.status,
-                    end: step.end,
-                });
-                step.end
-            } else {
-                gathered.follow(ground, process, controller)
-            };
-            if end != End::Not {
-                gathered.ticks = process.ticks();
-                return gathered;
-            }
-        }
-    }
-
-    /// Ticks the controller until a decision is due. It is counted where one behaviour alone was ticked all along.
-    fn follow<W: World>(
-        &mut self,
-        ground: &Ground<W>,
-        process: &mut impl Process,
-        controller: &mut impl Controller,
-    ) -> End {
-        let from = process.key();
-        let patience = ground.patience.unwrap_or(u64::MAX);
-        let mut ticks = 0;
-        let mut driver: Option<(Id<Behavior>, Status)> = None;
-        let mut alone = true;
-        let mut earned = Earned::default();
-        loop {
-            process.begin_tick();
-            let before = driver;
-            let mut heard = Heard {
-                process: &mut *process,
-                calls: 0,
-                driver,
-            };
-            controller.tick(&mut heard);
-            let calls = heard.calls;
-            driver = heard.driver;
-            let tick = process.end_tick();
-            ticks += 1;
-            let same =
-                before.is_none_or(|(behavior, _)| driver.is_some_and(|(b, _)| b == behavior));
-            alone = alone && calls == 1 && same;
-            let due = tick.terminated || tick.closed || process.key() != from || ticks >= patience;
-            let Some(reward) = earned.after(&tick, due || tick.end.is_some()) else {
-                continue;
-            };
-            let end = match tick.end {
-                None => End::Not,
-                Some(world::End::On(line)) => End::Terminal(line),
-                Some(world::End::Cut) if due => End::Limit,
-                Some(world::End::Cut) => End::Cut,
-            };
-            let choice = driver.and_then(|(behavior, _)| {
-                ground.choices.iter().position(|choice| *choice == behavior)
-            });
-            if let (Some(choice), Some((_, status))) = (choice, driver) {
-                if self.visits.last() != Some(&(from, choice)) || status == Status::Success {
-                    self.visits.push((from, choice));
-                }
-                if alone {
-                    self.taken.push(Taken {
-                        from,
-                        choice,
-                        to: process.key(),
-                        reward,
-                        ticks,
-                        status,
-                        end,
-                    });
-                }
-            } else if self.visits.last() != Some(&(from, usize::MAX)) {
-                self.visits.push((from, usize::MAX));
-            }
-            return end;
-        }
-    }
-}
-
-/// A process that notes which behaviours are ticked.
-struct Heard<'p, P> {
-    process: &'p mut P,
-    calls: usize,
-    driver: Option<(Id<Behavior>, Status)>,
-}
-
-impl<P: Process> Process for Heard<'_, P> {
-    fn start(&mut self, start: Start) {
-        self.process.start(start);
-    }
-
-    fn key(&self) -> Key {
-        self.process.key()
-    }
-
-    fn atoms(&self) -> Key {
-        self.process.atoms()
-    }
-
-    fn begin_tick(&mut self) {
-        self.process.begin_tick();
-    }
-
-    fn act(&mut self, behavior: Id<Behavior>) -> Status {
-        let status = self.process.act(behavior);
-        self.calls += 1;
-        self.driver = Some((behavior, status));
-        status
-    }
-
-    fn end_tick(&mut self) -> Tick {
-        self.process.end_tick()
-    }
-
-    fn ticks(&self) -> u64 {
-        self.process.ticks()
-    }
-
-    fn events(&self) -> &[u64] {
-        self.process.events()
     }
 }

@@ -129,7 +129,7 @@ impl<'w> Field<'w> {
                 let mut worths: Vec<Option<f64>> = vec![None; ground.choices.len()];
                 for (choice, outlook) in states {
                     if let Some(worth) = worths.get_mut(*choice) {
-                        *worth = Some(problem.worth(outlook, &values));
+                        *worth = Some(problem.lasting(row, outlook, &values));
                     }
                 }
                 let known = || worths.iter().flatten().copied();

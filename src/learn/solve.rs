@@ -66,6 +66,15 @@ impl Problem {
         outlook.reward + next.map(|&(to, weight)| weight * value(to)).sum::<f64>()
     }
 
+    /// What a choice is worth that is taken again whenever it leads back to its own state, under the values of the others.
+    pub fn lasting(&self, state: usize, outlook: &Outlook, values: &[f64]) -> f64 {
+        let back = outlook.next.iter().filter(|(to, _)| *to == state);
+        let back: f64 = back.map(|(_, weight)| weight).sum();
+        let value = values.get(state).copied().unwrap_or(self.unknown);
+        let leaves = self.worth(outlook, values) - back * value;
+        leaves / (1.0 - back).max(1e-6)
+    }
+
     /// A low value among those of states with choices: one in ten is lower. For states of which nothing is known.
     pub fn low(&self, values: &[f64]) -> f64 {
         let known = self.states.iter().zip(values);

@@ -12,7 +12,7 @@ use rustc_hash::FxHashMap;
 
 /// The fewest nodes of a tree that is covered by smaller ones, and the part of the effort after which no more are made.
 const COVERED: usize = 20;
-const COVERS: f64 = 0.25;
+const COVERS: f64 = 0.15;
 /// The races of the trees that cover another.
 const RUNS: usize = 2;
 

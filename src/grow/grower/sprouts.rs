@@ -3,22 +3,29 @@
 use super::{Grower, add};
 use crate::grow::Starts;
 use crate::grow::bodies;
-use crate::grow::evidence::Sight;
+use crate::grow::evidence::{Sight, Visits};
 use crate::grow::field::{Aim, Field};
 use crate::grow::propose::Proposer;
 use crate::grow::step::{Stage, Step};
 use crate::ir::tree::Node;
 use crate::learn::process::World;
 use crate::tree::Size;
+use rustc_hash::FxHashSet;
 
 /// The most nodes of a tree that others are grown from in place of a single behaviour.
 const STEM: usize = 70;
 /// The most changes of a tree that the counts alone are asked for.
 const STEPS: usize = 40;
 /// The part of the effort after which no more is grown from the start.
-const SPROUTS: f64 = 0.4;
+const SPROUTS: f64 = 0.5;
 /// Rounds of growing from the start.
-const ROUNDS: usize = 2;
+const ROUNDS: usize = 4;
+/// How often a tree is grown anew, counted under what came of it before.
+const PASSES: usize = 4;
+/// What is left of the weight of visits after each of them.
+const KEPT: f64 = 0.6;
+/// The prices at which trees are grown from the best one, in parts of a node's.
+const PRICES: [f64; 3] = [1.0, 3.0, 1.0 / 3.0];
 
 impl<W: World> Grower<'_, '_, '_, W> {
     /// Trees grown by the counts alone, from a single behaviour and from the best tree, raced; several times.
@@ -39,38 +46,61 @@ impl<W: World> Grower<'_, '_, '_, W> {
             }
         }
         add(&mut visits, wider);
-        let sight = if round.is_multiple_of(2) {
-            Sight::Far
-        } else {
-            Sight::Learner
+        let (sight, aim) = match round {
+            0 => (Sight::Far, Aim::Of(&base)),
+            1 => (Sight::Learner, Aim::Best),
+            2 => (Sight::Far, Aim::Best),
+            _ => (Sight::Learner, Aim::Of(&base)),
         };
-        let bodies = bodies::bodies(self.ground, &self.evidence);
-        let aim = match round.is_multiple_of(2) {
-            true => Aim::Of(&base),
-            false => Aim::Best,
-        };
+        let mut trees = self.anew(sight, aim, &mut visits);
         let field = Field::new(self.ground, &self.evidence, sight, &visits, aim);
-        let mut trees: Vec<Node> = Vec::new();
-        for factor in [1.0, 3.0, 1.0 / 3.0] {
-            let proposer = Proposer {
-                field: &field,
-                bodies: &bodies,
-                requirements: self.settings.requirements,
-                price: self.price * factor,
-            };
-            let mut stems: Vec<Node> = single(&field, &bodies).into_iter().collect();
+        let bodies = bodies::bodies(self.ground, &self.evidence);
+        for factor in PRICES {
             if Size::of(&base).nodes <= STEM {
-                stems.push(base.clone());
-            }
-            for stem in stems {
-                for tree in sprouts(&proposer, stem) {
-                    if !trees.contains(&tree) && tree != base {
-                        trees.push(tree);
-                    }
-                }
+                let price = self.price * factor;
+                trees.extend(sprouts(
+                    &self.proposer(&field, &bodies, price),
+                    base.clone(),
+                ));
             }
         }
+        let mut seen = FxHashSet::default();
+        trees.retain(|tree| *tree != base && seen.insert(format!("{tree:?}")));
         (self.best_of(base, trees, 1), Step::Sprout(round + 1))
+    }
+
+    /// Trees grown from a single behaviour. What looks good and is not shows when it is played, so each pass knows more.
+    fn anew(&mut self, sight: Sight, aim: Aim, visits: &mut Visits) -> Vec<Node> {
+        let mut trees = Vec::new();
+        for _ in 0..PASSES {
+            let bodies = bodies::bodies(self.ground, &self.evidence);
+            let field = Field::new(self.ground, &self.evidence, sight, visits, aim);
+            let Some(stem) = single(&field, &bodies) else {
+                break;
+            };
+            let found = sprouts(&self.proposer(&field, &bodies, self.price), stem);
+            if let Some(last) = found.last() {
+                visits.values_mut().for_each(|weight| *weight *= KEPT);
+                let met = self.collect(last, 0.1);
+                add(visits, met);
+            }
+            trees.extend(found);
+        }
+        trees
+    }
+
+    fn proposer<'p, 'f>(
+        &'p self,
+        field: &'p Field<'f>,
+        bodies: &'p [Node],
+        price: f64,
+    ) -> Proposer<'p, 'f> {
+        Proposer {
+            field,
+            bodies,
+            requirements: self.settings.requirements,
+            price,
+        }
     }
 }
 
