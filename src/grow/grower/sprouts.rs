@@ -66,7 +66,13 @@ impl<W: World> Grower<'_, '_, '_, W> {
         }
         let mut seen = FxHashSet::default();
         trees.retain(|tree| *tree != base && seen.insert(format!("{tree:?}")));
-        (self.best_of(base, trees, 1), Step::Sprout(round + 1))
+        let found = self.best_of(base.clone(), trees, 1);
+        // Where both sights have found nothing, change by change finds more.
+        let next = match round > 0 && found == base {
+            true => Step::Climb(Stage::default()),
+            false => Step::Sprout(round + 1),
+        };
+        (found, next)
     }
 
     /// Trees grown from a single behaviour. What looks good and is not shows when it is played, so each pass knows more.
