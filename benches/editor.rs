@@ -1,35 +1,16 @@
 //! A keystroke in a file of 2000 lines: the text changes, what is wrong with it is told, and what an editor asks at once.
 #![allow(clippy::unwrap_used, reason = "a bench fails where it goes wrong")]
 
-use btc::driver::load::{Reader, load};
-use btc::lsp::{Server, Workspace};
+use btc::driver::load::load;
+use btc::lsp::Server;
 use criterion::{Criterion, criterion_group, criterion_main};
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::hint::black_box;
 
-/// No files but the open one.
-struct Nowhere;
-
-impl Reader for Nowhere {
-    fn read(&mut self, _: &str) -> Result<Vec<u8>, String> {
-        Err("there are no files here".to_owned())
-    }
-}
-
-impl Workspace for Nowhere {
-    fn reader(&self, _: &str) -> Box<dyn Reader + '_> {
-        Box::new(Nowhere)
-    }
-
-    fn programs(&self, _: &str) -> Vec<String> {
-        Vec::new()
-    }
-
-    fn library(&self) -> Option<String> {
-        None
-    }
-}
+#[path = "../tests/it/lsp/nowhere.rs"]
+mod nowhere;
+use nowhere::Nowhere;
 
 /// A sound program of 2000 lines of all sorts, with a world of 60 places.
 fn program() -> String {

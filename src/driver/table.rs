@@ -158,6 +158,9 @@ fn located(file: FileId, error: &TableError) -> Diagnostic {
         TableErrorKind::UnknownKind { name, .. } => found.help(format!(
             "the kinds are `{name}:number`, `{name}:number m` with a unit, `{name}:{{a,b}}` with the values, and `{name}` alone for 0 and 1"
         )),
+        TableErrorKind::OpenValues(name) => found
+            .label("`{` has no `}`")
+            .help(format!("the values stand in braces: `{name}:{{a,b}}`")),
         TableErrorKind::UnknownUnit(_) => {
             found.note("the units are those of the language: m, cm, mm, km, s, ms, min, h, deg, rad, Hz, %, and quotients such as m/s")
         }
@@ -200,6 +203,7 @@ fn code(kind: &TableErrorKind) -> Code {
         TableErrorKind::Undeclared { .. }
         | TableErrorKind::UnknownKind { .. }
         | TableErrorKind::UnknownUnit(_)
+        | TableErrorKind::OpenValues(_)
         | TableErrorKind::NoValues(_)
         | TableErrorKind::RepeatedValue(_) => Code::E0824,
         TableErrorKind::Foreign { .. } => Code::E0825,

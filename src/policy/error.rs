@@ -103,6 +103,8 @@ pub enum TableErrorKind {
     },
     /// A unit that the language does not have.
     UnknownUnit(String),
+    /// The list of a column's values has no end.
+    OpenValues(String),
     /// A column may have none of some values.
     NoValues(String),
     /// A column may have a value twice.
@@ -188,6 +190,9 @@ impl fmt::Display for TableError {
                 write!(f, "`{found}` is not a kind of column, as `{name}` would be")
             }
             TableErrorKind::UnknownUnit(unit) => write!(f, "`{unit}` is not a unit"),
+            TableErrorKind::OpenValues(name) => {
+                write!(f, "the values of `{name}` are not closed")
+            }
             TableErrorKind::NoValues(name) => write!(f, "`{name}` has no values"),
             TableErrorKind::RepeatedValue(value) => write!(f, "the value `{value}` stands twice"),
             TableErrorKind::NoValue { found, column, .. } if found.is_empty() => {

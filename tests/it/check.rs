@@ -21,12 +21,7 @@ fn loaded(path: &Path) -> Loaded {
 
 #[test]
 fn wrong_programs_show_their_mistakes() {
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots"));
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings.remove_input_file();
-    settings.bind(|| {
+    crate::snapshot::settings().bind(|| {
         insta::glob!("..", "cases/check/*.bt", |path| {
             insta::assert_snapshot!("check", program::shown(&loaded(path)));
         });

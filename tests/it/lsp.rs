@@ -5,6 +5,7 @@
 //! of the text as it is then, with `|` at the cursor.
 
 mod client;
+mod nowhere;
 mod whole;
 
 use client::Client;
@@ -55,12 +56,7 @@ fn conversation(case: &str) -> String {
 
 #[test]
 fn conversations() {
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots"));
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings.remove_input_file();
-    settings.bind(|| {
+    crate::snapshot::settings().bind(|| {
         insta::glob!("..", "cases/lsp/*.lsp", |path| {
             let case = fs::read_to_string(path).unwrap();
             insta::assert_snapshot!("lsp", conversation(&case));

@@ -20,12 +20,7 @@ fn loaded(path: &Path) -> Loaded {
 }
 
 fn cases(test: impl Fn(&Path)) {
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots"));
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings.remove_input_file();
-    settings.bind(|| insta::glob!("..", "cases/run/*.bt", test));
+    crate::snapshot::settings().bind(|| insta::glob!("..", "cases/run/*.bt", test));
 }
 
 #[test]

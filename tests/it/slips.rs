@@ -130,12 +130,7 @@ fn each_slip_is_told_at_its_place() {
 
 #[test]
 fn slips_are_told_in_these_words() {
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots"));
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings.remove_input_file();
-    settings.bind(|| {
+    crate::snapshot::settings().bind(|| {
         insta::glob!("..", "cases/slips/*.slip", |path| {
             let loaded = load("slip.bt", case(path).text.into(), &mut NoFiles);
             insta::assert_snapshot!("slip", program::shown(&loaded));

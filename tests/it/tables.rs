@@ -56,3 +56,10 @@ fn compared(made: &Made, table: Text) -> Proved {
     verify::table(&loaded(made), "learned", (table, None), None)
         .unwrap_or_else(|r| panic!("{}", shown(&r)))
 }
+
+/// A table whose first row is another than that of the tree's is refuted, by its line.
+fn is_found(made: &Made, table: &str) {
+    let refuted = compared(made, text("other.csv", table.as_bytes()));
+    assert!(!refuted.holds());
+    assert!(refuted.text.contains("other.csv:2: "), "{}", refuted.text);
+}

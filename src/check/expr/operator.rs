@@ -2,6 +2,7 @@
 
 use crate::check::Checker;
 use crate::check::expr::expect::is_literal;
+use crate::check::expr::plain_ref;
 use crate::check::types::units::Dim;
 use crate::check::types::{Type, Typed};
 use crate::diagnostic::Code;
@@ -153,6 +154,9 @@ impl<'a> Checker<'a> {
         if let Some(typed) = self.category(op, left, right, span) {
             return typed;
         }
+        if self.may_be_value(left, right) || self.may_be_value(right, left) {
+            return Typed::unknown(Type::Bool, span);
+        }
         let (a, b) = (self.expr(left), self.expr(right));
         if a.ty == Type::Error || b.ty == Type::Error {
             return Typed::unknown(Type::Bool, span);
@@ -185,6 +189,17 @@ impl<'a> Checker<'a> {
             _ => (Binary::Le, b, a),
         };
         self.lift_binary(op, Type::Bool, &a, &b, span)
+    }
+
+    /// Whether a name that is not declared may be a value of what its broken declaration does not tell.
+    fn may_be_value(&self, of: &'a Expr, value: &'a Expr) -> bool {
+        let (Some(of), Some(value)) = (plain_ref(of), plain_ref(value)) else {
+            return false;
+        };
+        let value = value.name.name.as_str();
+        let is_known = self.context.lookup(value).is_some()
+            || self.names.value(value, self.context.library).is_some();
+        self.names.is_lost(&of.name.name) && !is_known
     }
 
     /// A target as the number that says which one it is.

@@ -38,6 +38,8 @@ pub(super) enum Role {
     Visits,
     /// Nothing that is said of a table of values.
     Ignored,
+    /// Nothing that can be told: a list of values without an end takes in the columns behind it.
+    Open,
 }
 
 /// The name of a column and the kind that stands behind it.
@@ -51,6 +53,11 @@ pub(super) fn divided(column: &str) -> Option<(&str, &str)> {
         let known = word == "number" || kind.starts_with('{') || FOREIGN.contains(&word.as_str());
         (known && !name.is_empty()).then_some((name, kind))
     })
+}
+
+/// Whether a list of values begins and does not end.
+pub(super) fn is_open(kind: &str) -> bool {
+    kind.starts_with('{') && !kind.ends_with('}')
 }
 
 /// What is assumed of a column without a kind.
@@ -92,6 +99,10 @@ pub(super) fn role(
         name: name.to_owned(),
         found: kind.to_owned(),
     };
+    if is_open(kind) {
+        builder.report(place, TableErrorKind::OpenValues(name.to_owned()));
+        return Role::Open;
+    }
     if let Some(values) = kind.strip_prefix('{') {
         let values = values.strip_suffix('}').unwrap_or(values).split(',');
         let values = values.map(|value| bare(value.trim().trim_matches('"')).to_owned());
@@ -126,6 +137,7 @@ pub(super) fn role(
 pub(super) fn decides(builder: &mut Builder, roles: &[(Role, String)], header: &Range<usize>) {
     let mut deciding = roles.iter().filter(|(role, _)| *role == Role::Behavior);
     match (deciding.next(), deciding.next()) {
+        (None, _) if roles.iter().any(|(role, _)| *role == Role::Open) => {}
         (None, _) => builder.report(
             header,
             TableErrorKind::MissingColumn {

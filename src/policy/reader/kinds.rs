@@ -1,7 +1,7 @@
 //! Comma-separated text whose header says what the columns hold.
 
 use super::Units;
-use super::header::{Assumed, Role, decides, divided, role};
+use super::header::{Assumed, Role, decides, divided, is_open, role};
 use crate::policy::error::{TableError, TableErrorKind};
 use crate::policy::records::{self, Records};
 use crate::policy::valued::{Builder, Valued};
@@ -23,7 +23,7 @@ pub(super) fn names(text: &[u8], cells: &[Range<usize>]) -> Vec<(String, Range<u
             _ => names.push((name.into_owned(), cell.clone())),
         }
         let list = names.last().and_then(|(name, _)| divided(name));
-        open = list.is_some_and(|(_, kind)| kind.starts_with('{') && !kind.ends_with('}'));
+        open = list.is_some_and(|(_, kind)| is_open(kind));
     }
     names
 }
@@ -101,7 +101,7 @@ fn row(text: &[u8], cells: &[Range<usize>], roles: &[(Role, String)], builder: &
                     ),
                 },
             },
-            Role::Ignored => {}
+            Role::Ignored | Role::Open => {}
         }
     }
     builder.end(records::whole(cells));

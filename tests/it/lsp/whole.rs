@@ -1,33 +1,11 @@
 //! The server without a connection: texts that are cut and broken at any place, and renaming of all that has a name.
 
+use super::nowhere::Nowhere;
 use super::repository;
-use btc::driver::load::{Loaded, Reader, load};
-use btc::lsp::{Server, Workspace};
+use btc::driver::load::{Loaded, load};
+use btc::lsp::Server;
 use serde_json::{Value, json};
 use std::fs;
-
-/// No files but the open ones.
-struct Nowhere;
-
-impl Reader for Nowhere {
-    fn read(&mut self, _: &str) -> Result<Vec<u8>, String> {
-        Err("there are no files here".to_owned())
-    }
-}
-
-impl Workspace for Nowhere {
-    fn reader(&self, _: &str) -> Box<dyn Reader + '_> {
-        Box::new(Nowhere)
-    }
-
-    fn programs(&self, _: &str) -> Vec<String> {
-        Vec::new()
-    }
-
-    fn library(&self) -> Option<String> {
-        None
-    }
-}
 
 const URI: &str = "file:///robots/a.bt";
 

@@ -123,11 +123,7 @@ fn programs_read_json() {
 /// One file a case: what a person is shown, or the formatted text if nothing is wrong.
 #[test]
 fn cases() {
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots"));
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings.bind(|| {
+    crate::snapshot::settings().bind(|| {
         insta::glob!("../../cases/syntax", "*.bt", |path| {
             let text = std::fs::read_to_string(path).unwrap();
             let name = path.file_name().unwrap().to_string_lossy();

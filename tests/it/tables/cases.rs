@@ -14,11 +14,7 @@ use std::path::Path;
 
 /// Goes through the files of a folder of cases, with the name and the bytes of each, and snapshots what is made of it.
 fn each(folder: &str, name: &str, of: impl Fn(&str, &[u8]) -> String) {
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots"));
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings.remove_input_file();
+    let mut settings = crate::snapshot::settings();
     let base = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/tables");
     let mut files: Vec<_> = std::fs::read_dir(base.join(folder))
         .unwrap()
