@@ -39,6 +39,10 @@ pub enum Purpose {
     Count = 21,
     /// Improving a policy.
     Improve = 22,
+    /// Asking what it would be worth to see more.
+    Probe = 23,
+    /// Two trees that see different things against each other.
+    Suggest = 24,
 }
 
 impl Purpose {

@@ -33,6 +33,7 @@ mod robust;
 mod run;
 mod slips;
 mod snapshot;
+mod suggest;
 mod svg;
 mod syntax;
 mod tables;
