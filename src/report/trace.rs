@@ -201,6 +201,27 @@ impl Trace {
         text
     }
 
+    /// A line for a person each: when, what held, what was done and what happened.
+    pub fn told(&self) -> Vec<String> {
+        let told = |line: &Line| {
+            let held = self.atoms.iter().enumerate();
+            let held = held.filter(|(bit, _)| line.found.atoms >> bit & 1 == 1);
+            let held: Vec<String> = held.map(|(_, name)| name.to_string()).collect();
+            let (behavior, status) = self.done(line);
+            let happened = self.happened(line);
+            let happened = match happened.is_empty() {
+                true => String::new(),
+                false => format!("; {}", happened.join(", ")),
+            };
+            let seconds = self.seconds(line.found.tick);
+            format!(
+                "{seconds:.1} s {{{}}}: {behavior} {status}{happened}",
+                held.join(", ")
+            )
+        };
+        self.lines.iter().map(told).collect()
+    }
+
     fn seconds(&self, ticks: u64) -> f64 {
         ticks as f64 * self.tick
     }
