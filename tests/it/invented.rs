@@ -10,16 +10,22 @@ mod world;
 use crate::program::{NoFiles, shown};
 use author::Author;
 use btc::driver::Text;
+use btc::driver::compile::{self, Form};
 use btc::driver::format::format;
 use btc::driver::load::{Loaded, load};
 use btc::driver::run::{Subject, run};
 use btc::driver::trace::{Step, trace};
+use btc::emit::form::TreeForm;
 use btc::emit::ir;
 use btc::geometry::Shape;
 use btc::report::trace::Found;
+use btc::{LearnOptions, Program};
 
 /// How many programs are invented.
-const PROGRAMS: u64 = 60;
+const PROGRAMS: u64 = 40;
+
+/// How many of them are learned from.
+const LEARNED: u64 = 4;
 
 fn loaded(text: &str) -> Loaded {
     load("invented.bt", text.as_bytes().to_vec(), &mut NoFiles)
@@ -66,16 +72,75 @@ fn they_run_without_a_robot_in_a_wall() {
     all(|seed, text, loaded, trees| {
         for tree in trees {
             let subject = Subject::tree(loaded, tree).unwrap();
-            let first = trace(loaded, &subject, 0..2, seed, Step::Tick).unwrap();
+            let first = trace(loaded, &subject, 0..1, seed, Step::Tick).unwrap();
             for line in &first.lines {
                 stands_free(loaded, &line.found, &format!("seed {seed}, {tree}\n{text}"));
             }
-            let second = trace(loaded, &subject, 0..2, seed, Step::Tick).unwrap();
+            let second = trace(loaded, &subject, 0..1, seed, Step::Tick).unwrap();
             assert_eq!(first.csv(), second.csv(), "seed {seed}, {tree}");
             let played = || format!("{:?}", run(loaded, &subject, 2, seed).unwrap());
             assert_eq!(played(), played(), "seed {seed}, {tree}");
         }
     });
+}
+
+#[test]
+fn their_trees_are_written_in_every_form() {
+    all(|seed, text, loaded, trees| {
+        for name in trees {
+            for form in [
+                TreeForm::Dot,
+                TreeForm::Json,
+                TreeForm::Svg,
+                TreeForm::BtCpp,
+                TreeForm::PyTrees,
+            ] {
+                // What a form has no counterpart for is refused.
+                let _ = compile::emit(loaded, Form::Tree(form), Some(name));
+            }
+            let printed = compile::emit(loaded, Form::Tree(TreeForm::Bt), Some(name)).unwrap();
+            let renamed = printed.replace(&format!("tree {name} "), &format!("tree {name}_again "));
+            let again = self::loaded(&format!("{text}\n{renamed}"));
+            assert!(
+                !again.has_errors(),
+                "seed {seed}\n{printed}\n{}",
+                shown(&again)
+            );
+            let known = again.program.trees.values().last().unwrap();
+            let tree = loaded
+                .program
+                .trees
+                .values()
+                .find(|tree| tree.name.to_string() == *name);
+            assert_eq!(known.root, tree.unwrap().root, "seed {seed}\n{printed}");
+        }
+    });
+}
+
+#[test]
+fn they_can_be_learned_from() {
+    for seed in 0..LEARNED {
+        let (text, _) = Author::new(seed).program();
+        let options = LearnOptions {
+            roll_outs: 20,
+            tests: 20,
+            shape: btc::Shape::Exact,
+            ..LearnOptions::default()
+        };
+        let learn = || Program::from_text(&text).unwrap().learn(&options);
+        match (learn(), learn()) {
+            (Ok(one), Ok(other)) => assert_eq!(
+                one.file("learned.bt"),
+                other.file("learned.bt"),
+                "seed {seed}"
+            ),
+            (one, other) => assert_eq!(
+                one.err().map(|e| e.to_string()),
+                other.err().map(|e| e.to_string()),
+                "seed {seed}"
+            ),
+        }
+    }
 }
 
 /// No robot is in a wall that always stands, outside of the arena or in another robot.

@@ -36,7 +36,9 @@ pub fn claims(loaded: &Loaded) -> Result<Vec<Proved>, Refused> {
                 let (mut proved, shortest) =
                     tested(loaded, &mut tests, (task, &tree.root), claim, occurrence)?;
                 if let Some(shortest) = shortest {
-                    proved.text.push_str(&failing(loaded, id, shortest)?);
+                    proved
+                        .text
+                        .push_str(&failing(loaded, id, &claim.kind, shortest)?);
                 }
                 proved
             }
@@ -129,16 +131,25 @@ fn tested<'a>(
 /// How many decisions of a failing episode are told.
 const TOLD: usize = 6;
 
-/// The end of an episode in which a claim fails, and how to see the whole of it.
+/// The end of an episode in which a claim fails, or what led to the event that never was to happen, and how to see the whole of
+/// it.
 fn failing(
     loaded: &Loaded,
     tree: Id<Tree>,
+    kind: &ClaimKind,
     (episode, ticks): (u64, u64),
 ) -> Result<String, Refused> {
     let subject = Subject::Tree(tree);
     let episodes = episode..episode + 1;
     let mut trace = trace::trace(loaded, &subject, episodes, SEED, Step::Decision)?;
     trace.lines.retain(|line| line.found.tick < ticks);
+    if let ClaimKind::Never(never) = kind {
+        let lines = &mut trace.lines;
+        let first = lines
+            .iter()
+            .position(|line| line.events.contains(&never.event));
+        lines.truncate(first.map_or(lines.len(), |at| at + 1));
+    }
     let file = loaded.sources.get(loaded.main);
     let file = file.map_or("FILE", |file| &file.name);
     let mut text = format!(
