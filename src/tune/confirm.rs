@@ -78,7 +78,7 @@ pub(super) fn confirm(
         let tested = tests.event((subject.task, subject.root), occurrence, false)?;
         let event = occurrence.event.index();
         let met = never.contains(&event) && happened(&episodes, &[event]) > 0;
-        if tested.refuted || met {
+        if tested.refuted() || met {
             refuted.push(claim.text.clone());
         }
     }

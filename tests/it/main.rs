@@ -10,6 +10,7 @@
 mod changes;
 mod check;
 mod checking;
+mod claims;
 mod cli;
 mod edits;
 mod environment;
@@ -19,6 +20,7 @@ mod export;
 mod functions;
 mod grow;
 mod house;
+mod invented;
 mod learn;
 mod limits;
 mod logic;
