@@ -122,7 +122,8 @@ impl Search<'_> {
                 if list.nodes() < now {
                     stale = 0;
                 }
-                if whole || list.nodes() <= now.saturating_add(more) {
+                let anew = whole && attempt >= starts;
+                if anew || list.nodes() <= now.saturating_add(more) {
                     present = Some(list);
                 }
             }
