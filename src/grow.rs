@@ -16,6 +16,7 @@ mod grower;
 pub mod guards;
 pub mod iterate;
 pub mod place;
+pub mod probe;
 pub mod propose;
 pub mod race;
 mod step;
@@ -35,7 +36,7 @@ use crate::tree::prune::Requirement;
 pub use front::{Choice, Figures, Grown, Point};
 use ground::Ground;
 use grower::Grower;
-use iterate::Iteration;
+use iterate::{Iteration, Pace};
 
 /// What a search starts from.
 #[derive(Clone, Debug)]
@@ -129,6 +130,7 @@ fn improve_from<W: World>(
         unseen,
         least: experiment.evidence,
         effort: share(effort, ITERATING),
+        pace: Pace::THOROUGH,
     };
     let iterated = iteration.run(&run.decisions, part);
     let ticks = iterated.ticks;

@@ -24,6 +24,7 @@ mod results;
 mod run;
 mod size;
 pub mod store;
+mod suggest;
 mod test;
 mod tune;
 mod verify;
@@ -69,6 +70,8 @@ enum Command {
     Run(run::Arguments),
     /// Search for better values of the numbers that may be tuned.
     Tune(tune::Arguments),
+    /// Look for a predicate that lets a learner learn a better tree.
+    Suggest(suggest::Arguments),
     /// Prove two trees, or a tree and a policy table, equal, or show where they part.
     Verify(verify::Arguments),
     /// Say which decisions of a tree or a table have changed, each change under one condition.
@@ -128,6 +131,7 @@ pub fn main() -> ExitCode {
         Command::Canonicalize(arguments) => canonicalize::run(&arguments, &say),
         Command::Run(arguments) => run::run(&arguments, &say),
         Command::Tune(arguments) => tune::run(&arguments, &say),
+        Command::Suggest(arguments) => suggest::run(&arguments, &say),
         Command::Verify(arguments) => verify::run(&arguments, &say),
         Command::Diff(arguments) => diff::run(&arguments, &say),
         Command::Test(arguments) => test::run(&arguments, &say),

@@ -28,9 +28,12 @@ pub(super) struct Arguments {
     /// How to write the figures.
     #[arg(long, value_name = "FORM", default_value = "human")]
     format: Format,
-    /// Draw the world with the way of the robot in the first episode, as SVG.
+    /// Draw the world with the way of the robot in an episode, as SVG.
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
+    /// Which episode to draw, and to trace from on.
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u64).range(..PLAYED))]
+    episode: u64,
     /// How many ticks of it to draw.
     #[arg(long, value_name = "N", default_value_t = 2_000, requires = "svg")]
     svg_ticks: u64,
@@ -71,6 +74,8 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
             false => Step::Decision,
         };
         let episodes = arguments.trace_episodes;
+        let first = arguments.episode;
+        let episodes = first..first.saturating_add(episodes);
         let trace = trace::trace(&loaded, &subject, episodes, arguments.seed, step)
             .map_err(|refused| say.refused(&refused))?;
         let by_name = path.extension().filter(|end| *end == "jsonl");
@@ -87,8 +92,13 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     let ran = run::run(&loaded, &subject, arguments.episodes, arguments.seed)
         .map_err(|refused| say.refused(&refused))?;
     if let Some(path) = &arguments.svg {
-        let picture = picture::draw(&loaded, &subject, arguments.seed, arguments.svg_ticks)
-            .map_err(|refused| say.refused(&refused))?;
+        let picture = picture::draw(
+            &loaded,
+            &subject,
+            (arguments.seed, arguments.episode),
+            arguments.svg_ticks,
+        )
+        .map_err(|refused| say.refused(&refused))?;
         files::write(path, &picture)?;
     }
     match arguments.format {

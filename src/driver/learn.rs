@@ -17,6 +17,7 @@ use crate::ir::tree::Tree;
 use crate::learn::curve::Point;
 use crate::learn::experiment::Experiment;
 use crate::policy::Policy;
+use crate::report::results::Results;
 use crate::tree::decanonicalise::{Care, Method};
 use crate::tree::prove::Refuted;
 use crate::trial::Unplayable;
@@ -164,9 +165,22 @@ pub fn learn(
     let id = target::learner(loaded, options.learner)?;
     let experiment = Experiment::new(program, id, options.episodes, options.evidence)
         .map_err(|error| world::unplayable(loaded, error))?;
-    let results = pipeline::learn(&experiment, options, progress);
-    let results = results.map_err(|why| unlearned(loaded, &why, options.evidence))?;
+    let results = found(loaded, &experiment, options, progress)?;
     files::written(loaded, options, id, results)
+}
+
+/// What a learner of a program finds.
+///
+/// # Errors
+/// Nothing was learned, or the tree was refuted.
+pub(super) fn found<'e>(
+    loaded: &Loaded,
+    experiment: &'e Experiment<'e>,
+    options: &Options,
+    progress: &(dyn Fn(Stage) + Sync),
+) -> Result<Results<'e>, Refused> {
+    let results = pipeline::learn(experiment, options, progress);
+    results.map_err(|why| unlearned(loaded, &why, options.evidence))
 }
 
 /// Why nothing was learned, with what may help.

@@ -1,10 +1,12 @@
 //! A program with everything that it uses.
 
+mod again;
+
 use super::digest::sha256;
 use super::text::{Text, decode};
 use crate::check::{self, Input, Meanings};
 use crate::diagnostic::{self, Applicability, Code, Diagnostic, render};
-use crate::ir::{Name, Program};
+use crate::ir::Program;
 use crate::source::{FileId, Source, Sources, Span};
 use crate::syntax;
 use crate::syntax::ast::{self, ItemKind, Spanned, UseWhat};
@@ -105,17 +107,6 @@ impl Loaded {
         };
         self.used.iter().map(Parsed::input).chain([main]).collect()
     }
-
-    /// The program with other values for its tunables, in their units. Behaviours, predicates and trees keep their ids.
-    /// `None` if it has mistakes under these values.
-    pub fn revalued(&self, values: &[f64]) -> Option<Program> {
-        let tuned = self.tunes.iter().zip(values);
-        let tuned = tuned.flat_map(|(sites, value)| sites.iter().map(|site| (*site, *value)));
-        let checked = check::check_with(&self.inputs(), tuned.collect());
-        let program = checked.program;
-        let wrong = checked.diagnostics.iter().any(Diagnostic::is_error);
-        (!wrong && same_names(&self.program, &program)).then_some(program)
-    }
 }
 
 /// Loads and checks the program in `text`, which is called `name` and whose `use`s are relative to it.
@@ -188,19 +179,6 @@ fn follows(asts: &[&ast::File], found: &Diagnostic) -> bool {
     let misses = matches!(found.code, Code::E0402 | Code::E0502);
     let item = || ast.items.iter().find(|item| touches(at, item.span));
     misses && item().is_some_and(|item| places.iter().any(|place| touches(*place, item.span)))
-}
-
-/// Whether what trees are made of has the same ids in both programs.
-fn same_names(one: &Program, other: &Program) -> bool {
-    let predicates = |program: &Program| -> Vec<Name> {
-        let predicates = program.predicates.values();
-        predicates.map(|predicate| predicate.name.clone()).collect()
-    };
-    let behaviors = |program: &Program| -> Vec<Name> {
-        let behaviors = program.behaviors.values();
-        behaviors.map(|behavior| behavior.name.clone()).collect()
-    };
-    predicates(one) == predicates(other) && behaviors(one) == behaviors(other)
 }
 
 /// A file that was read.

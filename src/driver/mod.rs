@@ -23,6 +23,7 @@ mod refused;
 pub mod run;
 pub mod size;
 pub mod snapshot;
+pub mod suggest;
 pub mod table;
 pub mod target;
 mod text;

@@ -8,18 +8,25 @@ use crate::emit::svg;
 use crate::emit::svg::track::{Stand, Track, TrackTick};
 use crate::learn::simulated::Purpose;
 use crate::report::words::end_names;
-use crate::world::{End, Pose};
+use crate::world::{End, Pose, Start};
 
-/// Draws the world with the first `ticks` ticks of episode 0 of a seed, which is also the first that
-/// [`run`](super::run::run) plays.
+/// Draws the world with the first `ticks` ticks of an episode of a seed, which [`run`](super::run::run) plays as well.
 ///
 /// # Errors
 /// As [`run`](super::run::run).
-pub fn draw(loaded: &Loaded, subject: &Subject, seed: u64, ticks: u64) -> Result<String, Refused> {
+pub fn draw(
+    loaded: &Loaded,
+    subject: &Subject,
+    (seed, episode): (u64, u64),
+    ticks: u64,
+) -> Result<String, Refused> {
     let program = &loaded.program;
     let id = subject.task(loaded)?;
     let task = &program.tasks[id];
-    let begin = Purpose::Run.start(seed, task.end_after);
+    let begin = Start {
+        episode,
+        ..Purpose::Run.start(seed, task.end_after)
+    };
     let name = match subject {
         Subject::Tree(tree) => format!("tree {}", program.trees[*tree].name),
         Subject::Policy(..) => "policy".to_owned(),
@@ -52,7 +59,11 @@ pub fn draw(loaded: &Loaded, subject: &Subject, seed: u64, ticks: u64) -> Result
         steps,
         others,
     };
-    let mut caption = format!("{name}, seed {seed}, {} ticks", track.steps.len());
+    let which = match episode {
+        0 => String::new(),
+        episode => format!(", episode {episode}"),
+    };
+    let mut caption = format!("{name}, seed {seed}{which}, {} ticks", track.steps.len());
     if let Some(End::On(line)) = end
         && let Some(name) = end_names(program, task).get(line)
     {

@@ -8,6 +8,7 @@ use crate::learn::process::Earned;
 use crate::learn::simulated::Purpose;
 use crate::report::trace::{Found, Line, Trace};
 use crate::world::{Simulation, Start};
+use std::ops::Range;
 
 /// How fine a trace is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,14 +19,14 @@ pub enum Step {
     Tick,
 }
 
-/// Traces episodes 0 … n − 1 of a seed, which are also the first that [`run`](super::run::run) plays.
+/// Traces episodes of a seed, which [`run`](super::run::run) plays as well.
 ///
 /// # Errors
 /// As [`run`](super::run::run).
 pub fn trace(
     loaded: &Loaded,
     subject: &Subject,
-    episodes: u64,
+    episodes: Range<u64>,
     seed: u64,
     step: Step,
 ) -> Result<Trace, Refused> {
@@ -34,7 +35,7 @@ pub fn trace(
     let task = &program.tasks[id];
     let patience = task.patience.unwrap_or(u64::MAX);
     let mut trace = Trace::new(program, task);
-    for episode in 0..episodes {
+    for episode in episodes {
         let start = Start {
             episode,
             ..Purpose::Run.start(seed, task.end_after)

@@ -3,10 +3,10 @@
 use crate::ir::expr::{Draw, Expr, ExprId};
 use crate::ir::input::InputKind;
 use crate::ir::law::{Block, Law, Stmt};
-use crate::ir::name;
-use crate::ir::program::{Program, ValueKind};
+use crate::ir::program::{Program, State, ValueKind};
 use crate::ir::task::{Discount, Objective, Placing, StartLine, TreeRef};
 use crate::ir::tree::Tree;
+use crate::ir::{Id, name};
 use std::fmt::Write;
 
 /// The program, a definition a line, expressions written out.
@@ -296,9 +296,18 @@ impl Out<'_> {
                     };
                     format!("start of robot {} {what}", robot.index())
                 }
-                StartLine::State(id, value) => {
-                    let name = &self.program.states[*id].name;
-                    format!("start {name} = {}", self.expr(*value))
+                StartLine::State(parts) => {
+                    let name = |id: &Id<State>| self.program.states[*id].name.to_string();
+                    let set: Vec<String> = parts
+                        .iter()
+                        .map(|(id, value)| format!("{} = {}", name(id), self.expr(*value)))
+                        .collect();
+                    format!("start {}", set.join(", "))
+                }
+                StartLine::Member(of, block) => {
+                    self.line(1, format!("start {of}"));
+                    self.block(block, 2);
+                    continue;
                 }
                 StartLine::History(code) => format!("start history {}", self.expr(*code)),
             };

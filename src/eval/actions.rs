@@ -73,15 +73,22 @@ impl Action {
 /// The actions of a block, in order.
 pub(super) fn actions(pool: &Pool, block: &Block) -> Vec<Action> {
     let mut list = Vec::new();
-    push_block(pool, block, &mut list);
+    push_block(pool, block, &mut list, &mut Vec::new());
     decide_moments(pool, &mut list);
     list
 }
 
-fn push_block(pool: &Pool, block: &Block, list: &mut Vec<Action>) {
+/// The actions of a block in which these draws were made before.
+fn push_block(pool: &Pool, block: &Block, list: &mut Vec<Action>, drawn: &mut Vec<ExprId>) {
+    let outside = drawn.len();
     for statement in &block.0 {
-        let draws = |list: &mut Vec<Action>, expressions: &[ExprId]| {
-            list.extend(draws(pool, expressions).into_iter().map(Action::Draw));
+        let mut draws = |list: &mut Vec<Action>, expressions: &[ExprId]| {
+            for id in draws(pool, expressions) {
+                if !drawn.contains(&id) {
+                    drawn.push(id);
+                    list.push(Action::Draw(id));
+                }
+            }
         };
         match statement {
             Stmt::Let(temp, value) => {
@@ -97,15 +104,15 @@ fn push_block(pool: &Pool, block: &Block, list: &mut Vec<Action>) {
                 list.push(Action::SetLocal(*local, *value));
             }
             Stmt::If(condition, then, otherwise) => match pool.constant(*condition) {
-                Some(0.0) => push_block(pool, otherwise, list),
-                Some(_) => push_block(pool, then, list),
+                Some(0.0) => push_block(pool, otherwise, list, drawn),
+                Some(_) => push_block(pool, then, list, drawn),
                 None => {
                     draws(list, &[*condition]);
                     list.push(Action::If(*condition));
-                    push_block(pool, then, list);
+                    push_block(pool, then, list, drawn);
                     if !otherwise.0.is_empty() {
                         list.push(Action::Else);
-                        push_block(pool, otherwise, list);
+                        push_block(pool, otherwise, list, drawn);
                     }
                     list.push(Action::End);
                 }
@@ -128,6 +135,7 @@ fn push_block(pool: &Pool, block: &Block, list: &mut Vec<Action>) {
             }
         }
     }
+    drawn.truncate(outside);
 }
 
 /// The draws in some expressions, in the order in which they are made.

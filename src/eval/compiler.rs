@@ -5,7 +5,7 @@ use super::layout::{Fixed, Layout};
 use super::memo::Memo;
 use crate::ir::expr::{Local, Pose, Temp};
 use crate::ir::law::Behavior;
-use crate::ir::program::Event;
+use crate::ir::program::{Event, State};
 use crate::ir::world::Robot;
 use crate::ir::{Expr, ExprId, Id, Pool};
 use rustc_hash::FxHashMap;
@@ -136,6 +136,11 @@ impl<'a> Compiler<'a> {
         self.emit(Op::Fire, 0, event.index() as Register, 0);
         self.bind(no);
         Ok(())
+    }
+
+    /// The register of a state variable.
+    pub fn state_register(&self, state: Id<State>) -> Register {
+        self.layout.state(state)
     }
 
     /// The register of a part of a robot's pose.

@@ -155,11 +155,13 @@ impl Compiler<'_> {
         self.value(id).map(|_| ())
     }
 
-    /// Forgets what was computed from a leaf that has changed.
+    /// Forgets what was computed from a leaf that has changed. What was drawn stays as it is, whatever it was drawn from.
     fn forget(&mut self, leaf: Expr) {
         let pool = self.pool;
-        self.memo
-            .invalidate(|id| pool.any(id, &mut |expr| expr == leaf));
+        self.memo.invalidate(|id| match pool.get(id) {
+            drawn @ Expr::Draw(..) => drawn == leaf,
+            _ => pool.any(id, &mut |expr| expr == leaf),
+        });
     }
 }
 

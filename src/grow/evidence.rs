@@ -8,7 +8,6 @@ use crate::learn::episode::Controller;
 use crate::learn::process::{End, Key, World};
 use crate::learn::solve::{Outlook, Problem};
 use crate::world::Start;
-use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 use serde::{Deserialize, Serialize};
 
@@ -94,6 +93,8 @@ pub struct Evidence {
     cells: Vec<Cell>,
     /// The reward of failing at once: its sum, and how often it was met.
     refused: (f64, f64),
+    /// The most that a cell counts.
+    most: f64,
 }
 
 /// How often a tree was in each minterm in an episode, on average, by key.
@@ -116,6 +117,15 @@ impl Evidence {
             rows: FxHashMap::default(),
             cells: Vec::new(),
             refused: (0.0, 0.0),
+            most: MOST,
+        }
+    }
+
+    /// None, of a process that does not change: nothing makes room.
+    pub(super) fn whole<W>(ground: &Ground<W>) -> Self {
+        Self {
+            most: f64::INFINITY,
+            ..Self::new(ground)
         }
     }
 
@@ -164,26 +174,14 @@ impl Evidence {
         let (mut used, mut episodes) = (0, 0);
         let excursions = Excursion::all(ground, self);
         while used < ticks {
-            // As many as are left at the length of those before.
-            let length = used.checked_div(episodes).unwrap_or(start.limit);
-            let due = ((ticks - used) / length.max(1)).clamp(1, 200);
-            let gathered: Vec<Gathered> = (episodes..episodes + due)
-                .into_par_iter()
-                .map(|n| {
-                    let start = Start {
-                        episode: start.episode + n,
-                        ..start
-                    };
-                    let mut process = ground.world.process();
-                    Gathered::of(
-                        ground,
-                        &mut process,
-                        &mut controller.clone(),
-                        (explore, &excursions),
-                        start,
-                    )
-                })
-                .collect();
+            let gathered = Gathered::batch(
+                ground,
+                controller,
+                (explore, &excursions),
+                (start, episodes),
+                (ticks, used),
+            );
+            episodes += gathered.len() as u64;
             for gathered in gathered {
                 used += gathered.ticks;
                 for taken in &gathered.taken {
@@ -193,7 +191,6 @@ impl Evidence {
                     *visits.entry(key).or_default() += 1.0;
                 }
             }
-            episodes += due;
         }
         for count in visits.values_mut() {
             *count /= episodes as f64;
@@ -201,7 +198,8 @@ impl Evidence {
         (visits, used)
     }
 
-    fn count(&mut self, taken: &Taken) {
+    /// Counts a decision.
+    pub(super) fn count(&mut self, taken: &Taken) {
         // What the limit cut has no outcome.
         if taken.end == End::Cut {
             return;
@@ -217,8 +215,8 @@ impl Evidence {
         let Some(cell) = self.cells.get_mut(row * self.choices + taken.choice) else {
             return;
         };
-        if cell.count >= MOST {
-            let keep = (MOST - 1.0) / cell.count;
+        if cell.count >= self.most {
+            let keep = (self.most - 1.0) / cell.count;
             cell.count *= keep;
             cell.reward *= keep;
             cell.squares *= keep;

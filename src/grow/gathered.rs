@@ -15,6 +15,7 @@ use crate::random::Random;
 use crate::tree::Runner;
 use crate::trial::play::Ticked;
 use crate::world::{self, Start, Tick};
+use rayon::prelude::*;
 
 /// A decision with its outcome.
 #[derive(Clone, Copy, Debug)]
@@ -41,6 +42,35 @@ pub(super) struct Gathered {
 const EXPLORATION: u64 = 1 << 40;
 
 impl Gathered {
+    /// Plays as many episodes more as are left of so many ticks, at the length of those before, on all threads; at most 200.
+    pub(super) fn batch<W: World>(
+        ground: &Ground<W>,
+        controller: &(impl Controller + Clone + Sync),
+        exploring: (f64, &[Excursion]),
+        (start, from): (Start, u64),
+        (ticks, used): (u64, u64),
+    ) -> Vec<Self> {
+        let length = used.checked_div(from).unwrap_or(start.limit);
+        let due = (ticks.saturating_sub(used) / length.max(1)).clamp(1, 200);
+        let episodes = (from..from + due).into_par_iter();
+        episodes
+            .map(|n| {
+                let start = Start {
+                    episode: start.episode + n,
+                    ..start
+                };
+                let mut process = ground.world.process();
+                Self::of(
+                    ground,
+                    &mut process,
+                    &mut controller.clone(),
+                    exploring,
+                    start,
+                )
+            })
+            .collect()
+    }
+
     /// Plays an episode. A part `explore` of the decisions begins an excursion.
     pub(super) fn of<W: World>(
         ground: &Ground<W>,

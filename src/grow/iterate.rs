@@ -10,7 +10,7 @@ use super::ground::Ground;
 use crate::checkpoint::Part;
 use crate::ir::Id;
 use crate::ir::law::Behavior;
-use crate::learn::episode::{Episode, play};
+use crate::learn::episode::{Episode, play, play_all};
 use crate::learn::extract::{Decided, Decisions};
 use crate::learn::greedy::Greedy;
 use crate::learn::improve::is_worth_it;
@@ -29,8 +29,6 @@ use serde::{Deserialize, Serialize};
 const DOUBTS: [f64; 3] = [4.0, 15.0, 40.0];
 /// The standard errors of its worth by which a choice is held for worse than it looks.
 const CARES: [f64; 2] = [0.0, 1.5];
-/// The stages of a round: episodes, and the policies that stay.
-const STAGES: [(usize, usize); 3] = [(4, 8), (16, 3), (64, 1)];
 /// The stage from which on a policy has to look better.
 const TELLING: usize = 16;
 /// Policies of a round that are counted under, whether they turn out good or not.
@@ -45,8 +43,28 @@ const STALE: usize = 4;
 const EXPLORING: [f64; 3] = [0.05, 0.2, 0.6];
 /// Random decisions under those that are tried.
 const TRYING: f64 = 0.1;
-/// The effort is so many collections.
-const COLLECTIONS: u64 = 100;
+
+/// How the effort is divided.
+#[derive(Clone, Copy, Debug)]
+pub struct Pace {
+    /// The effort is so many collections.
+    collections: u64,
+    /// The stages of a round: episodes, and the policies that stay.
+    stages: [(usize, usize); 3],
+}
+
+impl Pace {
+    /// Many rounds, in which small gains show.
+    pub const THOROUGH: Self = Self {
+        collections: 100,
+        stages: [(4, 8), (16, 3), (64, 1)],
+    };
+    /// A few rounds, in which large gains show.
+    pub const QUICK: Self = Self {
+        collections: 12,
+        stages: [(2, 6), (6, 2), (20, 1)],
+    };
+}
 
 /// The choice in each minterm, by its number.
 type Choices = FxHashMap<Key, usize>;
@@ -108,6 +126,8 @@ pub struct Iteration<'g, 'w, W> {
     pub least: u64,
     /// About how many ticks may be simulated.
     pub effort: u64,
+    /// How these are divided.
+    pub pace: Pace,
 }
 
 /// Where the iteration stands between two rounds.
@@ -189,6 +209,14 @@ impl<W: World> Iteration<'_, '_, W> {
         }
     }
 
+    /// Episodes 0 … n − 1 under a policy that was found.
+    pub fn tested(&self, found: &Iterated, start: Start, episodes: u64) -> Vec<Episode> {
+        let greedy = self.greedy(&found.choices);
+        play_all(episodes, start, self.ground.patience, || {
+            (self.ground.world.process(), greedy.clone())
+        })
+    }
+
     /// Counts under a policy.
     fn collect(&self, evidence: &mut Evidence, choices: &Choices, part: f64, number: u64) -> u64 {
         let from = match part >= 0.5 {
@@ -202,7 +230,7 @@ impl<W: World> Iteration<'_, '_, W> {
             ..from
         };
         let greedy = self.greedy(choices);
-        let ticks = self.effort / COLLECTIONS;
+        let ticks = self.effort / self.pace.collections;
         evidence
             .collect(self.ground, &greedy, (part, start), ticks)
             .1
@@ -286,7 +314,7 @@ impl<W: World> Iteration<'_, '_, W> {
     ) -> (Option<Candidate>, u64) {
         let start = self.ground.episodes(Purpose::Improve, (1 << 12) + round);
         let mut used = 0;
-        for (stage, (episodes, stay)) in STAGES.into_iter().enumerate() {
+        for (stage, (episodes, stay)) in self.pace.stages.into_iter().enumerate() {
             if standing.is_empty() {
                 return (None, used);
             }

@@ -35,8 +35,9 @@ pub struct Block(pub Vec<Stmt>);
 
 /// A statement of a control law or of an effect.
 ///
-/// Every random draw in the expressions of a statement is made before the statement, in the order of the draws' ids,
-/// whether or not the branch that reads it is taken.
+/// A random draw is made once in a block, before the first statement that reads it, whichever branch of an expression does:
+/// all that read it in the block, and in blocks within it, get one value. Draws of a statement are made in the order of
+/// their ids.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Stmt {
     /// Binds a name; the value is that of this moment.

@@ -1,7 +1,7 @@
 //! Tasks, learners and claims.
 
 use super::expr::ExprId;
-use super::law::Behavior;
+use super::law::{Behavior, Block};
 use super::name::Name;
 use super::program::{Event, Predicate, State};
 use super::table::Id;
@@ -94,8 +94,10 @@ pub enum StartLine {
     Heading(ExprId),
     /// One of these of another robot, by its place among all robots.
     Other(Id<Robot>, Placing),
-    /// A state variable.
-    State(Id<State>, ExprId),
+    /// A state variable: its numbers, all of them read before the first is set.
+    State(Vec<(Id<State>, ExprId)>),
+    /// A member of a family that is known only as the episode starts: the left side as it is written, and what sets it.
+    Member(String, Block),
     /// The newest termination in the window, as its [code](StartLine::code); −1 for none. Older places of the window stay
     /// empty.
     History(ExprId),
@@ -129,10 +131,19 @@ impl StartLine {
         Some((Id::new(code / 2), status))
     }
 
+    /// Whether a later line of the same start would undo this one. Of two that draw their member, each may set another.
+    pub fn undone_by(&self, later: &Self) -> bool {
+        !matches!(later, StartLine::Member(..)) && self.replaced_by(later)
+    }
+
     /// Whether a line of a learner replaces this line of its task: it sets the same thing.
     pub fn replaced_by(&self, other: &Self) -> bool {
         match (self, other) {
-            (StartLine::State(a, _), StartLine::State(b, _)) => a == b,
+            (StartLine::State(a), StartLine::State(b)) => {
+                let variables = |line: &[(Id<State>, ExprId)]| line.first().map(|(id, _)| *id);
+                variables(a) == variables(b)
+            }
+            (StartLine::Member(a, _), StartLine::Member(b, _)) => a == b,
             (StartLine::Other(a, one), StartLine::Other(b, other)) => {
                 a == b && std::mem::discriminant(one) == std::mem::discriminant(other)
             }

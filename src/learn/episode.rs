@@ -80,7 +80,7 @@ pub fn play(
     }
 }
 
-/// Plays episodes 0 … n − 1 on all threads; the result is in their order.
+/// Plays n episodes from that of `start` on, on all threads; the result is in their order.
 pub fn play_all<P: Process, C: Controller>(
     episodes: u64,
     start: Start,
@@ -90,7 +90,10 @@ pub fn play_all<P: Process, C: Controller>(
     (0..episodes)
         .into_par_iter()
         .map_init(&make, |(process, controller), episode| {
-            let start = Start { episode, ..start };
+            let start = Start {
+                episode: start.episode + episode,
+                ..start
+            };
             play(process, controller, start, patience)
         })
         .collect()

@@ -15,10 +15,8 @@ pub enum Purpose {
     RollOut = 1,
     /// The points of a learning curve.
     Curve = 2,
-    /// `btc run`.
+    /// `btc run`, and testing claims on events.
     Run = 3,
-    /// Testing claims on events.
-    Claim = 4,
     /// Finding the best of several runs of learning.
     Validate = 5,
     /// Testing a learned tree, on episodes that nothing was chosen by.
@@ -39,6 +37,10 @@ pub enum Purpose {
     Count = 21,
     /// Improving a policy.
     Improve = 22,
+    /// Asking what it would be worth to see more.
+    Probe = 23,
+    /// Two trees that see different things against each other.
+    Suggest = 24,
 }
 
 impl Purpose {

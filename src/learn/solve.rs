@@ -164,6 +164,9 @@ impl Problem {
     /// (I − P) v = r, by LU decomposition with partial pivoting.
     fn eliminate(&self, policy: &[Option<usize>]) -> Option<Vec<f64>> {
         let n = self.states.len();
+        if n == 0 {
+            return Some(Vec::new());
+        }
         let mut matrix = DMatrix::<f64>::identity(n, n);
         let mut rewards = DVector::from_element(n, self.unknown);
         for (state, taken) in policy.iter().enumerate() {

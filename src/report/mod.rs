@@ -12,6 +12,7 @@ pub mod learned;
 pub mod metrics;
 pub mod program;
 pub mod results;
+pub mod suggested;
 pub mod trace;
 pub mod tuned;
 pub mod value;

@@ -1,6 +1,7 @@
 //! Everything that learning found.
 
 use crate::grow::Grown;
+use crate::ir::tree::Node;
 use crate::learn::agreement::Agreement;
 use crate::learn::curve::Point;
 use crate::learn::experiment::Experiment;
@@ -95,6 +96,14 @@ impl<W> Results<'_, W> {
                 size: self.trees.chosen().size,
                 evidence: format!("proved on {}", self.proved()),
             },
+        }
+    }
+
+    /// The root of the tree that is printed.
+    pub fn root(&self) -> &Node {
+        match &self.grown {
+            Some(grown) => &grown.root,
+            None => &self.trees.chosen().root,
         }
     }
 

@@ -201,6 +201,28 @@ impl Trace {
         text
     }
 
+    /// Lines for a person: when, what held, what was done and what happened. What goes on in the same way is told once.
+    pub fn told(&self) -> Vec<String> {
+        let mut told: Vec<(f64, String)> = Vec::new();
+        for line in &self.lines {
+            let held = self.atoms.iter().enumerate();
+            let held = held.filter(|(bit, _)| line.found.atoms >> bit & 1 == 1);
+            let held: Vec<String> = held.map(|(_, name)| name.to_string()).collect();
+            let (behavior, status) = self.done(line);
+            let mut text = format!("{{{}}}: {behavior} {status}", held.join(", "));
+            let happened = self.happened(line);
+            if !happened.is_empty() {
+                text.push_str(&format!("; {}", happened.join(", ")));
+            }
+            if told.last().is_none_or(|(_, last)| *last != text) {
+                told.push((self.seconds(line.found.tick), text));
+            }
+        }
+        let told = told.into_iter();
+        told.map(|(seconds, text)| format!("{seconds:.1} s {text}"))
+            .collect()
+    }
+
     fn seconds(&self, ticks: u64) -> f64 {
         ticks as f64 * self.tick
     }

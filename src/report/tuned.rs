@@ -8,7 +8,8 @@ use crate::ir::task::Task;
 use crate::ir::tunable::Tunable;
 use crate::ir::{Id, Name, Program};
 use crate::learn::statistics::Mean;
-use crate::tune::confirm::{Confirmed, Duel};
+use crate::trial::duel::Duel;
+use crate::tune::confirm::Confirmed;
 use crate::tune::curve::{Curve, Dot};
 use crate::tune::{Options, Tuned};
 use serde::Serialize;
@@ -245,7 +246,7 @@ impl Report<'_> {
 }
 
 /// `a gain of 1.06 (95 %: 0.98 to 1.14), 2.0 % of the return of 53.1`
-fn compared(duel: &Duel) -> String {
+pub(super) fn compared(duel: &Duel) -> String {
     let Mean {
         mean,
         ci95: [low, high],

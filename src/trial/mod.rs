@@ -1,13 +1,15 @@
 //! Trees and policies at work in the world of a task, on seeds that several of them may share.
 //!
-//! [`play`] plays episodes under a tree or a policy, [`learned`] measures a learned tree, [`claim`] tests claims on events.
-//! [`paired`] compares trees on common seeds; what they do alike there is not played twice, see [`trace`].
+//! [`play`] plays episodes under a tree or a policy, [`learned`] measures a learned tree, [`claim`] tests claims on
+//! events, until [`anytime`] says enough. [`paired`] compares trees on common seeds; what they do alike there is not played twice,
+//! see [`trace`]. [`duel`] does so for two trees in different worlds.
 
+pub mod anytime;
 pub mod claim;
+pub mod duel;
 pub mod learned;
 pub mod paired;
 pub mod play;
-
 pub mod trace;
 
 pub use play::Unplayable;

@@ -91,7 +91,7 @@ pub fn ready(
     Ok((simulator, Ticked(runner)))
 }
 
-/// Plays episodes 0 … n − 1 under a tree, on all threads.
+/// Plays n episodes under a tree from that of `start` on, on all threads.
 ///
 /// # Errors
 /// As [`ready`].

@@ -1,6 +1,6 @@
 //! What was found, held against the values in use on seeds that nothing was chosen by.
 
-use super::field::{Player, ended, gain, happened, values};
+use super::field::values;
 use super::grid::Axis;
 use super::{Options, Subject, never};
 use crate::ir::Program;
@@ -8,35 +8,9 @@ use crate::ir::task::ClaimKind;
 use crate::ir::tree::Node;
 use crate::learn::episode::Episode;
 use crate::learn::simulated::Purpose;
-use crate::learn::statistics::{Mean, Summary};
 use crate::trial::Unplayable;
 use crate::trial::claim::Tests;
-use rayon::prelude::*;
-
-/// Episodes that one thread plays in a row.
-const CHUNK: usize = 8;
-
-/// Two against each other on fresh seeds.
-#[derive(Clone, Debug)]
-pub struct Duel {
-    /// The figures of what was there before.
-    pub before: Summary,
-    /// The figures of what is held against it.
-    pub after: Summary,
-    /// What this gains, episode by episode.
-    pub gain: Mean,
-    /// The episodes that a line of `end on` ended to its loss and not to that of the other, and the other way round.
-    pub ended: (usize, usize),
-    /// Ticks simulated.
-    pub ticks: u64,
-}
-
-impl Duel {
-    /// Whether the whole interval of the gain is above 0, and no more episodes end badly.
-    pub fn is_won(&self) -> bool {
-        self.gain.ci95[0] > 0.0 && self.ended.0 <= self.ended.1
-    }
-}
+use crate::trial::duel::{self, Duel, happened};
 
 /// Some values against those in use.
 #[derive(Clone, Debug)]
@@ -75,26 +49,10 @@ fn fought(
     (used, root): (&Program, &Node),
     options: &Options,
 ) -> Result<(Duel, Vec<Episode>), Unplayable> {
-    let task = &program.tasks[subject.task];
-    let start = Purpose::TuneConfirm.start(options.seed, task.end_after);
-    let number = usize::try_from(options.episodes).unwrap_or(usize::MAX);
-    let play = |player: &Player| -> Vec<Episode> {
-        let chunks = (0..number).into_par_iter().step_by(CHUNK);
-        chunks
-            .flat_map_iter(|from| player.play(start, from, number.min(from + CHUNK)))
-            .collect()
-    };
-    let before = play(&Player::new(used, subject.task, root)?);
-    let after = play(&Player::new(program, subject.task, subject.root)?);
-    let ends = task.end_on.len();
-    let duel = Duel {
-        before: Summary::of(&before, ends),
-        after: Summary::of(&after, ends),
-        gain: gain(&after, &before),
-        ended: ended(&after, &before),
-        ticks: before.iter().chain(&after).map(|e| e.ticks).sum(),
-    };
-    Ok((duel, after))
+    let limit = program.tasks[subject.task].end_after;
+    let start = Purpose::TuneConfirm.start(options.seed, limit);
+    let both = [(used, root), (program, subject.root)];
+    duel::duel(subject.task, both, start, options.episodes)
 }
 
 /// Plays fresh episodes under the values of a point and under those in use. `None` if the program has mistakes under
@@ -120,7 +78,7 @@ pub(super) fn confirm(
         let tested = tests.event((subject.task, subject.root), occurrence, false)?;
         let event = occurrence.event.index();
         let met = never.contains(&event) && happened(&episodes, &[event]) > 0;
-        if tested.refuted || met {
+        if tested.refuted() || met {
             refuted.push(claim.text.clone());
         }
     }

@@ -2,14 +2,11 @@
 
 use super::Subject;
 use super::grid::Axis;
-use crate::ir::task::Task;
-use crate::ir::tree::Node;
-use crate::ir::{Id, Program};
-use crate::learn::episode::{Episode, play};
+use crate::learn::episode::Episode;
 use crate::learn::statistics::Mean;
 use crate::trial::Unplayable;
-use crate::trial::play::{Ticked, ready};
-use crate::world::{End, Simulator, Start};
+use crate::trial::duel::{CHUNK, Player, ended, gain, happened};
+use crate::world::Start;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -18,44 +15,6 @@ pub type Point = Vec<usize>;
 
 /// A point without value: the tree cannot be played there, or what must never happen has happened.
 const WORTHLESS: f64 = f64::NEG_INFINITY;
-
-/// Episodes that one thread plays in a row.
-const CHUNK: usize = 8;
-
-/// A world under some values, ready to play.
-#[derive(Clone, Debug)]
-pub(super) struct Player {
-    simulator: Simulator,
-    tree: Ticked,
-    patience: Option<u64>,
-}
-
-impl Player {
-    /// A tree in the world of a task.
-    pub(super) fn new(program: &Program, task: Id<Task>, root: &Node) -> Result<Self, Unplayable> {
-        let (simulator, tree) = ready(program, task, root)?;
-        let patience = program.tasks[task].patience;
-        Ok(Self {
-            simulator,
-            tree,
-            patience,
-        })
-    }
-
-    /// Plays the episodes from `from` to before `to`, one after another.
-    pub(super) fn play(&self, start: Start, from: usize, to: usize) -> Vec<Episode> {
-        let mut simulation = self.simulator.simulation();
-        let mut tree = self.tree.clone();
-        let episodes = (from..to).map(|number| {
-            let start = Start {
-                episode: number as u64,
-                ..start
-            };
-            play(&mut simulation, &mut tree, start, self.patience)
-        });
-        episodes.collect()
-    }
-}
 
 /// A point that has played.
 #[derive(Debug)]
@@ -311,35 +270,6 @@ pub(super) fn values(axes: &[Axis], point: &[usize]) -> Vec<f64> {
     let own = axes.iter().zip(point);
     own.map(|(axis, at)| axis.values.get(*at).copied().unwrap_or(0.0))
         .collect()
-}
-
-/// What one gains over another, episode by episode.
-pub(super) fn gain(own: &[Episode], other: &[Episode]) -> Mean {
-    let pairs = own.iter().zip(other);
-    let gains: Vec<f64> = pairs.map(|(own, other)| own.total - other.total).collect();
-    Mean::of(&gains)
-}
-
-/// The episodes that a line of `end on` ended to one's own loss and not in the same way to the other's, and the other
-/// way round.
-pub(super) fn ended(own: &[Episode], other: &[Episode]) -> (usize, usize) {
-    let worse = |own: &Episode, other: &Episode| {
-        matches!(own.end, End::On(_)) && own.end != other.end && own.total < other.total
-    };
-    let pairs = || own.iter().zip(other);
-    (
-        pairs().filter(|(own, other)| worse(own, other)).count(),
-        pairs().filter(|(own, other)| worse(other, own)).count(),
-    )
-}
-
-/// The episodes in which one of some events has happened.
-pub(super) fn happened(episodes: &[Episode], events: &[usize]) -> usize {
-    let any = |episode: &&Episode| {
-        let mut counts = events.iter().map(|event| episode.events.get(*event));
-        counts.any(|count| count.is_some_and(|count| *count > 0))
-    };
-    episodes.iter().filter(any).count()
 }
 
 /// A number in the order of [`f64::total_cmp`].

@@ -7,7 +7,6 @@ use super::simulation::{Instance, Simulation};
 use crate::eval::{Code, Compiler, Fixed, Layout, TooLarge, run};
 use crate::geometry::{Point, dot, minus};
 use crate::ir::expr;
-use crate::ir::law::{Block, Stmt};
 use crate::ir::task::{Placing, StartLine};
 use crate::ir::{Id, Pool};
 use crate::random::Random;
@@ -93,7 +92,7 @@ impl StartStep {
         }
         for line in lines {
             let mut compiler = Compiler::new(pool, layout, None);
-            if let StartLine::Other(id, placing) = *line {
+            if let &StartLine::Other(id, placing) = line {
                 let other = id.index().saturating_sub(1);
                 match placing {
                     Placing::Anywhere => {
@@ -127,8 +126,16 @@ impl StartStep {
                     compiler.assign_all(&[(Fixed::Heading.register(), heading)])?;
                     Self::Place
                 }
-                StartLine::State(state, value) => {
-                    compiler.block(&Block(vec![Stmt::SetState(state, value)]))?;
+                StartLine::State(ref parts) => {
+                    let parts: Vec<_> = parts
+                        .iter()
+                        .map(|&(state, value)| (compiler.state_register(state), value))
+                        .collect();
+                    compiler.assign_all(&parts)?;
+                    Self::Set
+                }
+                StartLine::Member(_, ref block) => {
+                    compiler.block(block)?;
                     Self::Set
                 }
                 StartLine::History(code) => {

@@ -28,7 +28,7 @@ fn traces_show_what_programs_mean() {
     cases(|path| {
         let loaded = loaded(path);
         let subject = Subject::only_tree(&loaded).unwrap();
-        let trace = trace::trace(&loaded, &subject, 1, 1, Step::Decision).unwrap();
+        let trace = trace::trace(&loaded, &subject, 0..1, 1, Step::Decision).unwrap();
         let lines: Vec<String> = trace.csv().lines().take(LINES).map(str::to_owned).collect();
         insta::assert_snapshot!("run", lines.join("\n"));
         let in_json = trace.json_lines();

@@ -41,7 +41,7 @@ fn world(loaded: &Loaded, ticks: u64) -> String {
 
 fn played(loaded: &Loaded, tree: &str, ticks: u64) -> String {
     let tree = target::tree(loaded, tree).unwrap();
-    picture::draw(loaded, &Subject::Tree(tree), 1, ticks).unwrap()
+    picture::draw(loaded, &Subject::Tree(tree), (1, 0), ticks).unwrap()
 }
 
 /// A curve that rises and settles.

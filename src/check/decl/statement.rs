@@ -169,15 +169,53 @@ impl<'a> Checker<'a> {
         Some(stmts)
     }
 
-    /// The statements that set variables to these numbers.
+    /// The value of this moment, under a name of its own.
+    fn kept(&mut self, name: &str, value: ExprId, stmts: &mut Vec<Stmt>) -> ExprId {
+        let temp = self.program.temps.push(Temp {
+            name: Name::word(name),
+        });
+        stmts.push(Stmt::Let(temp, value));
+        self.program.pool.leaf(Expr::Temp(temp))
+    }
+
+    /// The statements by which a start sets the one of these states that is meant to these numbers.
+    pub fn set_meant(
+        &mut self,
+        name: &str,
+        variables: Vec<(ExprId, Vec<Id<State>>)>,
+        parts: &[ExprId],
+    ) -> Block {
+        let mut stmts = Vec::new();
+        let mut branches = Vec::new();
+        for (is, ids) in variables {
+            let is = self.kept(name, is, &mut stmts);
+            let slots: Vec<Slot> = ids.into_iter().map(Slot::State).collect();
+            let set = self.set(&slots, AssignOp::Set, parts);
+            branches.push(Stmt::If(is, Block(set), Block::default()));
+        }
+        stmts.extend(branches);
+        Block(stmts)
+    }
+
+    /// The statements that set variables to these numbers. All numbers are read before the first variable is set.
     fn set(&mut self, slots: &[Slot], op: AssignOp, parts: &[ExprId]) -> Vec<Stmt> {
         let mut stmts = Vec::new();
-        for (slot, &part) in slots.iter().zip(parts) {
+        let now = |slot: &Slot| match *slot {
+            Slot::State(id) => Expr::State(id),
+            Slot::Local(id) => Expr::Local(id),
+        };
+        let held: Vec<Expr> = slots.iter().map(now).collect();
+        let pool = &self.program.pool;
+        let reads = |part: &ExprId| pool.any(*part, &mut |expr| held.contains(&expr));
+        let parts = if slots.len() > 1 && parts.iter().any(reads) {
+            let keep = |part: &ExprId| self.kept("value", *part, &mut stmts);
+            parts.iter().map(keep).collect()
+        } else {
+            parts.to_vec()
+        };
+        for (slot, part) in slots.iter().zip(parts) {
             let pool = &mut self.program.pool;
-            let now = match *slot {
-                Slot::State(id) => pool.leaf(Expr::State(id)),
-                Slot::Local(id) => pool.leaf(Expr::Local(id)),
-            };
+            let now = pool.leaf(now(slot));
             let part = match op {
                 AssignOp::Set => part,
                 AssignOp::Add => pool.binary(Binary::Add, now, part),
@@ -238,11 +276,8 @@ impl<'a> Checker<'a> {
                 let mut bound = Vec::new();
                 let mut meant = Vec::new();
                 for (is, ids) in variables {
-                    let temp = self.program.temps.push(Temp {
-                        name: Name::word(name),
-                    });
-                    bound.push(Stmt::Let(temp, is));
-                    meant.push((self.program.pool.leaf(Expr::Temp(temp)), slots(ids)));
+                    let is = self.kept(name, is, &mut bound);
+                    meant.push((is, slots(ids)));
                 }
                 Some((ty, meant, bound))
             }

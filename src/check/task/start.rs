@@ -7,7 +7,7 @@ use crate::check::types::{Type, Value};
 use crate::diagnostic::Code;
 use crate::ir::expr::ExprId;
 use crate::ir::task::{History, Placing, StartLine};
-use crate::syntax::ast;
+use crate::syntax::{ast, print};
 
 impl<'a> Checker<'a> {
     /// `start { … }`, for a task that keeps this history.
@@ -24,7 +24,7 @@ impl<'a> Checker<'a> {
             let first = set
                 .iter()
                 .find(|(first, known)| match (known, built.first()) {
-                    (Some(known), Some(_)) => built.iter().any(|new| known.replaced_by(new)),
+                    (Some(known), Some(_)) => built.iter().any(|new| known.undone_by(new)),
                     _ => first.name == name.name && line.target.args.is_none(),
                 });
             match first {
@@ -198,21 +198,21 @@ impl<'a> Checker<'a> {
         if parts.is_empty() {
             return None;
         }
-        let [(_, ids)] = variables.as_slice() else {
-            return self
-                .error(
-                    Code::E0303,
-                    line.target.span,
-                    format!("which `{name}` is set has to be a constant"),
-                )
-                .label("this is known only as the episode starts")
-                .none();
-        };
-        let ids = ids.iter();
-        Some(
-            ids.zip(parts)
-                .map(|(id, part)| StartLine::State(*id, part))
-                .collect(),
-        )
+        match variables.as_slice() {
+            [] => None,
+            [(is, ids)] if self.program.pool.constant(*is) == Some(1.0) => {
+                let set = ids.iter().copied().zip(parts);
+                Some(vec![StartLine::State(set.collect())])
+            }
+            _ => {
+                let target = ast::Expr {
+                    kind: ast::ExprKind::Ref(line.target.clone()),
+                    span: line.target.span,
+                };
+                let written = print::expr(&target);
+                let block = self.set_meant(name, variables, &parts);
+                Some(vec![StartLine::Member(written, block)])
+            }
+        }
     }
 }

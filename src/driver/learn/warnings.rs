@@ -3,6 +3,7 @@
 use super::places::Places;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::driver::load::Loaded;
+use crate::ir::law::Behavior;
 use crate::ir::program::Event;
 use crate::ir::task::{RewardLine, Task};
 use crate::ir::{Expr, ExprId, Id, Program};
@@ -270,20 +271,28 @@ impl Warner<'_> {
         }
         let failing = self.results.trees.chosen().failing.iter();
         let often = self.results.summary.episodes.max(TRIED);
-        let repeated = failing.filter(|failing| failing.repeated >= often);
-        let warning = |failing: &crate::tree::decanonicalise::Failing| {
+        let repeated: Vec<_> = failing.filter(|it| it.repeated >= often).collect();
+        let warning = |(at, behavior): (usize, &Id<Behavior>)| {
+            let of_it = || repeated.iter().filter(|it| it.behavior == *behavior);
+            let failing = of_it().rev().max_by_key(|it| it.repeated)?;
             let name = &self.program.behaviors[failing.behavior].name;
             let message = format!(
                 "`{name}` failed {} times in {} with nothing changed that the policy sees",
                 failing.repeated,
                 words::minterm(self.program, &self.results.policy.atoms, &failing.minterm),
             );
-            let choices = self.task.choose.iter();
-            let at = choices.clone().position(|id| *id == failing.behavior);
-            Diagnostic::new(Code::W0508, self.places.choice(at.unwrap_or(0)), message)
+            let diagnostic = Diagnostic::new(Code::W0508, self.places.choice(at), message)
                 .label("the policy tries this again at once")
-                .help("with `history last 1 success, failure` it can see that this has failed")
+                .help("with `history last 1 success, failure` it can see that this has failed");
+            Some(match of_it().count() - 1 {
+                0 => diagnostic,
+                others => diagnostic.note(format!(
+                    "so it does in {}",
+                    words::counted(others, "other minterm")
+                )),
+            })
         };
-        repeated.map(warning).collect()
+        let choices = self.task.choose.iter().enumerate();
+        choices.filter_map(warning).collect()
     }
 }

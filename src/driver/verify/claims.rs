@@ -3,13 +3,16 @@
 use super::{Pair, Proved, compared};
 use crate::driver::learn::Learned;
 use crate::driver::load::Loaded;
+use crate::driver::run::Subject;
+use crate::driver::trace::{self, Step};
 use crate::driver::{Refused, target, world};
 use crate::ir::task::{Claim, ClaimKind, Occurrence, Task, TreeRef};
-use crate::ir::tree::Node;
+use crate::ir::tree::{Node, Tree};
 use crate::ir::{Id, Name, Program};
 use crate::report::verdict::Answer;
+use crate::report::words;
 use crate::tree::equivalence::Environment;
-use crate::trial::claim::Tests;
+use crate::trial::claim::{Finding, SEED, Tests};
 
 /// Proves or tests every claim of the program whose trees exist.
 ///
@@ -30,7 +33,14 @@ pub fn claims(loaded: &Loaded) -> Result<Vec<Proved>, Refused> {
             ClaimKind::Equals(TreeRef::Learned(_)) => not_learned(&claim.text),
             ClaimKind::Never(occurrence) | ClaimKind::Reaches(occurrence) => {
                 let task = target::task_of(loaded, Some(id))?;
-                tested(loaded, &mut tests, (task, &tree.root), claim, occurrence)?
+                let (mut proved, shortest) =
+                    tested(loaded, &mut tests, (task, &tree.root), claim, occurrence)?;
+                if let Some(shortest) = shortest {
+                    proved
+                        .text
+                        .push_str(&failing(loaded, id, &claim.kind, shortest)?);
+                }
+                proved
             }
         });
     }
@@ -76,7 +86,8 @@ pub fn claims_of_learned(loaded: &Loaded, learned: &Learned) -> Result<Vec<Prove
             (ClaimKind::Never(occurrence) | ClaimKind::Reaches(occurrence), Some((_, root)))
                 if own =>
             {
-                results.push(tested(loaded, &mut tests, (task, root), claim, occurrence)?);
+                let (proved, _) = tested(loaded, &mut tests, (task, root), claim, occurrence)?;
+                results.push(proved);
             }
             _ => {}
         }
@@ -84,32 +95,75 @@ pub fn claims_of_learned(loaded: &Loaded, learned: &Learned) -> Result<Vec<Prove
     Ok(results)
 }
 
-/// The test of a claim on an event.
+/// The test of a claim on an event; of a refuted one with the shortest episode in which it fails, and its ticks.
 fn tested<'a>(
     loaded: &Loaded,
     tests: &mut Tests<'a>,
     subject: (Id<Task>, &'a Node),
     claim: &Claim,
     occurrence: &Occurrence,
-) -> Result<Proved, Refused> {
+) -> Result<(Proved, Option<(u64, u64)>), Refused> {
     let reaches = matches!(claim.kind, ClaimKind::Reaches(_));
     let tested = tests
         .event(subject, occurrence, reaches)
         .map_err(|why| world::unplayable(loaded, why))?;
-    let (answer, verdict, side) = match tested.refuted {
-        true => (Answer::Fails, "refuted", "above"),
-        false => (Answer::Holds, "not refuted", "below"),
+    let (answer, verdict) = match tested.finding {
+        Finding::Refuted => (Answer::Fails, "refuted"),
+        Finding::Kept => (Answer::Holds, "not refuted"),
+        Finding::Open => (Answer::Undecided, "undecided"),
     };
-    Ok(Proved {
+    let [low, high] = tested.trials.interval95().map(|rate| 100.0 * rate);
+    let failed = match tested.trials.hits() {
+        0 => format!("none of them, a rate below {high:.2} %"),
+        failed => format!("{failed} of them, a rate from {low:.2} % to {high:.2} %"),
+    };
+    let proved = Proved {
         answer,
         text: format!(
-            "{}: {verdict} in {} episodes; it fails in {} of them, a rate {side} {:.2} % at 95 %",
+            "{}: {verdict} in {}; it fails in {failed} (95 %)",
             claim.text,
-            tested.episodes,
-            tested.failed,
-            100.0 * tested.bound()
+            words::counted(tested.trials.trials() as usize, "episode"),
         ),
-    })
+    };
+    Ok((proved, tested.shortest.filter(|_| tested.refuted())))
+}
+
+/// How many decisions of a failing episode are told.
+const TOLD: usize = 6;
+
+/// The end of an episode in which a claim fails, or what led to the event that never was to happen, and how to see the whole of
+/// it.
+fn failing(
+    loaded: &Loaded,
+    tree: Id<Tree>,
+    kind: &ClaimKind,
+    (episode, ticks): (u64, u64),
+) -> Result<String, Refused> {
+    let subject = Subject::Tree(tree);
+    let episodes = episode..episode + 1;
+    let mut trace = trace::trace(loaded, &subject, episodes, SEED, Step::Decision)?;
+    trace.lines.retain(|line| line.found.tick < ticks);
+    if let ClaimKind::Never(never) = kind {
+        let lines = &mut trace.lines;
+        let first = lines
+            .iter()
+            .position(|line| line.events.contains(&never.event));
+        lines.truncate(first.map_or(lines.len(), |at| at + 1));
+    }
+    let file = loaded.sources.get(loaded.main);
+    let file = file.map_or("FILE", |file| &file.name);
+    let mut text = format!(
+        "\n  the shortest run in which it fails, shown by `btc run {file} --tree {} --episode {episode} --trace -`:",
+        loaded.program.trees[tree].name
+    );
+    let lines = trace.told();
+    if lines.len() > TOLD {
+        text.push_str("\n      …");
+    }
+    for line in lines.iter().skip(lines.len().saturating_sub(TOLD)) {
+        text.push_str(&format!("\n      {line}"));
+    }
+    Ok(text)
 }
 
 /// Whether a claim is about the tree that was learned: through the learner, or through an earlier result of the same

@@ -59,6 +59,8 @@ struct Naive<'a> {
     locals: [f64; LOCALS],
     temps: BTreeMap<usize, f64>,
     draws: BTreeMap<ExprId, f64>,
+    /// The draws that were made in the blocks at hand.
+    drawn: Vec<ExprId>,
     drive: [f64; 3],
 }
 
@@ -110,7 +112,7 @@ impl Naive<'_> {
         }
     }
 
-    /// Makes the draws of a statement, in the order of their numbers.
+    /// Makes the draws of a statement that were not made before in its blocks, in the order of their numbers.
     fn draw(&mut self, expressions: &[ExprId]) {
         let mut found = BTreeMap::new();
         let mut open = expressions.to_vec();
@@ -121,6 +123,10 @@ impl Naive<'_> {
             open.extend(self.program.pool.operands(id));
         }
         for (id, draw) in found.into_values() {
+            if self.drawn.contains(&id) {
+                continue;
+            }
+            self.drawn.push(id);
             let value = match draw {
                 Draw::Uniform(a, b) => {
                     let (a, b) = (self.eval(a), self.eval(b));
@@ -141,6 +147,7 @@ impl Naive<'_> {
     }
 
     fn block(&mut self, block: &Block) {
+        let outside = self.drawn.len();
         for statement in &block.0 {
             match statement {
                 Stmt::Let(id, value) => {
@@ -174,6 +181,7 @@ impl Naive<'_> {
                 }
             }
         }
+        self.drawn.truncate(outside);
     }
 
     fn law(&mut self, law: &Law) -> u16 {
@@ -504,6 +512,7 @@ fn compare(seed: u64, whole: bool) {
             locals: [value(), value()],
             temps: BTreeMap::new(),
             draws: BTreeMap::new(),
+            drawn: Vec::new(),
             drive: [0.0; 3],
         };
         let mut host = naive.host.clone();
