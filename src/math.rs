@@ -55,6 +55,11 @@ pub fn ln(x: f64) -> f64 {
     libm::log(x)
 }
 
+/// The logarithm to base 2.
+pub fn log2(x: f64) -> f64 {
+    libm::log2(x)
+}
+
 /// `base` to the power `exponent`.
 pub fn pow(base: f64, exponent: f64) -> f64 {
     libm::pow(base, exponent)

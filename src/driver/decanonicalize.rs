@@ -2,6 +2,7 @@
 
 use super::export;
 use super::inputs::Inputs;
+use super::load;
 use super::refused::Refused;
 use super::table::{self, Recorded};
 use super::text::Text;
@@ -239,7 +240,10 @@ pub fn decanonicalize(asked: Asked, options: &Options) -> Result<Made, Refused> 
             written.map_err(|mistake| Refused::text(nothing(&source), |_| vec![mistake]))?
         }
     };
-    let (warnings, report) = (report.warnings(&program), report.lines(&program));
+    let (mut warnings, report) = (report.warnings(&program), report.lines(&program));
+    if options.form == TreeForm::Bt && text.len() > load::MOST {
+        warnings.extend(large(text.len()));
+    }
     Ok(Made {
         text,
         program,
@@ -247,6 +251,21 @@ pub fn decanonicalize(asked: Asked, options: &Options) -> Result<Made, Refused> 
         warnings,
         report,
     })
+}
+
+/// What is to be known of a program that btc itself does not read.
+fn large(bytes: usize) -> [String; 2] {
+    let mega = |bytes: usize| bytes.div_ceil(10_000) as f64 / 100.0;
+    [
+        format!(
+            "warning: the tree comes to {} MB of text, and btc reads programs of at most {} MB",
+            mega(bytes),
+            mega(load::MOST)
+        ),
+        "  it is proved on the table, but `btc check` and `btc verify` refuse the file; fewer behaviours, or numbers rounded to \
+         fewer values, make a smaller tree, and `--emit` writes this one for other tools"
+            .to_owned(),
+    ]
 }
 
 /// A bug of btc.

@@ -151,6 +151,12 @@ impl Bits {
         self.combine(other, |a, b| a & !b)
     }
 
+    /// The numbers of one, but not of both.
+    #[must_use]
+    pub fn differing(&self, other: &Self) -> Self {
+        self.combine(other, |a, b| a ^ b)
+    }
+
     /// Adds the numbers of the other.
     pub fn unite(&mut self, other: &Self) {
         for (a, b) in self.words.iter_mut().zip(&other.words) {

@@ -10,6 +10,7 @@ pub mod columns;
 pub mod complement;
 pub mod covering;
 pub mod cube;
+pub mod impurity;
 pub mod list;
 pub mod minimise;
 pub mod minterm;

@@ -5,6 +5,7 @@ use super::account::Account;
 use super::bits::Bits;
 use super::columns::Columns;
 use super::cube::Literal;
+use super::impurity::{Impurity, Mixture};
 use rustc_hash::FxHashMap;
 
 /// Rows divided until each part holds one class.
@@ -19,36 +20,6 @@ pub enum Partition {
         /// Where it is 0, and where it is 1.
         parts: Box<[Partition; 2]>,
     },
-}
-
-/// How mixed a part is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Impurity {
-    /// The chance that two of its rows are of different classes.
-    Gini,
-    /// The entropy of the classes of its rows.
-    Entropy,
-    /// The rows that are not of its most frequent class.
-    Error,
-}
-
-impl Impurity {
-    /// Every measure.
-    pub const ALL: [Self; 3] = [Self::Gini, Self::Entropy, Self::Error];
-
-    /// The impurity of a part with these numbers of rows in each class, times the number of its rows.
-    fn of(self, counts: impl Iterator<Item = u32> + Clone) -> f64 {
-        let total: f64 = counts.clone().map(f64::from).sum();
-        if total == 0.0 {
-            return 0.0;
-        }
-        let counts = counts.filter(|count| *count > 0).map(f64::from);
-        match self {
-            Self::Gini => total - counts.map(|n| n * n).sum::<f64>() / total,
-            Self::Entropy => counts.map(|n| n * (total / n).log2()).sum(),
-            Self::Error => total - counts.fold(0.0, f64::max),
-        }
-    }
 }
 
 /// The classes of rows, each divided by the atom that makes the parts least mixed; `None` if the account is spent.
@@ -66,34 +37,98 @@ pub fn partition(
     }
     rows.sort_unstable_by_key(|row| row.number);
     let search = Search {
-        atoms: columns.atoms(),
-        width: columns.atoms().div_ceil(64),
-        ones: by_rows(columns, true),
-        zeros: match columns.are_minterms() {
-            true => Vec::new(),
-            false => by_rows(columns, false),
-        },
+        columns,
+        turns: Turns::new(columns),
         impurity,
         account,
     };
     search.divide(&rows)
 }
 
-/// The literals of one sign that hold on each row, a bit for each atom.
-fn by_rows(columns: &Columns, positive: bool) -> Vec<u64> {
-    let width = columns.atoms().div_ceil(64);
-    let mut words = vec![0; columns.rows() * width];
-    let all = Bits::full(columns.rows());
-    for atom in 0..columns.atoms() {
-        let mut rows = all.clone();
-        columns.restrict(&mut rows, Literal { atom, positive });
-        for row in rows.iter() {
-            if let Some(word) = words.get_mut(row * width + atom / 64) {
-                *word |= 1 << (atom % 64);
+/// On which sides of an atom a row is: where it is 0, where it is 1, or both where the row leaves it free.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Sides {
+    zero: bool,
+    one: bool,
+}
+
+/// Where every row is before the first atom.
+const BEFORE: Sides = Sides {
+    zero: true,
+    one: false,
+};
+
+/// The atoms at which a row is on other sides than at the atom before. They say as much as the values, and are few where the atoms
+/// compare one number with ascending ones.
+struct Turns {
+    /// Where those of each row begin; those of the last end at the last number.
+    starts: Vec<usize>,
+    all: Vec<(u32, Sides)>,
+}
+
+impl Turns {
+    fn new(columns: &Columns) -> Self {
+        let rows = columns.rows();
+        let on = |atom: usize, positive: bool| columns.meeting(Literal { atom, positive });
+        let mut counts = vec![0_usize; rows + 1];
+        let mut found: Vec<(u32, Sides)> = Vec::new();
+        // Twice over the columns: first to count, then to place.
+        for placing in [false, true] {
+            if placing {
+                let mut sum = 0;
+                for count in &mut counts {
+                    sum += std::mem::replace(count, sum);
+                }
+                found = vec![(0, BEFORE); sum];
+            }
+            let mut before = [Bits::full(rows), Bits::empty(rows)];
+            for atom in 0..columns.atoms() {
+                let here = [false, true].map(|positive| {
+                    let mut rows = Bits::full(rows);
+                    if let (Some(column), inside) = on(atom, positive) {
+                        rows.keep(column, inside);
+                    }
+                    rows
+                });
+                let [zero, one] = &here;
+                let [zero_before, one_before] = &before;
+                for row in zero
+                    .differing(zero_before)
+                    .or(&one.differing(one_before))
+                    .iter()
+                {
+                    let Some(count) = counts.get_mut(row) else {
+                        continue;
+                    };
+                    if let Some(slot) = found.get_mut(*count) {
+                        let sides = Sides {
+                            zero: zero.contains(row),
+                            one: one.contains(row),
+                        };
+                        *slot = (atom as u32, sides);
+                    }
+                    *count += 1;
+                }
+                before = here;
             }
         }
+        // Each start was moved to its end.
+        counts.rotate_right(1);
+        if let Some(first) = counts.first_mut() {
+            *first = 0;
+        }
+        Self {
+            starts: counts,
+            all: found,
+        }
     }
-    words
+
+    fn of(&self, row: usize) -> &[(u32, Sides)] {
+        match self.starts.get(row..row + 2) {
+            Some([from, to]) => self.all.get(*from..*to).unwrap_or_default(),
+            _ => &[],
+        }
+    }
 }
 
 #[derive(Clone, Copy)]
@@ -102,14 +137,25 @@ struct Row {
     class: usize,
 }
 
+/// So many more rows of a class on each side of an atom than of the atom before.
+#[derive(Clone, Copy, Default)]
+struct Change {
+    atom: usize,
+    class: usize,
+    zero: i32,
+    one: i32,
+}
+
+impl Change {
+    fn turn(&mut self, from: Sides, to: Sides) {
+        self.zero += i32::from(to.zero) - i32::from(from.zero);
+        self.one += i32::from(to.one) - i32::from(from.one);
+    }
+}
+
 struct Search<'a> {
-    atoms: usize,
-    /// The words of a row.
-    width: usize,
-    /// The atoms that are 1 in each row.
-    ones: Vec<u64>,
-    /// The atoms that are 0 in each row; empty where these are all others.
-    zeros: Vec<u64>,
+    columns: &'a Columns,
+    turns: Turns,
     impurity: Impurity,
     account: &'a Account,
 }
@@ -127,27 +173,20 @@ impl Search<'_> {
         if classes <= 1 {
             return Some(Partition::Leaf(rows.first().map_or(0, |row| row.class)));
         }
-        let work = rows.len() * (8 + self.atoms) + classes * self.atoms;
-        self.account.spend(work as u64);
+        let turns = rows.iter().map(|row| self.turns.of(row.number).len());
+        let turns: usize = turns.sum();
+        self.account.spend((8 * rows.len() + 4 * turns) as u64);
         if self.account.is_spent() {
             return None;
         }
-        let atom = self.best(rows, &local, classes)?;
-        let bit = |words: &[u64], row: &Row| {
-            let word = words.get(row.number * self.width + atom / 64);
-            word.is_some_and(|word| word >> (atom % 64) & 1 == 1)
+        let atom = self.best(rows, &local, classes, turns)?;
+        let part = |positive| {
+            let (column, inside) = self.columns.meeting(Literal { atom, positive });
+            let meets =
+                |row: &&Row| column.is_some_and(|column| column.contains(row.number) == inside);
+            rows.iter().filter(meets).copied().collect::<Vec<Row>>()
         };
-        let is_one = |row: &Row| match self.zeros.is_empty() {
-            true => bit(&self.ones, row),
-            false => !bit(&self.zeros, row),
-        };
-        let part = |stays: &dyn Fn(&Row) -> bool| {
-            let rows = rows.iter().filter(|row| stays(row));
-            rows.copied().collect::<Vec<Row>>()
-        };
-        let zero = part(&|row| !bit(&self.ones, row));
-        let one = part(&is_one);
-        let parts = [self.divide(&zero)?, self.divide(&one)?];
+        let parts = [self.divide(&part(false))?, self.divide(&part(true))?];
         Some(Partition::Split {
             atom,
             parts: Box::new(parts),
@@ -155,71 +194,65 @@ impl Search<'_> {
     }
 
     /// The atom that makes the parts least mixed; `None` where every atom leaves all rows on one side.
-    fn best(&self, rows: &[Row], local: &[usize], classes: usize) -> Option<usize> {
-        let ones = self.count(&self.ones, rows, local, classes);
-        let zeros = self.count(&self.zeros, rows, local, classes);
-        let mut totals = vec![0_u32; classes];
+    fn best(&self, rows: &[Row], local: &[usize], classes: usize, turns: usize) -> Option<usize> {
+        let total = rows.len() as u32;
+        let mut zero = Mixture::new(self.impurity, classes);
+        let mut one = zero.clone();
         for class in local {
-            if let Some(total) = totals.get_mut(*class) {
-                *total += 1;
-            }
+            zero.change(*class, 1);
         }
         let mut best: Option<(f64, usize)> = None;
-        for atom in 0..self.atoms {
-            let of = |counts: &[u32], class: usize| {
-                let count = counts.get(class * self.atoms + atom);
-                count.copied().unwrap_or(0)
-            };
-            let fixed = |class: usize, total: &u32| {
-                let one = of(&ones, class);
-                let zero = match self.zeros.is_empty() {
-                    true => total - one,
-                    false => of(&zeros, class),
-                };
-                [zero, one]
-            };
-            let all = totals.iter().enumerate();
-            let sides = all.map(|(class, total)| (fixed(class, total), *total));
-            let sides: Vec<([u32; 2], u32)> = sides.collect();
-            let none = |side: fn(&[u32; 2]) -> u32| sides.iter().all(|(n, _)| side(n) == 0);
-            if none(|[zero, _]| *zero) || none(|[_, one]| *one) {
-                continue;
+        let changes = self.changes(rows, local, classes, turns);
+        for changes in changes.chunk_by(|a, b| a.atom == b.atom) {
+            for change in changes {
+                zero.change(change.class, change.zero);
+                one.change(change.class, change.one);
             }
-            // A row that leaves the atom free is on both sides.
-            let zero = sides.iter().map(|([_, one], total)| total - one);
-            let one = sides.iter().map(|([zero, _], total)| total - zero);
-            let mixed = self.impurity.of(zero) + self.impurity.of(one);
-            // Smaller by more than rounding.
-            if best.is_none_or(|(least, _)| mixed < least - 1e-9 * (1.0 + least)) {
-                best = Some((mixed, atom));
+            // Some rows are on one side only, and some on the other.
+            let divides = zero.total() < total && one.total() < total;
+            let mixed = zero.mixed() + one.mixed();
+            if divides && best.is_none_or(|(least, _)| Impurity::better(mixed, least)) {
+                best = changes.first().map(|change| (mixed, change.atom));
             }
         }
         best.map(|(_, atom)| atom)
     }
 
-    /// For each class and atom the rows that have a bit there.
-    fn count(&self, words: &[u64], rows: &[Row], local: &[usize], classes: usize) -> Vec<u32> {
-        if words.is_empty() {
-            return Vec::new();
+    /// The changes from each atom to the next, in the order of the atoms.
+    fn changes(&self, rows: &[Row], local: &[usize], classes: usize, turns: usize) -> Vec<Change> {
+        let all = rows.iter().zip(local).flat_map(|(row, class)| {
+            let turns = self.turns.of(row.number).iter();
+            turns.scan(BEFORE, move |from, (atom, to)| {
+                let mut change = Change {
+                    atom: *atom as usize,
+                    class: *class,
+                    ..Change::default()
+                };
+                change.turn(std::mem::replace(from, *to), *to);
+                Some(change)
+            })
+        });
+        let cells = classes * self.columns.atoms();
+        if cells > 2 * turns {
+            let mut all: Vec<Change> = all.collect();
+            all.sort_unstable_by_key(|change| (change.atom, change.class));
+            return all;
         }
-        let mut counts = vec![0_u32; classes * self.atoms];
-        for (row, class) in rows.iter().zip(local) {
-            let start = row.number * self.width;
-            let own = words.get(start..start + self.width).unwrap_or_default();
-            let from = class * self.atoms;
-            let Some(counts) = counts.get_mut(from..from + self.atoms) else {
-                continue;
-            };
-            for (word, counts) in own.iter().zip(counts.chunks_mut(64)) {
-                let mut left = *word;
-                while left != 0 {
-                    if let Some(count) = counts.get_mut(left.trailing_zeros() as usize) {
-                        *count += 1;
-                    }
-                    left &= left - 1;
-                }
+        let mut sums = vec![[0_i32; 2]; cells];
+        for change in all {
+            if let Some([zero, one]) = sums.get_mut(change.atom * classes + change.class) {
+                *zero += change.zero;
+                *one += change.one;
             }
         }
-        counts
+        let sums = sums.into_iter().enumerate();
+        let changed = sums.filter(|(_, sum)| *sum != [0, 0]);
+        let changed = changed.map(|(cell, [zero, one])| Change {
+            atom: cell / classes,
+            class: cell % classes,
+            zero,
+            one,
+        });
+        changed.collect()
     }
 }

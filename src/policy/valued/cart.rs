@@ -1,68 +1,9 @@
 //! Partitions of rows by their values (CART: Breiman, Friedman, Olshen and Stone 1984), for the comparisons that they use.
 
 use super::{Asks, Comparison, Kind, OPEN, Valued};
+use crate::logic::impurity::{Impurity, Mixture};
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
-
-/// How mixed a part is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Impurity {
-    /// The chance that two of its rows do different things.
-    Gini,
-    /// The entropy of what its rows do.
-    Entropy,
-}
-
-/// The rows of one part that do each thing, and a sum over them from which its impurity is calculated.
-#[derive(Clone, Debug)]
-struct Mixture {
-    impurity: Impurity,
-    counts: Vec<u32>,
-    total: u32,
-    sum: f64,
-}
-
-impl Mixture {
-    fn new(impurity: Impurity, classes: usize) -> Self {
-        Self {
-            impurity,
-            counts: vec![0; classes],
-            total: 0,
-            sum: 0.0,
-        }
-    }
-
-    fn term(&self, count: u32) -> f64 {
-        let count = f64::from(count);
-        match self.impurity {
-            Impurity::Gini => count * count,
-            Impurity::Entropy if count > 0.0 => count * count.log2(),
-            Impurity::Entropy => 0.0,
-        }
-    }
-
-    fn change(&mut self, class: usize, by: i32) {
-        let Some(count) = self.counts.get(class).copied() else {
-            return;
-        };
-        let new = count.saturating_add_signed(by);
-        self.sum += self.term(new) - self.term(count);
-        self.total = self.total.saturating_add_signed(by);
-        if let Some(slot) = self.counts.get_mut(class) {
-            *slot = new;
-        }
-    }
-
-    /// The impurity of the part, times the number of its rows.
-    fn mixed(&self) -> f64 {
-        let total = f64::from(self.total);
-        match self.impurity {
-            _ if self.total == 0 => 0.0,
-            Impurity::Gini => total - self.sum / total,
-            Impurity::Entropy => total * total.log2() - self.sum,
-        }
-    }
-}
 
 /// The most cells that are looked at: rows which leave inputs open are on both sides of what asks them.
 const WORK: usize = 500_000_000;
@@ -194,8 +135,8 @@ fn best(valued: &Valued, part: &[u32], impurity: Impurity) -> Option<Split> {
                 groups.len() > 1
             };
             let mixed = taken.mixed() + rest.mixed();
-            let better = |least: f64| mixed < least - 1e-9 * (1.0 + least);
-            if divides && best.as_ref().is_none_or(|(least, _)| better(*least)) {
+            let better = |(least, _): &(f64, Split)| Impurity::better(mixed, *least);
+            if divides && best.as_ref().is_none_or(better) {
                 let asks = if ordered {
                     Asks::AtMost(code)
                 } else {

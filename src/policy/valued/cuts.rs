@@ -1,7 +1,7 @@
 //! Which comparisons of inputs tell rows apart that do different things.
 
-use super::cart::{self, Impurity};
-use super::{Decimal, Kind, OPEN, Valued};
+use super::{Decimal, Kind, OPEN, Valued, cart};
+use crate::logic::impurity::Impurity;
 use std::collections::BTreeSet;
 
 /// The most comparisons that are all made: with more, only those that a partition of the rows uses.

@@ -3,11 +3,11 @@
 //! A row is no exception to any behaviour that it allows. So lists of rules are found for classes of rows that overlap, and
 //! each gives every row one of its behaviours: a policy as any other, which the tree is made of and proved on.
 
-use super::alone::REACH;
+use super::alone::{REACH, THOROUGH};
 use super::{Decanonicalised, Options, decanonicalise};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
-use crate::logic::covering::{List, lists};
+use crate::logic::covering::{Known, List, lists};
 use crate::logic::{Account, Bits, Columns};
 use crate::policy::{Policy, Row};
 use crate::tree::prove::Refuted;
@@ -42,7 +42,8 @@ pub fn allowing(
     let rows = words.iter().map(|(ones, free)| (&**ones, free.as_deref()));
     let columns = Columns::with_free(policy.atoms.len(), rows);
     let effort = options.effort.saturating_mul(super::EFFORT) / PARTS;
-    let found = lists(&columns, &classes, REACH, &Account::new(effort));
+    let (mut known, account) = (Known::default(), Account::new(effort));
+    let found = lists(&columns, &classes, REACH, THOROUGH, &mut known, &account);
     let lists = found.iter().rev();
     let mut choices: Vec<Vec<usize>> = lists.map(|list| by_list(&columns, list)).collect();
     choices.push(by_frequency(&classes, allowed.len()));

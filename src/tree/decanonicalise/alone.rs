@@ -7,14 +7,15 @@
 use super::beams;
 use super::children::Children;
 use super::minimiser::Minimiser;
-use super::orders::{in_order, tree as listed};
+use super::orders::{in_order, tree as in_place};
 use super::parted;
 use super::problem::Problem;
 use super::share::shared;
 use super::subunit::behaviors;
 use crate::ir::tree::Node;
-use crate::logic::covering::{List, Worth, covering, lists};
-use crate::logic::partition::{Impurity, Partition, partition};
+use crate::logic::covering::{Known, List, lists};
+use crate::logic::impurity::Impurity;
+use crate::logic::partition::{Partition, partition};
 use crate::logic::{Account, Bits, Cover, Cube, Order};
 use crate::policy::Policy;
 use crate::tree::Size;
@@ -25,7 +26,10 @@ const FIRST: usize = 512;
 /// The most rows of a core in which a beam searches.
 const SEARCHED: usize = 4096;
 /// The words that may be read in the search for one rule of one class.
-pub(super) const REACH: u64 = 40_000;
+pub(super) const REACH: u64 = 60_000;
+/// Attempts at a smaller list before it is tried on all rows, and before the search for lists ends.
+const QUICK: usize = 40;
+pub(super) const THOROUGH: usize = 3000;
 
 /// Partitions of all rows, and the trees that they come to.
 pub(super) struct Held {
@@ -50,50 +54,33 @@ pub(super) fn held(problem: &Problem, account: &Account) -> Held {
     }
 }
 
-/// Trees that are right on all rows; whether the account was spent before the end.
+/// Trees that are right on all rows.
 pub(super) fn trees(problem: &Problem, held: &Held, account: &Account) -> Vec<Node> {
-    let mut found = Vec::new();
-    let all = problem.all();
-    if problem.policy.rows.len() > WHOLE {
-        // A list of classes looks at a core of its own for each class.
-        let minimiser = Minimiser::new(problem, account.part(3));
-        let subunits = behaviors(problem);
-        let list = in_order(&minimiser, &subunits, Order::Learned);
-        found.extend(list.map(|list| shared(listed(&minimiser, &subunits, &list))));
-        account.settle(&minimiser.account);
-    }
-    for partition in &held.partitions {
-        let part = account.part(6);
-        found.push(parted::with_lists(problem, partition, &all, &part).node());
-        account.settle(&part);
-    }
+    let mut known = Known::default();
     if problem.policy.rows.len() <= WHOLE || problem.wide {
-        found.extend(searched(problem, account));
+        let mut found = divided(problem, held, account);
+        found.extend(searched(problem, &mut known, account));
         return found;
     }
     let mut core = Core::first(problem);
-    // A list is enough to see which rows matter.
-    while core.rows.count() < problem.policy.rows.len() {
-        let policy = core.policy();
-        let part = account.part(4);
-        let sample = Problem::new(&policy);
-        let worth = Worth::plain(sample.on.len(), REACH);
-        let rows = sample.all();
-        let classes = sample.classes();
-        let list = covering(sample.columns(), &classes, &rows, &worth, usize::MAX, &part);
-        account.settle(&part);
-        let Some(list) = list.map(|list| Children::listed(&sample, &list).node()) else {
-            return found;
-        };
-        if core.adopt(&list, account) {
-            found.push(list);
-            break;
-        }
+    let part = account.part(2);
+    let listed = core.lists(&mut known, &part);
+    account.settle(&part);
+    let mut found = listed.clone().unwrap_or_default();
+    // A list of classes looks at a core of its own for each class.
+    let minimiser = Minimiser::new(problem, account.part(3));
+    let subunits = behaviors(problem);
+    let list = in_order(&minimiser, &subunits, Order::Learned);
+    found.extend(list.map(|list| shared(in_place(&minimiser, &subunits, &list))));
+    account.settle(&minimiser.account);
+    found.extend(divided(problem, held, account));
+    if listed.is_none() {
+        return found;
     }
     while core.rows.count() <= SEARCHED {
         let policy = core.policy();
         let part = account.part(2);
-        let mut best = searched(&Problem::new(&policy), &part);
+        let mut best = searched(&Problem::new(&policy), &mut known, &part);
         account.settle(&part);
         best.sort_by_key(Size::of);
         best.truncate(TRIED);
@@ -112,6 +99,18 @@ pub(super) fn trees(problem: &Problem, held: &Held, account: &Account) -> Vec<No
         }
     }
     found
+}
+
+/// The partitions with lists in the places of their parts.
+fn divided(problem: &Problem, held: &Held, account: &Account) -> Vec<Node> {
+    let all = problem.all();
+    let partitions = held.partitions.iter().map(|partition| {
+        let part = account.part(6);
+        let node = parted::with_lists(problem, partition, &all, &part).node();
+        account.settle(&part);
+        node
+    });
+    partitions.collect()
 }
 
 /// Trees for a core that are tried on all rows.
@@ -151,6 +150,36 @@ impl<'a, 'p> Core<'a, 'p> {
         }
     }
 
+    /// Lists for cores that grow until lists are right on all rows, first quickly, then thoroughly: those that are; `None` where no list
+    /// is found at all.
+    fn lists(&mut self, known: &mut Known, account: &Account) -> Option<Vec<Node>> {
+        let mut right = Vec::new();
+        let mut patience = QUICK;
+        loop {
+            let policy = self.policy();
+            let sample = Problem::new(&policy);
+            let (columns, classes) = (sample.columns(), sample.classes());
+            let found = lists(columns, &classes, REACH, patience, known, account);
+            let best = found.last().map(|list| Children::listed(&sample, list));
+            let best = best.map(Children::node);
+            match best.map(|best| (self.adopt(&best, account), best)) {
+                Some((true, best)) => {
+                    right.push(best);
+                    if patience == THOROUGH {
+                        return Some(right);
+                    }
+                    patience = THOROUGH;
+                }
+                Some((false, _)) => {}
+                None if right.is_empty() => return None,
+                None => return Some(right),
+            }
+            if account.is_spent() || self.rows.count() > SEARCHED {
+                return Some(right);
+            }
+        }
+    }
+
     /// Whether the tree is right on all rows. Else some rows on which it is wrong join the core.
     fn adopt(&mut self, tree: &Node, account: &Account) -> bool {
         let words = 24 + self.problem.columns().rows() as u64 / 64;
@@ -171,17 +200,18 @@ impl<'a, 'p> Core<'a, 'p> {
 }
 
 /// Trees by all methods at once.
-fn searched(problem: &Problem, account: &Account) -> Vec<Node> {
+fn searched(problem: &Problem, known: &mut Known, account: &Account) -> Vec<Node> {
     let subunits = behaviors(problem);
     let part = account.part(2);
-    let ruled: Vec<List> = lists(problem.columns(), &problem.classes(), REACH, &part);
+    let (columns, classes) = (problem.columns(), problem.classes());
+    let ruled: Vec<List> = lists(columns, &classes, REACH, THOROUGH, known, &part);
     account.settle(&part);
     let orders = [Order::Learned, Order::Given, Order::Rarest];
     let minimisers = orders.map(|_| Minimiser::new(problem, account.part(6)));
     let in_orders = minimisers.into_iter().zip(orders);
     let in_orders = in_orders.filter_map(|(minimiser, order)| {
         let list = in_order(&minimiser, &subunits, order);
-        let found = list.map(|list| (listed(&minimiser, &subunits, &list), list));
+        let found = list.map(|list| (in_place(&minimiser, &subunits, &list), list));
         account.settle(&minimiser.account);
         found
     });

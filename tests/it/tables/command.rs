@@ -35,6 +35,29 @@ fn ran(arguments: &[&str], input: &str) -> (String, String, Option<i32>) {
     )
 }
 
+/// Decisions without any order by behaviours of long names.
+#[test]
+fn a_tree_of_more_text_than_btc_reads_is_written_with_a_warning() {
+    let predicates: Vec<String> = (0..11).map(|i| format!("p{i}")).collect();
+    let mut table = format!("{},action\n", predicates.join(","));
+    for row in 0..1_u32 << 11 {
+        let values: Vec<String> = (0..11).map(|i| (row >> i & 1).to_string()).collect();
+        let does = row.wrapping_mul(2_654_435_761) >> 28;
+        let name = format!("b{does}_{}", "x".repeat(1_000));
+        table.push_str(&format!("{},{name}\n", values.join(",")));
+    }
+    let (out, err, code) = ran(&["decanonicalize", "-", "--effort", "0"], &table);
+    assert_eq!(code, Some(0), "{err}");
+    assert!(out.len() > 1_000_000, "{}", out.len());
+    assert!(err.starts_with("warning: the tree comes to "), "{err}");
+    let (out, err, code) = ran(
+        &["decanonicalize", "-", "--effort", "0", "--emit", "json"],
+        &table,
+    );
+    assert_eq!((err.as_str(), code), ("", Some(0)));
+    assert!(!out.is_empty());
+}
+
 #[test]
 fn a_table_goes_through_all_commands() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,0 +1,142 @@
+//! How mixed the parts of a division are (CART: Breiman, Friedman, Olshen and Stone 1984).
+
+use crate::math;
+use std::sync::LazyLock;
+
+/// A measure of how mixed a part is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Impurity {
+    /// The chance that two of its rows are of different classes.
+    Gini,
+    /// The entropy of the classes of its rows.
+    Entropy,
+    /// The rows that are not of its most frequent class.
+    Error,
+}
+
+impl Impurity {
+    /// Every measure.
+    pub const ALL: [Self; 3] = [Self::Gini, Self::Entropy, Self::Error];
+
+    /// Whether a division with parts as mixed as `mixed` is better than one with `least`, by more than rounding.
+    pub fn better(mixed: f64, least: f64) -> bool {
+        mixed < least - 1e-9 * (1.0 + least)
+    }
+}
+
+/// n log n for small n.
+static SMALL: LazyLock<Vec<f64>> = LazyLock::new(|| (0..1 << 14).map(by_its_logarithm).collect());
+
+fn by_its_logarithm(n: u32) -> f64 {
+    let n = f64::from(n);
+    if n > 1.0 { n * math::log2(n) } else { 0.0 }
+}
+
+/// n log n.
+fn n_log_n(n: u32) -> f64 {
+    let known = SMALL.get(n as usize);
+    known.copied().unwrap_or_else(|| by_its_logarithm(n))
+}
+
+/// The rows of a part by their class, as they come and go.
+#[derive(Clone, Debug)]
+pub struct Mixture {
+    impurity: Impurity,
+    counts: Vec<u32>,
+    total: u32,
+    /// The sum of a term for each class from which the impurity is calculated.
+    sum: f64,
+}
+
+impl Mixture {
+    /// A part without rows.
+    pub fn new(impurity: Impurity, classes: usize) -> Self {
+        Self {
+            impurity,
+            counts: vec![0; classes],
+            total: 0,
+            sum: 0.0,
+        }
+    }
+
+    fn term(&self, count: u32) -> f64 {
+        match self.impurity {
+            Impurity::Gini => f64::from(count) * f64::from(count),
+            Impurity::Entropy => n_log_n(count),
+            Impurity::Error => 0.0,
+        }
+    }
+
+    /// So many more rows of a class, or fewer.
+    pub fn change(&mut self, class: usize, by: i32) {
+        let Some(count) = self.counts.get(class).copied() else {
+            return;
+        };
+        let new = count.saturating_add_signed(by);
+        self.sum += self.term(new) - self.term(count);
+        self.total = self.total.saturating_add_signed(by);
+        if let Some(slot) = self.counts.get_mut(class) {
+            *slot = new;
+        }
+    }
+
+    /// How many rows there are.
+    pub fn total(&self) -> u32 {
+        self.total
+    }
+
+    /// The impurity of the part, times the number of its rows.
+    pub fn mixed(&self) -> f64 {
+        let total = f64::from(self.total);
+        match self.impurity {
+            _ if self.total == 0 => 0.0,
+            Impurity::Gini => total - self.sum / total,
+            Impurity::Entropy => n_log_n(self.total) - self.sum,
+            Impurity::Error => {
+                let most = self.counts.iter().copied().max();
+                total - f64::from(most.unwrap_or(0))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Impurity, Mixture};
+    use proptest::prelude::*;
+
+    /// The impurity of these rows at once.
+    fn mixed(impurity: Impurity, counts: &[u32]) -> f64 {
+        let total = counts.iter().map(|n| f64::from(*n)).sum::<f64>().max(1.0);
+        let shares = counts.iter().map(|n| f64::from(*n) / total);
+        let shares: Vec<f64> = shares.filter(|share| *share > 0.0).collect();
+        if shares.is_empty() {
+            return 0.0;
+        }
+        total
+            * match impurity {
+                Impurity::Gini => 1.0 - shares.iter().map(|p| p * p).sum::<f64>(),
+                Impurity::Entropy => shares.iter().map(|p| -p * p.log2()).sum(),
+                Impurity::Error => 1.0 - shares.iter().copied().fold(0.0, f64::max),
+            }
+    }
+
+    proptest! {
+        /// However rows come and go, a part is as mixed as its rows are.
+        #[test]
+        fn a_part_is_as_mixed_as_its_rows(changes in prop::collection::vec((0_usize..4, -9_i32..40), 0..60)) {
+            for impurity in Impurity::ALL {
+                let mut part = Mixture::new(impurity, 4);
+                let mut counts = [0_u32; 4];
+                for (class, by) in &changes {
+                    let by = (*by).max(-(counts[*class] as i32));
+                    part.change(*class, by);
+                    counts[*class] = counts[*class].saturating_add_signed(by);
+                }
+                let expected = mixed(impurity, &counts);
+                prop_assert_eq!(part.total(), counts.iter().sum::<u32>());
+                prop_assert!((part.mixed() - expected).abs() < 1e-6, "{:?}: {} {}", impurity, part.mixed(), expected);
+            }
+        }
+    }
+}
