@@ -6,6 +6,8 @@
 //! What it does alike with fewer nodes costs no simulation at all. Effort is counted in ticks, not in time.
 
 pub mod bodies;
+mod cell;
+pub mod chart;
 pub mod cover;
 pub mod evidence;
 pub mod field;

@@ -1,87 +1,25 @@
 //! What decisions led to, counted: a model of the process as the trees that grow meet it.
 
+pub use super::cell::{Cell, KNOWN, Sight};
+use super::cell::{Hazard, MOST};
 use super::gathered::{Excursion, Gathered, Taken};
 use super::ground::Ground;
-use crate::ir::tree::Status;
 use crate::learn::discount::Discounting;
 use crate::learn::episode::Controller;
 use crate::learn::process::{End, Key, World};
-use crate::learn::solve::{Outlook, Problem};
+use crate::learn::solve::Problem;
 use crate::world::Start;
 use rustc_hash::FxHashMap;
 use serde::{Deserialize, Serialize};
 
-/// How the future counts: as the learner says, or far.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sight {
-    /// By the learner's discount.
-    Learner,
-    /// Over a good part of an episode.
-    Far,
-}
-
-/// One choice in one minterm.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
-pub struct Cell {
-    /// How many decisions are counted.
-    pub count: f64,
-    reward: f64,
-    /// The sum of the squares of the rewards.
-    squares: f64,
-    /// The sum of the rewards below zero.
-    losses: f64,
-    /// Decisions that ended the episode.
-    ends: f64,
-    ticks: f64,
-    /// Failures in the first tick.
-    refused: f64,
-    /// The rows that followed, with how often, and the sums of the factors on what follows in either sight.
-    next: Vec<(usize, f64, [f64; 2])>,
-}
-
-impl Cell {
-    /// The part of its decisions that failed in the first tick.
-    pub fn refused(&self) -> f64 {
-        self.refused / self.count.max(1.0)
-    }
-
-    /// Whether it is known to fail at once, nearly always.
-    pub fn refuses(&self) -> bool {
-        self.count >= KNOWN && self.refused() >= REFUSES
-    }
-
-    /// The mean number of ticks of a decision.
-    pub fn ticks(&self) -> f64 {
-        self.ticks / self.count.max(1.0)
-    }
-
-    /// The rows that followed, with how often.
-    pub fn next(&self) -> impl Iterator<Item = (usize, f64)> {
-        self.next.iter().map(|(row, count, _)| (*row, *count))
-    }
-}
-
-/// The most that a cell counts: beyond, older decisions make room. Where counts fade everywhere, what is seldom visited
-/// is forgotten.
-const MOST: f64 = 100.0;
-
-/// The fewest decisions by which a choice is taken into account.
-pub const KNOWN: f64 = 10.0;
-
-/// The part of the decisions from which on a choice counts as failing at once.
-const REFUSES: f64 = 0.8;
-
 /// The decisions by which counts are doubted, see [`Evidence::doubted`].
 const DOUBT: f64 = 15.0;
-
-/// The ticks for which the hazard of all minterms counts in one.
-const ANYWHERE: f64 = 100.0;
 
 /// How often caution is taken anew with the values that it led to.
 const CAUTIONS: usize = 2;
 
 /// The part of an episode over which rewards count in the far sight.
-const FAR: f64 = 0.3;
+pub(super) const FAR: f64 = 0.3;
 
 /// Counted decisions.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -95,6 +33,8 @@ pub struct Evidence {
     refused: (f64, f64),
     /// The most that a cell counts.
     most: f64,
+    /// The minterms in which episodes began, with how often.
+    starts: FxHashMap<Key, f64>,
 }
 
 /// How often a tree was in each minterm in an episode, on average, by key.
@@ -118,6 +58,7 @@ impl Evidence {
             cells: Vec::new(),
             refused: (0.0, 0.0),
             most: MOST,
+            starts: FxHashMap::default(),
         }
     }
 
@@ -143,6 +84,11 @@ impl Evidence {
     pub fn cells(&self, row: usize) -> &[Cell] {
         let from = row * self.choices;
         self.cells.get(from..from + self.choices).unwrap_or(&[])
+    }
+
+    /// How many episodes from the task's own starts began in a minterm.
+    pub fn begun(&self, key: Key) -> f64 {
+        self.starts.get(&key).copied().unwrap_or_default()
     }
 
     /// The mean reward of failing at once.
@@ -187,6 +133,11 @@ impl Evidence {
                 for taken in &gathered.taken {
                     self.count(taken);
                 }
+                if let (Some(first), true) =
+                    (gathered.visits.first(), start.lines == ground.start.lines)
+                {
+                    *self.starts.entry(*first).or_default() += 1.0;
+                }
                 for key in gathered.visits {
                     *visits.entry(key).or_default() += 1.0;
                 }
@@ -207,44 +158,14 @@ impl Evidence {
         let row = self.find(taken.from);
         let next = (!matches!(taken.end, End::Terminal(_))).then(|| self.find(taken.to));
         let factors = self.discounts.map(|discount| discount.factor(taken.ticks));
-        let refused = taken.status == Status::Failure && taken.ticks == 1;
-        if refused {
+        if taken.is_refused() {
             self.refused.0 += taken.reward;
             self.refused.1 += 1.0;
         }
-        let Some(cell) = self.cells.get_mut(row * self.choices + taken.choice) else {
-            return;
-        };
-        if cell.count >= self.most {
-            let keep = (self.most - 1.0) / cell.count;
-            cell.count *= keep;
-            cell.reward *= keep;
-            cell.squares *= keep;
-            cell.losses *= keep;
-            cell.ends *= keep;
-            cell.ticks *= keep;
-            cell.refused *= keep;
-            for (_, count, factors) in &mut cell.next {
-                *count *= keep;
-                factors.iter_mut().for_each(|factor| *factor *= keep);
-            }
-        }
-        cell.count += 1.0;
-        cell.reward += taken.reward;
-        cell.losses += taken.reward.min(0.0);
-        cell.ends += f64::from(u8::from(next.is_none()));
-        cell.squares += taken.reward * taken.reward;
-        cell.ticks += taken.ticks as f64;
-        cell.refused += f64::from(u8::from(refused));
-        let Some(next) = next else { return };
-        match cell.next.iter_mut().find(|(to, ..)| *to == next) {
-            Some((_, count, sums)) => {
-                *count += 1.0;
-                for (sum, factor) in sums.iter_mut().zip(factors) {
-                    *sum += factor;
-                }
-            }
-            None => cell.next.push((next, 1.0, factors)),
+        let most = self.most;
+        if let Some(cell) = self.cells.get_mut(row * self.choices + taken.choice) {
+            cell.fade(most);
+            cell.add(taken, next.map(|next| (next, factors)));
         }
     }
 
@@ -319,81 +240,5 @@ impl Evidence {
             worths
         })
         .collect()
-    }
-}
-
-/// What goes wrong in a tick, whatever is done.
-struct Hazard {
-    losses: f64,
-    ends: f64,
-    ticks: f64,
-}
-
-impl Hazard {
-    fn of(cells: &[Cell]) -> Self {
-        let sum = |figure: fn(&Cell) -> f64| cells.iter().map(figure).sum();
-        Self {
-            losses: sum(|cell| cell.losses),
-            ends: sum(|cell| cell.ends),
-            ticks: sum(|cell| cell.ticks),
-        }
-    }
-
-    /// The hazard here, with some of the hazard anywhere.
-    fn with(&self, anywhere: &Self) -> Self {
-        let some = ANYWHERE / anywhere.ticks.max(1.0);
-        Self {
-            losses: self.losses + some * anywhere.losses,
-            ends: self.ends + some * anywhere.ends,
-            ticks: self.ticks + ANYWHERE,
-        }
-    }
-}
-
-impl Cell {
-    /// What is to be expected, if so many decisions more went wrong as any may.
-    fn outlook(&self, sight: Sight, doubt: f64, hazard: &Hazard) -> Outlook {
-        let n = self.count;
-        let ticks = self.ticks / n;
-        let plain = (self.reward - self.losses) / n;
-        let supposed = plain + ticks * hazard.losses / hazard.ticks;
-        let stays = (1.0 - ticks * hazard.ends / hazard.ticks).clamp(0.0, 1.0);
-        let met = n - self.ends;
-        let scale = match met > 0.0 {
-            true => (met + doubt * stays) / (n + doubt) / met,
-            false => 0.0,
-        };
-        let next = self.next.iter();
-        Outlook {
-            reward: (self.reward + doubt * supposed) / (n + doubt),
-            ticks,
-            next: next
-                .map(|(row, _, factors)| (*row, sight.of(factors) * scale))
-                .collect(),
-        }
-    }
-
-    /// The variance of what one decision is worth.
-    fn variance(&self, sight: Sight, value: impl Fn(usize) -> f64) -> f64 {
-        let n = self.count;
-        let rewards = self.squares / n - (self.reward / n) * (self.reward / n);
-        let (mut sum, mut squares) = (0.0, 0.0);
-        for (row, count, factors) in &self.next {
-            let worth = sight.of(factors) / count.max(f64::MIN_POSITIVE) * value(*row);
-            sum += count * worth;
-            squares += count * worth * worth;
-        }
-        let follows = squares / n - (sum / n) * (sum / n);
-        rewards.max(0.0) + follows.max(0.0)
-    }
-}
-
-impl Sight {
-    /// The figure for this sight.
-    fn of(self, [learner, far]: &[f64; 2]) -> f64 {
-        match self {
-            Self::Learner => *learner,
-            Self::Far => *far,
-        }
     }
 }

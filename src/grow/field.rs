@@ -10,6 +10,7 @@ use crate::ir::law::Behavior;
 use crate::ir::tree::Guard;
 use crate::ir::tree::{Atom, Composite, Node, Status};
 use crate::learn::process::{Key, World};
+use crate::learn::solve::Problem;
 use crate::tree::Runner;
 use crate::tree::atoms::behaviors;
 use crate::tree::guard::or;
@@ -26,7 +27,7 @@ pub enum Aim<'n> {
 }
 
 /// The behaviours by their numbers among the choices.
-type Numbers = FxHashMap<Id<Behavior>, usize>;
+pub(super) type Numbers = FxHashMap<Id<Behavior>, usize>;
 
 /// What a tree does in a minterm.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -120,6 +121,19 @@ impl<'w> Field<'w> {
                 problem.evaluate(&policy)
             }
         };
+        Self::with(ground, evidence, &problem, &values, visits)
+    }
+
+    /// What is known, with the visits of a tree, where rows are worth so much.
+    pub fn with<W: World>(
+        ground: &Ground<'w, W>,
+        evidence: &Evidence,
+        problem: &Problem,
+        values: &[f64],
+        visits: &Visits,
+    ) -> Self {
+        let atoms = ground.atoms();
+        let numbers = numbers(ground);
         let refusal = evidence.refusal();
         let mut spots: Vec<Spot> = visits
             .iter()
@@ -129,7 +143,7 @@ impl<'w> Field<'w> {
                 let mut worths: Vec<Option<f64>> = vec![None; ground.choices.len()];
                 for (choice, outlook) in states {
                     if let Some(worth) = worths.get_mut(*choice) {
-                        *worth = Some(problem.lasting(row, outlook, &values));
+                        *worth = Some(problem.lasting(row, outlook, values));
                     }
                 }
                 let known = || worths.iter().flatten().copied();
@@ -190,7 +204,7 @@ impl<'w> Field<'w> {
     }
 }
 
-fn numbers<W>(ground: &Ground<W>) -> Numbers {
+pub(super) fn numbers<W>(ground: &Ground<W>) -> Numbers {
     let choices = ground.choices.iter().enumerate();
     choices.map(|(at, id)| (*id, at)).collect()
 }
@@ -209,7 +223,7 @@ pub fn alike<W: World>(ground: &Ground<W>, trees: [&Node; 2], keys: &[Key]) -> u
 }
 
 /// What a tree does in a minterm, its memory fresh, where some choices fail at once.
-fn driven(
+pub(super) fn driven(
     runner: &mut Runner,
     key: Key,
     numbers: &Numbers,
@@ -235,7 +249,7 @@ fn driven(
 /// A tree whose memory nodes ask the history instead: a sequence goes on behind the last child that has succeeded, a
 /// selector behind the last that has failed. Where the history is not kept, a later child comes first and fails at
 /// once where it is not its turn.
-fn without_memory(node: &Node, atoms: &[Atom]) -> Node {
+pub(super) fn without_memory(node: &Node, atoms: &[Atom]) -> Node {
     match node {
         Node::Condition(_) | Node::Behavior(_) => node.clone(),
         Node::Composite {

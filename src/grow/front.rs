@@ -2,7 +2,7 @@
 
 use super::field;
 use super::grower::{Found, Visited};
-use super::race::{Entrant, Judge, RANSOM, is_more};
+use super::race::{Entrant, Judge, Terms};
 use super::{Settings, Starts};
 use crate::ir::tree::{Atom, Node};
 use crate::learn::process::World;
@@ -119,7 +119,7 @@ pub(super) fn choose<W: World>(
     )?;
     let harms = |entrant: &Entrant| judge.harms(entrant);
     let exact = entrants.len().saturating_sub(1);
-    let chosen = chosen(&entrants, exact, &harms, settings.choice, price);
+    let chosen = chosen(&judge, &entrants, exact, settings.choice, price);
     let front = points(&entrants, chosen, &harms);
     let root = entrants
         .get(chosen)
@@ -202,7 +202,10 @@ fn confirmed<W: World>(
         judge.play(&trials, &mut exact, episodes, None);
         judge.play(&trials, &mut entrants, episodes, exact.first());
         if halves {
-            judge.order(&mut entrants, |entrant| worth(entrant, price));
+            let Some(exact) = exact.first() else { break };
+            let terms = Terms::taking(price);
+            let gain = |entrant: &Entrant| judge.gain(entrant, exact, terms).mean;
+            entrants.sort_by(|a, b| gain(b).total_cmp(&gain(a)));
             out.extend(entrants.drain(stay.min(entrants.len())..));
         }
     }
@@ -211,16 +214,11 @@ fn confirmed<W: World>(
     Ok(entrants)
 }
 
-/// What a tree returns for its nodes.
-fn worth(entrant: &Entrant, price: f64) -> f64 {
-    entrant.contender.returns().mean - price * entrant.nodes as f64
-}
-
 /// The place of the tree that is taken; the exact one stands last.
-fn chosen(
+fn chosen<W: World>(
+    judge: &Judge<'_, '_, W>,
     entrants: &[Entrant],
     exact: usize,
-    harms: &impl Fn(&Entrant) -> u64,
     choice: Choice,
     price: f64,
 ) -> usize {
@@ -233,7 +231,7 @@ fn chosen(
         .iter()
         .enumerate()
         .filter(|(_, entrant)| entrant.contender.episodes() == base.contender.episodes())
-        .filter(|(_, entrant)| harms(entrant) <= harms(base))
+        .filter(|(_, entrant)| judge.harms(entrant) <= judge.harms(base))
         .collect();
     let best = |from: &[(usize, &Entrant)], worth: &dyn Fn(&Entrant) -> f64| {
         let worths = from.iter().map(|(at, entrant)| (*at, worth(entrant)));
@@ -241,7 +239,7 @@ fn chosen(
         best.map_or(exact, |(at, _)| at)
     };
     match choice {
-        Choice::Knee => knee(&safe, (exact, base), harms, price),
+        Choice::Knee => knee(judge, &safe, (exact, base), price),
         Choice::Nodes(most) => {
             let all = entrants.iter().enumerate();
             let few: Vec<_> = all.filter(|(_, e)| e.nodes <= most).collect();
@@ -257,44 +255,26 @@ fn chosen(
     }
 }
 
-/// The place of the tree that returns most for its nodes, of those that do no more harm than others.
-fn knee(
+/// The place of the tree that returns most for its nodes and its harm, of those that are as good as the exact one without
+/// regard to nodes.
+fn knee<W: World>(
+    judge: &Judge<'_, '_, W>,
     safe: &[(usize, &Entrant)],
     (exact, base): (usize, &Entrant),
-    harms: &impl Fn(&Entrant) -> u64,
     price: f64,
 ) -> usize {
-    let ransom = |entrant: &Entrant| RANSOM * entrant.contender.returns().mean.abs();
-    let good = |(at, entrant): &(usize, &Entrant)| {
-        let loss = entrant.contender.loss(&base.contender);
-        *at == exact
-            || is_more(harms(base), harms(entrant)) && loss.mean <= ransom(base)
-            || loss.mean <= error(&loss)
+    let as_good = |entrant: &Entrant| {
+        let gain = judge.gain(entrant, base, Terms::taking(0.0));
+        gain.mean >= -error(&gain)
     };
-    let good: Vec<(usize, &Entrant)> = safe.iter().copied().filter(good).collect();
-    let least = good.iter().map(|(_, entrant)| harms(entrant)).min();
-    let few = |entrant: &Entrant| !is_more(harms(entrant), least.unwrap_or(0));
-    let worth = |entrant: &Entrant| worth(entrant, price);
-    // The best; then the one that does least harm of those that are nearly as good.
-    let few_harms = good.iter().filter(|(_, entrant)| few(entrant));
-    let worths = few_harms.clone().map(|(_, entrant)| worth(entrant));
-    let most = worths.fold(f64::NEG_INFINITY, f64::max);
-    let near = |entrant: &Entrant| worth(entrant) >= most - 0.5 * ransom(entrant);
-    let best = few_harms
-        .filter(|(_, entrant)| near(entrant))
-        .copied()
-        .reduce(|best, next| {
-            let (own, other) = (harms(next.1), harms(best.1));
-            match own < other || own == other && worth(next.1) > worth(best.1) {
-                true => next,
-                false => best,
-            }
-        });
-    let gives_way = best.is_some_and(|(_, entrant)| {
-        let safer = is_more(harms(base), harms(entrant));
-        safer || worth(entrant) - worth(base) > PROVED * price
+    let good = safe.iter().filter(|(_, entrant)| as_good(entrant));
+    let gains = good.map(|(at, entrant)| {
+        let gain = judge.gain(entrant, base, Terms::taking(price));
+        (*at, gain.mean)
     });
-    best.filter(|_| gives_way).map_or(exact, |(at, _)| at)
+    let best = gains.reduce(|best, next| if next.1 > best.1 { next } else { best });
+    let gives_way = best.filter(|(_, gain)| *gain > PROVED * price);
+    gives_way.map_or(exact, |(at, _)| at)
 }
 
 /// The trees that none beats in both nodes and return, and the one that was taken.

@@ -29,6 +29,13 @@ pub(super) struct Taken {
     pub(super) end: End,
 }
 
+impl Taken {
+    /// Whether it failed in its first tick.
+    pub(super) fn is_refused(&self) -> bool {
+        self.status == Status::Failure && self.ticks == 1
+    }
+}
+
 /// What one episode gave.
 #[derive(Debug, Default)]
 pub(super) struct Gathered {

@@ -6,7 +6,7 @@ mod sprouts;
 
 use super::evidence::{Evidence, Visits};
 use super::ground::Ground;
-use super::race::{Entrant, Judge};
+use super::race::{Entrant, Judge, Terms};
 use super::step::{Halted, Step};
 use super::{Progress, Settings, Starts};
 use crate::checkpoint::Part;
@@ -202,7 +202,8 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
             .cloned()
             .chain(singles.into_iter().map(|s| s.root))
             .collect();
-        let (found, _) = self.judge.race(&pruned, others, self.price);
+        let terms = Terms::searching(self.price);
+        let found = self.judge.race(&pruned, others, terms);
         let base = found.map_or(pruned, |found| self.pruned(&found.root.clone(), &found));
         self.visit(&base);
         Ok(base)
@@ -237,8 +238,10 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
     fn best_of(&mut self, mut base: Node, trees: Vec<Node>, races: usize) -> Node {
         for _ in 0..races {
             let others = trees.iter().filter(|tree| **tree != base).cloned();
-            let (found, _) = self.judge.race(&base, others.collect(), self.price);
-            let Some(found) = found else { break };
+            let terms = Terms::searching(self.price);
+            let Some(found) = self.judge.race(&base, others.collect(), terms) else {
+                break;
+            };
             base = self.taken(found);
         }
         base

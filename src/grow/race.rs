@@ -11,16 +11,38 @@ use serde::{Deserialize, Serialize};
 
 /// For each stage, the episodes up to which its trees play, and the most that stay after it.
 const STAGES: [(usize, usize); 4] = [(2, 14), (8, 6), (24, 3), (64, 2)];
-/// The episodes of the last stage where ends that cost were met: they are rare and dear.
+/// The episodes of the last stage where harm is dear and was met: it is rare.
 const RARE: usize = 160;
 /// The ticks that an episode of a stage should have at least, on average.
 const LENGTH: u64 = 1000;
 /// A tree leaves a race when its gain is below zero by this many standard errors.
 const HOPELESS: f64 = 2.0;
-/// The standard errors by which harm is more than chance.
-const CERTAIN: f64 = 1.7;
-/// The part of the return that a tree may lose where it avoids harm.
-pub const RANSOM: f64 = 0.05;
+/// What an episode with harm costs in a search, in returns: little, since a tree that returns much and does harm at times is
+/// more easily mended than one that returns little.
+const CHEAP: f64 = 1.0;
+/// What it costs where a tree is to be taken.
+const DEAR: f64 = 5.0;
+
+/// What a tree is charged for in a race.
+#[derive(Clone, Copy, Debug)]
+pub struct Terms {
+    /// The price of a node.
+    pub price: f64,
+    /// What an episode with harm costs, in returns.
+    pub harm: f64,
+}
+
+impl Terms {
+    /// Those of a search that goes on.
+    pub fn searching(price: f64) -> Self {
+        Self { price, harm: CHEAP }
+    }
+
+    /// Those of a search whose tree is taken.
+    pub fn taking(price: f64) -> Self {
+        Self { price, harm: DEAR }
+    }
+}
 
 /// Trees in a race.
 #[derive(Clone, Debug)]
@@ -43,7 +65,7 @@ pub struct Seen {
     /// Whether harm was met in any episode.
     harmed: bool,
     /// The mean length of an episode.
-    length: u64,
+    pub length: u64,
 }
 
 /// The judge of races.
@@ -115,10 +137,17 @@ impl<'g, 'w, W: World> Judge<'g, 'w, W> {
         harms.into_iter().sum()
     }
 
-    /// The gain of a tree over another with what its nodes cost more, episode by episode.
-    fn gain(&self, entrant: &Entrant, base: &Entrant, price: f64) -> Mean {
+    /// The harm of a tree in an episode, on average.
+    fn harm_rate(&self, entrant: &Entrant) -> f64 {
+        self.harms(entrant) as f64 / entrant.contender.episodes().max(1) as f64
+    }
+
+    /// The gain of a tree over another with what its nodes and its harm cost more, episode by episode.
+    pub fn gain(&self, entrant: &Entrant, base: &Entrant, terms: Terms) -> Mean {
         let loss = entrant.contender.loss(&base.contender);
-        let cost = price * (entrant.nodes as f64 - base.nodes as f64);
+        let nodes = terms.price * (entrant.nodes as f64 - base.nodes as f64);
+        let more = self.harm_rate(entrant) - self.harm_rate(base);
+        let cost = nodes + terms.harm * scale(base) * more;
         let [low, high] = loss.ci95;
         Mean {
             mean: -loss.mean - cost,
@@ -126,98 +155,46 @@ impl<'g, 'w, W: World> Judge<'g, 'w, W> {
         }
     }
 
-    /// How many more harms a tree met than another, and the standard error of the difference.
-    fn harm(&self, entrant: &Entrant, base: &Entrant) -> (f64, f64) {
-        let own = entrant.contender.each(|episode| self.ground.harm(episode));
-        let other = base.contender.each(|episode| self.ground.harm(episode));
-        let pairs = own.into_iter().zip(other);
-        let differences: Vec<f64> = pairs
-            .map(|(own, other)| own as f64 - other as f64)
-            .collect();
-        let more = differences.iter().sum();
-        let squares: f64 = differences.iter().map(|d| d * d).sum();
-        (more, squares.sqrt())
-    }
-
-    /// Whether a tree is better than another: less harm, or else more return for its nodes.
-    pub fn better(&self, entrant: &Entrant, base: &Entrant, price: f64) -> bool {
-        let (more, doubt) = self.harm(entrant, base);
-        if more > 0.0 && (more >= doubt || self.harms(base) == 0) {
-            return false;
-        }
-        let gain = self.gain(entrant, base, price);
-        if more < 0.0 && -more >= 2.0 * doubt {
-            let loss = entrant.contender.loss(&base.contender);
-            return loss.mean <= RANSOM * base.contender.returns().mean.abs();
-        }
-        gain.mean > error(&gain)
-    }
-
-    /// Orders trees that have played alike long: those that surely do more harm than others come last, the others by
-    /// what they are worth.
-    pub fn order(&self, entrants: &mut [Entrant], worth: impl Fn(&Entrant) -> f64) {
-        let least = entrants.iter().map(|entrant| self.harms(entrant)).min();
-        let certain = |entrant: &Entrant| is_more(self.harms(entrant), least.unwrap_or(0));
-        entrants.sort_by(|a, b| {
-            let safer = certain(a).cmp(&certain(b));
-            safer.then(worth(b).total_cmp(&worth(a)))
-        });
-    }
-
-    fn hopes(&self, entrant: &Entrant, base: &Entrant, price: f64) -> bool {
-        let (more, doubt) = self.harm(entrant, base);
-        if more > 2.0 * doubt {
-            return false;
-        }
-        let gain = self.gain(entrant, base, price);
+    fn hopes(&self, entrant: &Entrant, base: &Entrant, terms: Terms) -> bool {
+        let gain = self.gain(entrant, base, terms);
         let least = base.contender.spread() / (entrant.contender.episodes() as f64).sqrt();
-        (more < 0.0 && -more >= doubt) || gain.mean + HOPELESS * error(&gain).max(0.2 * least) > 0.0
+        gain.mean + HOPELESS * error(&gain).max(0.2 * least) > 0.0
     }
 
-    /// The best of these trees that is better than the base, at a price for each node, and the base as it played.
-    pub fn race(
-        &mut self,
-        base: &Node,
-        trees: Vec<Node>,
-        price: f64,
-    ) -> (Option<Entrant>, Option<Entrant>) {
+    /// The best of these trees that is surely better than the base on these terms.
+    pub fn race(&mut self, base: &Node, trees: Vec<Node>, terms: Terms) -> Option<Entrant> {
         let race = self.fresh();
         let trials = self.ground.trials(Purpose::Grow, race);
-        let Some(base) = self.entrant(&trials, base) else {
-            return (None, None);
-        };
-        let mut base = vec![base];
+        let mut base = vec![self.entrant(&trials, base)?];
         let ready = trees.iter().filter_map(|root| self.entrant(&trials, root));
         let mut entrants: Vec<Entrant> = ready.collect();
         let mut stages = STAGES.to_vec();
-        if self.seen.harmed {
+        if self.seen.harmed && terms.harm > CHEAP {
             stages.push((RARE, 2));
         }
         for (episodes, stay) in stages {
             let episodes = self.scaled(episodes);
             self.play(&trials, &mut base, episodes, None);
-            let Some(base) = base.first() else { break };
+            let base = base.first()?;
             self.play(&trials, &mut entrants, episodes, Some(base));
-            entrants.retain(|entrant| self.hopes(entrant, base, price));
-            self.order(&mut entrants, |entrant| {
-                self.gain(entrant, base, price).mean
-            });
+            entrants.retain(|entrant| self.hopes(entrant, base, terms));
+            let gain = |entrant: &Entrant| self.gain(entrant, base, terms).mean;
+            entrants.sort_by(|a, b| gain(b).total_cmp(&gain(a)));
             entrants.truncate(stay);
             if entrants.is_empty() {
-                break;
+                return None;
             }
         }
-        let base = base.pop();
-        let found = base.as_ref().and_then(|base| {
-            let mut entrants = entrants.into_iter();
-            entrants.find(|entrant| self.better(entrant, base, price))
-        });
-        (found, base)
+        let base = base.pop()?;
+        entrants.into_iter().find(|entrant| {
+            let gain = self.gain(entrant, &base, terms);
+            gain.mean > error(&gain)
+        })
     }
 }
 
-/// Whether harm is more than other harm in as many episodes, and not by chance.
-pub fn is_more(harms: u64, others: u64) -> bool {
-    let more = harms.saturating_sub(others) as f64;
-    more > CERTAIN * ((harms + others) as f64).sqrt()
+/// What the cost of harm is a part of: a return, or its standard deviation if that is more.
+fn scale(entrant: &Entrant) -> f64 {
+    let contender = &entrant.contender;
+    contender.returns().mean.abs().max(contender.spread())
 }

@@ -16,6 +16,12 @@ pub struct Outlook {
 }
 
 impl Outlook {
+    /// The part that leads back to a state.
+    fn back(&self, state: usize) -> f64 {
+        let back = self.next.iter().filter(|(to, _)| *to == state);
+        back.map(|(_, weight)| weight).sum()
+    }
+
     /// The means of these sums over `count` decisions.
     pub fn over(&self, count: f64) -> Self {
         let next = self.next.iter();
@@ -58,6 +64,13 @@ const BETTER: f64 = 1e-9;
 const SWEEPS: usize = 20_000;
 const SETTLED: f64 = 1e-12;
 
+/// The same where the values are near, in parts of the greatest value.
+const NEAR_SWEEPS: usize = 300;
+const NEAR: f64 = 1e-5;
+
+/// What may be left to come of the expected meetings of all states.
+const LEFT: f64 = 1e-3;
+
 impl Problem {
     /// What a choice is worth under the values of the states that follow it.
     pub fn worth(&self, outlook: &Outlook, values: &[f64]) -> f64 {
@@ -68,8 +81,7 @@ impl Problem {
 
     /// What a choice is worth that is taken again whenever it leads back to its own state, under the values of the others.
     pub fn lasting(&self, state: usize, outlook: &Outlook, values: &[f64]) -> f64 {
-        let back = outlook.next.iter().filter(|(to, _)| *to == state);
-        let back: f64 = back.map(|(_, weight)| weight).sum();
+        let back = outlook.back(state);
         let value = values.get(state).copied().unwrap_or(self.unknown);
         let leaves = self.worth(outlook, values) - back * value;
         leaves / (1.0 - back).max(1e-6)
@@ -152,7 +164,11 @@ impl Problem {
         } else {
             None
         };
-        solved.unwrap_or_else(|| self.sweep(|state| policy.get(state).copied().flatten()))
+        solved.unwrap_or_else(|| {
+            let taken = |state| policy.get(state).copied().flatten();
+            let values = vec![self.unknown; self.states.len()];
+            self.sweep(taken, values, self.unknown, (SWEEPS, SETTLED))
+        })
     }
 
     /// The outlook of a policy in a state.
@@ -183,21 +199,71 @@ impl Problem {
         finite.then(|| values.iter().copied().collect())
     }
 
-    /// Values by sweeps in place (Gauss and Seidel) under a policy.
-    fn sweep(&self, taken: impl Fn(usize) -> Option<usize>) -> Vec<f64> {
-        let mut values = vec![self.unknown; self.states.len()];
+    /// About the value of every state under a policy, by a few sweeps from values that are near, where states without a choice
+    /// are worth `unknown`.
+    pub fn evaluate_near(
+        &self,
+        policy: &[Option<usize>],
+        values: Vec<f64>,
+        unknown: f64,
+    ) -> Vec<f64> {
+        let largest = values.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+        let taken = |state| policy.get(state).copied().flatten();
+        self.sweep(taken, values, unknown, (NEAR_SWEEPS, NEAR * largest))
+    }
+
+    /// How often each state is met under a policy that begins in these, discounted: u = d + Pᵀ u.
+    pub fn occupancy(&self, policy: &[Option<usize>], from: &[f64]) -> Vec<f64> {
+        let mut met = from.to_vec();
+        let mut due = from.to_vec();
         for _ in 0..SWEEPS {
-            let mut change: f64 = 0.0;
-            for state in 0..self.states.len() {
-                if let Some(outlook) = self.outlook(state, taken(state)) {
-                    let worth = self.worth(outlook, &values);
-                    if let Some(value) = values.get_mut(state) {
-                        change = change.max((worth - *value).abs());
-                        *value = worth;
+            let mut next = vec![0.0; due.len()];
+            for (state, (weight, taken)) in due.iter().zip(policy).enumerate() {
+                let outlook = self.outlook(state, *taken).filter(|_| *weight > 0.0);
+                for (to, factor) in outlook.iter().flat_map(|outlook| &outlook.next) {
+                    if let Some(next) = next.get_mut(*to) {
+                        *next += weight * factor;
                     }
                 }
             }
-            if change < SETTLED {
+            met.iter_mut()
+                .zip(&next)
+                .for_each(|(met, next)| *met += next);
+            due = next;
+            if due.iter().sum::<f64>() < LEFT {
+                break;
+            }
+        }
+        met
+    }
+
+    /// The part of a policy's next state that is the state itself.
+    pub fn stays(&self, state: usize, policy: &[Option<usize>]) -> f64 {
+        let taken = policy.get(state).copied().flatten();
+        self.outlook(state, taken)
+            .map_or(0.0, |outlook| outlook.back(state))
+    }
+
+    /// Values by sweeps in place (Gauss and Seidel) under a policy, from these values: at most so many, until the greatest
+    /// change is small.
+    fn sweep(
+        &self,
+        taken: impl Fn(usize) -> Option<usize>,
+        mut values: Vec<f64>,
+        unknown: f64,
+        (most, settled): (usize, f64),
+    ) -> Vec<f64> {
+        for _ in 0..most {
+            let mut change: f64 = 0.0;
+            for state in 0..self.states.len() {
+                let outlook = self.outlook(state, taken(state));
+                let worth = outlook.map_or(unknown, |outlook| self.worth(outlook, &values));
+                if let Some(value) = values.get_mut(state) {
+                    change = change.max((worth - *value).abs());
+                    *value = worth;
+                }
+            }
+            if change < settled {
                 break;
             }
         }

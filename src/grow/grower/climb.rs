@@ -5,6 +5,7 @@ use crate::grow::bodies;
 use crate::grow::evidence::Sight;
 use crate::grow::field::{Aim, Field};
 use crate::grow::propose::{Proposal, Proposer};
+use crate::grow::race::Terms;
 use crate::grow::step::{Stage, Step};
 use crate::ir::tree::Node;
 use crate::learn::process::World;
@@ -38,7 +39,11 @@ impl<W: World> Grower<'_, '_, '_, W> {
         if trees.is_empty() {
             return (base, Step::Climb(Stage::of(stage.number + 1)));
         }
-        match self.judge.race(&base, trees, price).0 {
+        let terms = match stage.number {
+            0 => Terms::searching(price),
+            _ => Terms::taking(price),
+        };
+        match self.judge.race(&base, trees, terms) {
             Some(found) => (self.taken(found), Step::Climb(Stage::of(stage.number))),
             None => {
                 stage.failures += 1;
@@ -62,7 +67,7 @@ impl<W: World> Grower<'_, '_, '_, W> {
         if !self.spent(1.0) {
             let price = self.price * factor;
             let trees = self.proposals(&base, price, true, &mut stage.tried);
-            if let Some(found) = self.judge.race(&base, trees, price).0 {
+            if let Some(found) = self.judge.race(&base, trees, Terms::taking(price)) {
                 return (self.taken(found), Step::Refine(stage));
             }
         }
