@@ -17,7 +17,7 @@ use std::ops::Range;
 /// The ticks of a trace.
 const TICKS: usize = 40;
 /// How many traces are given to the libraries at once.
-const AT_ONCE: usize = 1000;
+const AT_ONCE: usize = 5000;
 
 /// The nodes that trees have, and what their conditions are made of.
 const NODES: [&str; 18] = [

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <deque>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -28,7 +29,7 @@ constexpr std::chrono::milliseconds TICK{100};
 // The ticks from the beginning of the longest timeout to its end, both of them counted.
 constexpr std::size_t LONGEST = 5;
 // How many trees with a timeout are ticked in turn.
-constexpr std::size_t TOGETHER = 200;
+constexpr std::size_t TOGETHER = 400;
 
 // The leaves of a program.
 struct Leaves {
@@ -183,41 +184,42 @@ private:
     std::vector<Clock::time_point> times_;
 };
 
-// What trees do that look at the clock on the wall: they are ticked in turn, a tick of the world at a time. A timer may
+// What trees do that look at the clock on the wall: some are ticked in turn, a tick of the world at a time. A timer may
 // come late where the machine is busy, so a trace counts if its ticks came in time and it has come out the same twice.
-void playInTime(std::vector<std::size_t> places, const Json& plays, const Leaves& leaves, std::vector<Json>& answers)
+void playInTime(std::deque<std::size_t> waiting, const Json& plays, const Leaves& leaves, std::vector<Json>& answers)
 {
-    for (int attempt = 0; attempt < 100 && !places.empty(); ++attempt) {
-        std::vector<std::unique_ptr<Run>> runs;
-        for (const auto place : places) {
-            runs.push_back(std::make_unique<Run>(plays[place], leaves));
+    std::map<std::size_t, int> attempts;
+    while (!waiting.empty()) {
+        std::vector<std::pair<std::size_t, std::unique_ptr<Run>>> runs;
+        while (!waiting.empty() && runs.size() < TOGETHER) {
+            const auto place = waiting.front();
+            waiting.pop_front();
+            if (++attempts[place] > 100) {
+                throw std::runtime_error("this machine is too busy to play in time");
+            }
+            runs.emplace_back(place, std::make_unique<Run>(plays[place], leaves));
         }
         const auto start = Clock::now();
         bool more = true;
         for (int tick = 0; more; ++tick) {
             std::this_thread::sleep_until(start + tick * TICK);
             more = false;
-            for (const auto& run : runs) {
+            for (const auto& [place, run] : runs) {
                 if (!run->done()) {
                     run->tick();
                     more = true;
                 }
             }
         }
-        std::vector<std::size_t> again;
-        for (std::size_t i = 0; i < places.size(); ++i) {
-            const auto place = places[i];
-            if (!runs[i]->wasInTime()) {
-                again.push_back(place);
-            } else if (const auto answer = runs[i]->answer(); answers[place] != answer) {
-                answers[place] = answer;
-                again.push_back(place);
+        for (const auto& [place, run] : runs) {
+            const bool counts = run->wasInTime() && answers[place] == run->answer();
+            if (run->wasInTime()) {
+                answers[place] = run->answer();
+            }
+            if (!counts) {
+                waiting.push_back(place);
             }
         }
-        places = again;
-    }
-    if (!places.empty()) {
-        throw std::runtime_error("this machine is too busy to play in time");
     }
 }
 
@@ -226,7 +228,7 @@ int main()
     const auto job = Json::parse(std::cin);
     const Leaves leaves(job["leaves"]);
     std::vector<Json> answers(job["plays"].size());
-    std::vector<std::size_t> timed;
+    std::deque<std::size_t> timed;
     for (std::size_t at = 0; at < answers.size(); ++at) {
         const auto& play = job["plays"][at];
         if (play["file"].get<std::string>().find("<Timeout") != std::string::npos) {
@@ -239,9 +241,6 @@ int main()
         }
         answers[at] = run.answer();
     }
-    for (std::size_t first = 0; first < timed.size(); first += TOGETHER) {
-        const auto end = std::min(first + TOGETHER, timed.size());
-        playInTime({timed.begin() + first, timed.begin() + end}, job["plays"], leaves, answers);
-    }
+    playInTime(timed, job["plays"], leaves, answers);
     std::cout << Json{{"plays", answers}} << '\n';
 }
