@@ -1,12 +1,10 @@
 //! `btc canonicalize`
 
-use super::files::{self, STDIN};
 use super::report::{Reporter, tell};
-use super::store::file;
-use super::{Failure, paths};
+use super::{Failure, files, paths};
 use crate::driver::canonicalize::{self, Form};
 use clap::{Args, ValueEnum};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
@@ -33,14 +31,7 @@ enum Emit {
 
 pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {
     let loaded = files::load(&arguments.file, say)?;
-    let path = match &arguments.output {
-        _ if arguments.file == STDIN => None,
-        None => Some(arguments.file.clone()),
-        Some(output) => {
-            let folder = file::folder_of(output);
-            Some(paths::used_from(folder, Path::new(&arguments.file))?)
-        }
-    };
+    let path = paths::used_by(arguments.output.as_deref(), &arguments.file)?;
     let form = match arguments.emit {
         Emit::Bt => Form::Bt(path.as_deref()),
         Emit::Csv => Form::Csv,

@@ -52,6 +52,7 @@ impl ValueEnum for Form {
             Self::Tree(TreeForm::Json),
             Self::Tree(TreeForm::Svg),
             Self::Tree(TreeForm::BtCpp),
+            Self::Tree(TreeForm::BtCppHistory),
             Self::Tree(TreeForm::PyTrees),
         ]
     }

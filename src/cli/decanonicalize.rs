@@ -3,8 +3,8 @@
 use super::files::File;
 use super::progress::Progress;
 use super::report::{Reporter, tell};
-use super::{Failure, files};
-use crate::driver::decanonicalize::{self, Options};
+use super::{Failure, files, paths};
+use crate::driver::decanonicalize::{self, Asked, Named, Options};
 use crate::driver::table::Format;
 use crate::driver::table::Recorded;
 use crate::emit::form::TreeForm;
@@ -21,6 +21,9 @@ pub(super) struct Arguments {
     /// How the policy is written, if its ending and its first characters do not say.
     #[arg(long, value_name = "KIND")]
     from: Option<Format>,
+    /// The program whose names the table has: the tree is for its task, and a robot gets the leaves of its other trees.
+    #[arg(long, value_name = "FILE")]
+    program: Option<String>,
     /// What the policy does next, as `btc learn` writes it: memory is proved along these transitions.
     #[arg(long, value_name = "FILE", conflicts_with = "slack")]
     transitions: Option<String>,
@@ -96,7 +99,17 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     };
     let bar = Progress::new();
     bar.stage("reading");
-    let asked = read(arguments, &options, say)?;
+    let program = arguments.program.as_deref();
+    let loaded = program.map(|path| files::load(path, say)).transpose()?;
+    let path = match program {
+        Some(path) => paths::used_by(arguments.output.as_deref(), path)?,
+        None => None,
+    };
+    let named = loaded.as_ref().map(|loaded| Named {
+        loaded,
+        path: path.as_deref(),
+    });
+    let asked = read(arguments, named, &options, say)?;
     bar.stage("finding a tree");
     let made = decanonicalize::decanonicalize(asked, &options);
     bar.finish();
@@ -110,11 +123,12 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
 }
 
 /// Reads the tables. Their texts are dropped as this function ends.
-fn read(
+fn read<'l>(
     arguments: &Arguments,
+    named: Option<Named<'l>>,
     options: &Options,
     say: &Reporter,
-) -> Result<decanonicalize::Asked, Failure> {
+) -> Result<Asked<'l>, Failure> {
     let table = files::read(&arguments.file)?;
     let transitions = files::read_optional(arguments.transitions.as_deref())?;
     let start = files::read_optional(arguments.start.as_deref())?;
@@ -122,5 +136,6 @@ fn read(
         transitions: transitions.text(),
         starts: start.as_ref().map(File::text),
     });
-    decanonicalize::read(table.text(), recorded, options).map_err(|refused| say.refused(&refused))
+    decanonicalize::read(table.text(), recorded, named, options)
+        .map_err(|refused| say.refused(&refused))
 }

@@ -1,11 +1,25 @@
 //! Paths as programs name them: relative, with `/` between their parts.
 
+use super::files::STDIN;
+use super::store::file::folder_of;
 use super::{Failure, files};
 use crate::diagnostic::render;
 use crate::driver::digest::sha256;
 use crate::driver::load::Loaded;
 use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
+
+/// How a program that is written to `output`, or printed, names the program in a file; `None` for standard input.
+///
+/// # Errors
+/// As [`used_from`].
+pub(super) fn used_by(output: Option<&Path>, file: &str) -> Result<Option<String>, Failure> {
+    match output {
+        _ if file == STDIN => Ok(None),
+        None => Ok(Some(file.to_owned())),
+        Some(output) => used_from(folder_of(output), Path::new(file)).map(Some),
+    }
+}
 
 /// The path of a file from a folder as a `use` names it, after all links are followed.
 ///

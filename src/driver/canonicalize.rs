@@ -9,7 +9,6 @@ use crate::emit::bt;
 use crate::ir::tree::Tree;
 use crate::ir::{Name, Program};
 use crate::policy::decisions;
-use crate::syntax::print;
 use crate::tree::canonicalise::{Canonical, canonicalise};
 use crate::tree::reading::{Irreducible, Reading};
 
@@ -71,13 +70,7 @@ fn file(loaded: &Loaded, tree: &Tree, canonical: &Canonical, path: Option<&str>)
         return bt::declared(&program, &["Made by `btc canonicalize`.".to_owned()]);
     }
     let item = bt::tree(program, &canonical);
-    match path {
-        Some(path) => format!("//! Made by `btc canonicalize`.\nuse \"{path}\"\n\n{item}"),
-        None => {
-            let text = loaded.sources.get(loaded.main).map(|s| s.text.as_str());
-            format!("{}\n{item}", print::file(&loaded.ast, text))
-        }
-    }
+    export::beside(loaded, path, "Made by `btc canonicalize`.", &item)
 }
 
 /// Whether a program only declares names.
@@ -104,7 +97,22 @@ fn table(program: &Program, tree: &Tree, canonical: &Canonical) -> (String, Opti
             tree.name.family
         )
     });
-    (decisions::write_bare(&policy, program), warning)
+    let remarks = match tree.root.remembers() {
+        true => remembered(&tree.name.bare()),
+        false => Vec::new(),
+    };
+    (decisions::write_bare(&policy, program, &remarks), warning)
+}
+
+/// What the table of a tree with memory lacks.
+fn remembered(tree: &str) -> Vec<String> {
+    [
+        format!("The decisions of `{tree}` where its memory is what the history says."),
+        "A memory node starts over where a tick does not reach it, and the history stays: there the two may part."
+            .to_owned(),
+        "`btc verify --transitions FILE` compares them in an environment that was recorded.".to_owned(),
+    ]
+    .into()
 }
 
 fn irreducible(loaded: &Loaded, tree: &Tree, why: &Irreducible) -> Refused {

@@ -2,14 +2,16 @@
 
 use super::export;
 use super::inputs::Inputs;
-use super::load;
+use super::load::{self, Loaded};
 use super::refused::Refused;
 use super::table::{self, Recorded};
+use super::target;
 use super::text::Text;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::emit::bt;
 use crate::emit::form::TreeForm;
 use crate::ir::law::Behavior;
+use crate::ir::task::Task;
 use crate::ir::tree::Tree;
 use crate::ir::{Id, Name, Program};
 use crate::policy::reader::{Format, Given};
@@ -54,10 +56,21 @@ impl Default for Options<'_> {
     }
 }
 
-/// A policy with a program that declares its names. The texts that it was read from are no longer needed.
+/// A program whose names a table has.
+#[derive(Clone, Copy, Debug)]
+pub struct Named<'l> {
+    /// The program.
+    pub loaded: &'l Loaded,
+    /// Where it is found from the place of the result; without a path, the whole of it stands before the tree.
+    pub path: Option<&'l str>,
+}
+
+/// A policy with a program that has its names. The texts of the tables are no longer needed.
 #[derive(Clone, Debug)]
-pub struct Asked {
+pub struct Asked<'l> {
     program: Program,
+    /// Where the names are from, and the task that the policy is for; `None` if they are declared.
+    named: Option<(Named<'l>, Id<Task>)>,
     policy: Policy,
     /// The behaviours that each row allows, if some row allows several.
     allowed: Option<Vec<Vec<Id<Behavior>>>>,
@@ -82,11 +95,16 @@ pub struct Made {
     pub report: Vec<String>,
 }
 
-/// Reads a table, and the record of the process under it.
+/// Reads a table, and the record of the process under it. Its names are those of a program, if one is given.
 ///
 /// # Errors
 /// The mistakes of the texts.
-pub fn read(text: Text, recorded: Option<Recorded>, options: &Options) -> Result<Asked, Refused> {
+pub fn read<'l>(
+    text: Text,
+    recorded: Option<Recorded>,
+    named: Option<Named<'l>>,
+    options: &Options,
+) -> Result<Asked<'l>, Refused> {
     let (read, inputs) = match table::read(text, options.from)? {
         Given::Truths(table) => (table, None),
         Given::Values(values) => {
@@ -112,7 +130,16 @@ pub fn read(text: Text, recorded: Option<Recorded>, options: &Options) -> Result
         return Err(Refused::text(text, |file| vec![found(file).help(help)]));
     }
     let input = |inputs: &Inputs| inputs.has(options.name).then_some("an input");
-    let what = names(&read, options.name).or_else(|| inputs.as_ref().and_then(input));
+    if inputs.is_some() && named.is_some() {
+        let message =
+            "a table of values declares its own inputs, and takes no names from a program";
+        let found = at_header(Code::E0826, message.to_owned());
+        return Err(Refused::text(text, |file| vec![found(file)]));
+    }
+    let what = match named {
+        Some(named) => item(&named.loaded.program, options.name),
+        None => names(&read, options.name).or_else(|| inputs.as_ref().and_then(input)),
+    };
     if let Some(what) = what {
         let found = at_header(
             Code::E0816,
@@ -127,7 +154,21 @@ pub fn read(text: Text, recorded: Option<Recorded>, options: &Options) -> Result
         let help = "choose one behaviour for each row, or leave out the option";
         return Err(Refused::text(text, |file| vec![found(file).help(help)]));
     }
-    let (mut program, policy) = decisions::declared(&read);
+    let named = match named {
+        Some(named) => Some((named, target::task_of(named.loaded, None)?)),
+        None => None,
+    };
+    let (mut program, policy) = match named {
+        Some((Named { loaded, .. }, task)) => {
+            let program = loaded.program.clone();
+            let policy = decisions::of_program(&read, &program, Some(task));
+            (
+                program,
+                policy.map_err(|errors| table::refused(text, &errors))?,
+            )
+        }
+        None => decisions::declared(&read),
+    };
     if let Some(inputs) = &inputs {
         inputs.declare(&mut program);
     }
@@ -140,6 +181,7 @@ pub fn read(text: Text, recorded: Option<Recorded>, options: &Options) -> Result
     });
     let mut asked = Asked {
         program,
+        named,
         policy,
         allowed: sets,
         inputs,
@@ -158,6 +200,20 @@ fn names(table: &Table, name: &str) -> Option<&'static str> {
         Some("a predicate")
     } else if table.behaviors.iter().any(|(known, _)| known == name) {
         Some("a behaviour")
+    } else {
+        None
+    }
+}
+
+/// What has this name in a program.
+fn item(program: &Program, name: &str) -> Option<&'static str> {
+    let is = |known: &Name| known.is(name);
+    if program.predicates.values().any(|found| is(&found.name)) {
+        Some("a predicate of the program")
+    } else if program.behaviors.values().any(|found| is(&found.name)) {
+        Some("a behaviour of the program")
+    } else if program.trees.values().any(|found| is(&found.name)) {
+        Some("a tree of the program")
     } else {
         None
     }
@@ -184,6 +240,7 @@ pub fn decanonicalize(asked: Asked, options: &Options) -> Result<Made, Refused> 
     };
     let Asked {
         mut program,
+        named,
         mut policy,
         allowed,
         inputs,
@@ -220,13 +277,17 @@ pub fn decanonicalize(asked: Asked, options: &Options) -> Result<Made, Refused> 
     let id = program.trees.push(Tree {
         name: Name::word(options.name),
         docs: vec![report.doc(&source)],
-        task: None,
+        task: named.map(|(_, task)| task),
         root: found.root.clone(),
     });
     let origin = [format!("Made by `btc decanonicalize` from {source}.")];
-    let declared = match &inputs {
-        None => bt::declared(&program, &origin),
-        Some(inputs) => {
+    let written = match (&inputs, named) {
+        (None, Some((Named { loaded, path }, _))) => {
+            let item = bt::tree(&program, &program.trees[id]);
+            export::beside(loaded, path, &origin.concat(), &item)
+        }
+        (None, None) => bt::declared(&program, &origin),
+        (Some(inputs), _) => {
             let text = inputs.written(&program, &program.trees[id], &origin);
             let proved = inputs.prove(&program, &program.trees[id], &text);
             proved.map_err(|why| internal(&source, &why))?;
@@ -234,9 +295,15 @@ pub fn decanonicalize(asked: Asked, options: &Options) -> Result<Made, Refused> 
         }
     };
     let text = match options.form {
-        TreeForm::Bt => declared,
+        TreeForm::Bt => written,
         form => {
-            let written = export::tree(&program, &program.trees[id], form, |_| Span::default());
+            let mut tree = program.trees[id].clone();
+            if let (Some((Named { loaded, .. }, _)), true) = (named, form.is_for_robots()) {
+                let file = loaded.sources.get(loaded.main);
+                let file = file.map_or_else(String::new, |file| called(&file.name));
+                tree = export::named_after(&file, &tree);
+            }
+            let written = export::tree(&program, &tree, form, |_| Span::default());
             written.map_err(|mistake| Refused::text(nothing(&source), |_| vec![mistake]))?
         }
     };
@@ -307,7 +374,7 @@ mod tests {
             name: "policy.csv",
             bytes: b"low,behavior\n0,deliver\n1,dock\n",
         };
-        let codes = read(table, None, &options)
+        let codes = read(table, None, None, &options)
             .and_then(|mut asked| {
                 asked.policy.rows.clear();
                 decanonicalize(asked, &options)

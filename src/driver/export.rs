@@ -8,9 +8,10 @@ use crate::emit::form::TreeForm;
 use crate::emit::refusal::{Reason, Refusal};
 use crate::emit::steps::Steps;
 use crate::ir::tree::Tree;
-use crate::ir::{Id, Program};
+use crate::ir::{Id, Name, Program};
 use crate::source::Span;
 use crate::syntax::ast::{ItemKind, Node, NodeKind};
+use crate::syntax::print;
 
 /// A tree in a form. It may be a tree that the program does not have; the program gives the names. `place` gives the
 /// place in the text of the node at a path of child positions, for a node that has no counterpart.
@@ -53,6 +54,26 @@ pub fn of_program(
     let place = |path: &[usize]| place(loaded, exported, path);
     in_steps(&loaded.program, exported, form, place)
         .map_err(|mistake| Refused::program(loaded, [mistake]))
+}
+
+/// A tree of what is in a file, for a robot: it loads several trees and tells them apart by their names.
+pub(super) fn named_after(file: &str, tree: &Tree) -> Tree {
+    let stem = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
+    Tree {
+        name: Name::word(format!("{stem}_{}", tree.name.family)),
+        ..tree.clone()
+    }
+}
+
+/// An item in a file that uses the program at `path`, or without one behind the whole of the program.
+pub(super) fn beside(loaded: &Loaded, path: Option<&str>, origin: &str, item: &str) -> String {
+    match path {
+        Some(path) => format!("//! {origin}\nuse \"{path}\"\n\n{item}"),
+        None => {
+            let text = loaded.sources.get(loaded.main).map(|s| s.text.as_str());
+            format!("{}\n{item}", print::file(&loaded.ast, text))
+        }
+    }
 }
 
 /// Where the node at a path of child positions is written; a subtree is one leaf.

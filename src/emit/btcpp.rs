@@ -8,7 +8,8 @@
 //! Both nodes with memory begin their next child in the tick in which one ends, btc in the next one. Between them stands
 //! an `AsyncSequence` of two nodes that succeed at once: it runs for one tick.
 
-use super::leaves::{Leaves, Subject, Words};
+use super::calls;
+use super::leaves::{self, Leaves, Subject, Words};
 use super::notes;
 use super::refusal::{self, Reason, Refusal, answers_at_once};
 use super::steps::{self, Drives, Steps};
@@ -94,6 +95,7 @@ pub fn tree(program: &Program, tree: &Tree, steps: Steps) -> Result<String, Refu
     if let Some(refused) = refusal::first(&tree.root, &|node| reason(node, tick)) {
         return Err(refused);
     }
+    let program = &*calls::called(program);
     let mut words = Words::new(RESERVED);
     let leaves = Leaves::of(tree, program, &mut words);
     let id = words.new_id(&tree.name.family);
@@ -107,7 +109,7 @@ pub fn tree(program: &Program, tree: &Tree, steps: Steps) -> Result<String, Refu
     };
     let mut xml = Xml::default();
     xml.line("<?xml version=\"1.0\" encoding=\"UTF-8\"?>");
-    xml.comment(&remarks(tree, tick, steps));
+    xml.comment(&remarks(tree, tick, steps, leaves.ask_history));
     let format = ("BTCPP_format", "4".to_owned());
     xml.open("root", &[format, ("main_tree_to_execute", id.clone())]);
     xml.open("BehaviorTree", &[("ID", id)]);
@@ -140,7 +142,7 @@ fn reason(node: &Node, tick: Option<f64>) -> Option<Reason> {
 }
 
 /// What a reader of the file has to know.
-fn remarks(tree: &Tree, tick: Option<f64>, steps: Steps) -> Vec<String> {
+fn remarks(tree: &Tree, tick: Option<f64>, steps: Steps, asks_history: bool) -> Vec<String> {
     let mut lines = tree.docs.clone();
     if !lines.is_empty() {
         lines.push(String::new());
@@ -171,6 +173,11 @@ fn remarks(tree: &Tree, tick: Option<f64>, steps: Steps) -> Vec<String> {
                 .into(),
         );
         lines.push("ends, btc does in the next one.".into());
+    }
+    if asks_history {
+        lines.push(
+            "The form btcpp_history of this tree is a header that answers done and failed.".into(),
+        );
     }
     if notes::has_decorator(&tree.root, &|kind| matches!(kind, Decorator::Timeout(_))) {
         lines.push("Timeout goes by the clock, btc by the ticks in which it is reached.".into());
@@ -339,7 +346,10 @@ impl Writer<'_> {
             return xml.leaf("AlwaysFailure", &[]);
         };
         let mut attributes = Vec::new();
-        if family.id != spelled(&family.name) {
+        if let (Subject::Action(id), true) = (subject, self.leaves.ask_history) {
+            let name = leaves::known_as(&self.program.behaviors[id].name);
+            attributes.push(("name", name));
+        } else if family.id != spelled(&family.name) {
             attributes.push(("name", subject.name(self.program).bare()));
         }
         let values = values.into_iter();

@@ -40,6 +40,11 @@ impl Subject {
         }
     }
 
+    /// Whether it asks the history.
+    pub fn asks_history(self) -> bool {
+        matches!(self, Subject::Condition(atom) if atom.termination().is_some())
+    }
+
     /// Its name.
     pub fn name(self, program: &Program) -> Name {
         match self {
@@ -65,6 +70,20 @@ pub(super) struct Family {
     pub subjects: Vec<Subject>,
 }
 
+impl Family {
+    /// Whether it is one of behaviours.
+    pub fn is_action(&self) -> bool {
+        matches!(self.subjects.first(), Some(Subject::Action(_)))
+    }
+
+    /// Whether it asks the history.
+    pub fn is_history(&self) -> bool {
+        self.subjects
+            .first()
+            .is_some_and(|subject| subject.asks_history())
+    }
+}
+
 /// A parameter of a family.
 #[derive(Clone, Debug)]
 pub(super) struct Parameter {
@@ -80,12 +99,14 @@ pub(super) struct Leaves {
     /// The families: predicates, `done`, `failed`, behaviours, each in the order of the program, or of a tree that is for
     /// no task.
     pub families: Vec<Family>,
+    /// Whether the tree asks the history.
+    pub ask_history: bool,
     /// Each leaf with its family and the values of the family's parameters.
     calls: BTreeMap<Subject, (usize, Vec<Option<String>>)>,
 }
 
 impl Leaves {
-    /// The leaves of a tree, in identifiers of `words`.
+    /// The leaves of a tree of a program that is [`called`](super::calls::called), in identifiers of `words`.
     pub fn of(tree: &Tree, program: &Program, words: &mut Words) -> Self {
         let mut subjects = Vec::new();
         mentions(&tree.root, &mut subjects);
@@ -97,6 +118,7 @@ impl Leaves {
         }
         subjects.sort_by_key(|subject| (subject.kind(), places.get(&subject.named())));
         subjects.dedup();
+        let ask_history = subjects.iter().any(|subject| subject.asks_history());
         let mut grouped: Vec<(Key, Vec<Subject>)> = Vec::new();
         for subject in subjects {
             let key = Key::new(subject, program);
@@ -108,6 +130,7 @@ impl Leaves {
         let ids = words.of_program(program);
         let mut leaves = Self {
             families: Vec::new(),
+            ask_history,
             calls: BTreeMap::new(),
         };
         for (key, subjects) in grouped {
@@ -153,6 +176,11 @@ impl Leaves {
         });
     }
 
+    /// The families of behaviours.
+    pub fn actions(&self) -> impl Iterator<Item = &Family> {
+        self.families.iter().filter(|family| family.is_action())
+    }
+
     /// The family of a leaf with the parameters that it gives and their values.
     pub fn call(&self, subject: Subject) -> Option<(&Family, Vec<(&Parameter, &str)>)> {
         let (at, values) = self.calls.get(&subject)?;
@@ -161,6 +189,11 @@ impl Leaves {
         let given = given.filter_map(|(parameter, value)| Some((parameter, value.as_deref()?)));
         Some((family, given.collect()))
     }
+}
+
+/// What `done` and `failed` call a behaviour: the argument that they are given.
+pub(super) fn known_as(behavior: &Name) -> String {
+    argument(&Given::Name(behavior.clone()))
 }
 
 /// The leaves of a tree, from the left, with their repetitions.

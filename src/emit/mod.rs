@@ -3,8 +3,10 @@
 pub mod ast;
 pub mod bt;
 pub mod btcpp;
+mod calls;
 pub mod dot;
 pub mod form;
+pub mod history;
 pub mod ir;
 pub mod json;
 mod leaves;

@@ -26,16 +26,34 @@ pub(super) fn has_decorator(node: &Node, test: &impl Fn(Decorator) -> bool) -> b
 /// When `done` (of a success) or `failed` (of a failure) of `what` holds.
 pub(super) fn window(outcome: Status, what: &str, history: Option<History>) -> String {
     let outcome = outcome.name();
+    match history {
+        None => format!("a {outcome} of {what} is in the history window"),
+        Some(history) if history.window == 1 => {
+            format!("the last {} is a {outcome} of {what}", held(Some(history)))
+        }
+        Some(_) => format!("a {outcome} of {what} is among the last {}", held(history)),
+    }
+}
+
+/// What the window holds: `success`, `2 terminations`.
+pub(super) fn held(history: Option<History>) -> String {
     let Some(history) = history else {
-        return format!("a {outcome} of {what} is in the history window");
+        return "terminations".to_owned();
     };
     let (one, several) = match (history.success, history.failure) {
-        (true, false) => (Status::Success.name(), "successes"),
-        (false, true) => (Status::Failure.name(), "failures"),
+        (true, false) => ("success", "successes"),
+        (false, true) => ("failure", "failures"),
         _ => ("termination", "terminations"),
     };
     match history.window {
-        1 => format!("the last {one} is a {outcome} of {what}"),
-        window => format!("a {outcome} of {what} is among the last {window} {several}"),
+        1 => one.to_owned(),
+        window => format!("{window} {several}"),
     }
+}
+
+/// The kinds of terminations that enter the window.
+pub(super) fn kinds(history: History) -> impl Iterator<Item = Status> {
+    [Status::Success, Status::Failure]
+        .into_iter()
+        .filter(move |status| history.keeps(*status))
 }

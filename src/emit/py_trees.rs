@@ -1,17 +1,19 @@
 //! Trees for py_trees 2: a Python module.
 //!
 //! It has an abstract class `Robot`, a method for each condition and each behaviour, and `create_root(robot)`, which
-//! builds the tree. Run as a program it draws the tree.
+//! builds the tree. Where the tree asks the history, the module keeps it. Run as a program it draws the tree.
 
 mod code;
 mod module;
 
-use super::leaves::{Leaves, Subject, Words};
+use super::calls;
+use super::leaves::{self, Leaves, Subject, Words};
 use super::notes;
 use super::refusal::{self, Reason, Refusal};
 use super::steps::{self, Drives, Steps};
-use crate::ir::Program;
+use crate::ir::law::Behavior;
 use crate::ir::tree::{Composite, Decorator, Node, Tree};
+use crate::ir::{Id, Program};
 use crate::tree::drawing::{Drawing, Shape};
 use code::{Code, string};
 use module::Imports;
@@ -70,6 +72,7 @@ pub fn tree(program: &Program, tree: &Tree, steps: Steps) -> Result<String, Refu
     if let Some(refused) = refusal::first(&tree.root, &|node| reason(node, tick)) {
         return Err(refused);
     }
+    let program = &*calls::called(program);
     let leaves = Leaves::of(tree, program, &mut Words::new(RESERVED));
     let mut writer = Writer {
         program,
@@ -79,7 +82,10 @@ pub fn tree(program: &Program, tree: &Tree, steps: Steps) -> Result<String, Refu
         steps,
         notes: false,
     };
-    let root = writer.node(&Drawing::of(&tree.root), Some(&tree.name.family));
+    let mut root = writer.node(&Drawing::of(&tree.root), Some(&tree.name.family));
+    if leaves.ask_history {
+        root = remembering("Remembering", "history", root);
+    }
     let history = tree.task.map(|task| program.tasks[task].history);
     let parts = module::Parts {
         leaves: &leaves,
@@ -118,11 +124,12 @@ struct Writer<'a> {
 }
 
 impl Writer<'_> {
-    /// A node; inner ones are called by their word of the language, unless they have a name.
+    /// A node; inner ones are called by what they ask, or by their word of the language, unless they have a name.
     fn node(&mut self, drawing: &Drawing, name: Option<&str>) -> Code {
         match drawing.shape {
             Shape::Composite(kind, memory) => {
-                let word = kind.word(memory);
+                let word = self.asked(drawing);
+                let word = word.unwrap_or_else(|| kind.word(memory).to_owned());
                 let class = match kind {
                     Composite::Selector => "Selector",
                     Composite::Sequence => "Sequence",
@@ -139,7 +146,7 @@ impl Writer<'_> {
                     "memory=False"
                 };
                 let arguments = vec![
-                    string(name.unwrap_or(word)),
+                    string(name.unwrap_or(&word)),
                     Code::Plain(memory.to_owned()),
                     children,
                 ];
@@ -161,7 +168,7 @@ impl Writer<'_> {
                 let child = drawing.children.first().map(|child| self.node(child, None));
                 self.decorator(kind, name, child)
             }
-            Shape::Behavior(id) => self.action(Subject::Action(id)),
+            Shape::Behavior(id) => self.action(id),
             Shape::Literal(atom, true) => self.condition(Subject::Condition(atom)),
             Shape::Literal(atom, false) => {
                 let subject = Subject::Condition(atom);
@@ -251,21 +258,72 @@ impl Writer<'_> {
         Code::call(class, arguments)
     }
 
+    /// What a group is called that asks something, alone or before it does something else: `a or not b`, `a =>`.
+    fn asked(&self, drawing: &Drawing) -> Option<String> {
+        if let Some(question) = self.question(drawing) {
+            return Some(question);
+        }
+        if drawing.shape != Shape::Composite(Composite::Sequence, false) {
+            return None;
+        }
+        let asked = drawing.children.iter().map_while(|child| self.part(child));
+        let asked: Vec<String> = asked.collect();
+        (!asked.is_empty()).then(|| format!("{} =>", asked.join(" and ")))
+    }
+
+    /// A group that only asks, as the language writes it.
+    fn question(&self, drawing: &Drawing) -> Option<String> {
+        let word = match drawing.shape {
+            Shape::Composite(Composite::Selector, false) => " or ",
+            Shape::Composite(Composite::Sequence, false) => " and ",
+            _ => return None,
+        };
+        let parts = drawing.children.iter().map(|child| self.part(child));
+        let parts: Vec<String> = parts.collect::<Option<_>>()?;
+        Some(parts.join(word))
+    }
+
+    /// A part of a group that only asks.
+    fn part(&self, drawing: &Drawing) -> Option<String> {
+        let name = |atom| Subject::Condition(atom).name(self.program).bare();
+        match drawing.shape {
+            Shape::Literal(atom, true) => Some(name(atom)),
+            Shape::Literal(atom, false) => Some(format!("not {}", name(atom))),
+            Shape::Const(value) => Some(value.to_string()),
+            _ => Some(format!("({})", self.question(drawing)?)),
+        }
+    }
+
     /// `robot.goto("A")`
-    fn action(&self, subject: Subject) -> Code {
-        let Some((method, arguments)) = self.method(subject) else {
+    fn action(&self, id: Id<Behavior>) -> Code {
+        let Some((method, arguments)) = self.method(Subject::Action(id)) else {
             return Code::Plain("None".to_owned());
         };
-        Code::call(&method, arguments)
+        let acts = Code::call(&format!("robot.{method}"), arguments);
+        match self.leaves.ask_history {
+            true => {
+                let name = leaves::known_as(&self.program.behaviors[id].name);
+                remembering("Noted", &name, acts)
+            }
+            false => acts,
+        }
     }
 
     /// `Condition("low", robot.low)`, `Condition("vis(A)", lambda: robot.vis("A"))`
     fn condition(&mut self, subject: Subject) -> Code {
         self.imports.take("common", "Status");
         let name = string(&subject.name(self.program).bare());
+        let whose = match subject.asks_history() {
+            true => "history",
+            false => "robot",
+        };
         let asked = match self.method(subject) {
-            Some((method, arguments)) if arguments.is_empty() => Code::Plain(method),
-            Some((method, arguments)) => Code::call(&method, arguments).after("lambda: "),
+            Some((method, arguments)) if arguments.is_empty() => {
+                Code::Plain(format!("{whose}.{method}"))
+            }
+            Some((method, arguments)) => {
+                Code::call(&format!("{whose}.{method}"), arguments).after("lambda: ")
+            }
             None => Code::Plain("None".to_owned()),
         };
         Code::call("Condition", vec![name, asked])
@@ -282,6 +340,14 @@ impl Writer<'_> {
                 string(value).after(&format!("{}=", parameter.id))
             }
         });
-        Some((format!("robot.{}", family.id), arguments.collect()))
+        Some((family.id.clone(), arguments.collect()))
     }
+}
+
+/// `Noted("goto(A)", robot.goto("A"), history)`
+fn remembering(class: &str, name: &str, child: Code) -> Code {
+    Code::call(
+        class,
+        vec![string(name), child, Code::Plain("history".to_owned())],
+    )
 }

@@ -38,7 +38,7 @@ impl PolicyTable {
     /// # Errors
     /// The table has mistakes.
     pub fn decanonicalise(&self, options: &Options) -> Result<Tree, Error> {
-        let asked = decanonicalize::read(self.text(), None, options)?;
+        let asked = decanonicalize::read(self.text(), None, None, options)?;
         let made = decanonicalize::decanonicalize(asked, options)?;
         let tree = made.program.trees[made.tree].clone();
         Ok(Tree::new(Arc::new(made.program), tree))

@@ -5,6 +5,7 @@
 
 use super::error::{TableError, TableErrorKind};
 use super::reader::Format;
+use super::records::REMARK;
 use super::sheet;
 use super::table::Table;
 use super::{Policy, Row};
@@ -39,8 +40,8 @@ pub fn write(policy: &Policy, program: &Program) -> String {
     sheet::write(std::iter::once(header).chain(rows))
 }
 
-/// The decisions alone as text, under names without backquotes: a table as anybody writes it.
-pub fn write_bare(policy: &Policy, program: &Program) -> String {
+/// The decisions alone as text, under names without backquotes: a table as anybody writes it, with remarks above it.
+pub fn write_bare(policy: &Policy, program: &Program, remarks: &[String]) -> String {
     let atoms = policy.atoms.iter();
     let atoms = atoms.map(|atom| AtomName::of(*atom, program).to_string());
     let header = atoms.chain(["behavior".to_owned()]).collect();
@@ -48,7 +49,9 @@ pub fn write_bare(policy: &Policy, program: &Program) -> String {
         let behavior = program.behaviors[row.behavior].name.bare();
         cells(row).chain([behavior]).collect()
     });
-    sheet::write(std::iter::once(header).chain(rows))
+    let remarks = remarks.iter().map(|line| format!("{REMARK}{line}\n"));
+    let remarks: String = remarks.collect();
+    remarks + &sheet::write(std::iter::once(header).chain(rows))
 }
 
 /// The values of a row's atoms as cells, `-` where they are free.

@@ -110,13 +110,23 @@ impl<'t> Records<'t> {
     }
 }
 
-/// Where a text begins, behind its byte-order mark.
+/// What begins a remark about a table. Remarks are lines above its header.
+pub(super) const REMARK: &str = "## ";
+
+/// Where a text begins, behind its byte-order mark and its remarks.
 pub(super) fn start(text: &[u8]) -> usize {
-    if text.starts_with(MARK) {
-        MARK.len()
-    } else {
-        0
+    let mut at = match text.starts_with(MARK) {
+        true => MARK.len(),
+        false => 0,
+    };
+    while let Some(rest) = text
+        .get(at..)
+        .filter(|rest| rest.starts_with(REMARK.as_bytes()))
+    {
+        let end = rest.iter().position(|byte| *byte == b'\n');
+        at += end.map_or(rest.len(), |end| end + 1);
     }
+    at
 }
 
 /// What a cell says, without the blanks around it and without its quotes.

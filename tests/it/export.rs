@@ -3,10 +3,12 @@
 mod cpp;
 mod file;
 mod format;
+mod leaves;
+mod library;
 mod play;
 mod python;
 mod script;
-
+mod traces;
 mod trees;
 
 use crate::examples::example;
@@ -71,6 +73,29 @@ fn what_has_no_counterpart_has_a_place() {
             let found = &refused.diagnostics[0];
             assert_eq!(found.code, Code::E0821);
             assert_eq!(loaded.sources.text(found.span()), place);
+        }
+    }
+}
+
+/// What the documentation shows of the programs for robots stands in them.
+#[test]
+fn the_documentation_quotes_the_programs() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let read = |path: &str| std::fs::read_to_string(root.join(path)).unwrap();
+    let text = read("docs/export.md");
+    for (language, path) in [
+        ("cpp", "examples/robots/cpp/courier.cpp"),
+        ("python", "examples/robots/py_trees/courier.py"),
+    ] {
+        let program = read(path);
+        let opening = format!("```{language}\n");
+        let blocks = text.split(opening.as_str()).skip(1);
+        let blocks: Vec<&str> = blocks
+            .map(|rest| rest.split("```").next().unwrap())
+            .collect();
+        assert!(!blocks.is_empty());
+        for block in blocks {
+            assert!(program.contains(block), "{path} has no\n{block}");
         }
     }
 }

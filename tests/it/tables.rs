@@ -35,7 +35,7 @@ fn text<'t>(name: &'t str, bytes: &'t [u8]) -> Text<'t> {
 
 /// What is made of a table.
 fn made(table: Text, recorded: Option<Recorded>, options: &Options) -> Result<Made, Refused> {
-    let asked = decanonicalize::read(table, recorded, options)?;
+    let asked = decanonicalize::read(table, recorded, None, options)?;
     decanonicalize::decanonicalize(asked, options)
 }
 

@@ -59,17 +59,12 @@ pub(super) fn written(
     let curves = results.curves();
     let warnings = warnings::warnings(loaded, &results);
     let policy = &results.policy;
-    // A robot that loads several trees tells them apart by their names.
-    let stem = file.strip_suffix(".bt").unwrap_or(file);
-    let exported = Tree {
-        name: Name::word(format!("{stem}_{}", learner.name.family)),
-        ..learned.clone()
-    };
-    let written = |form| {
+    let exported = export::named_after(file, &learned);
+    let written = |form: TreeForm| {
         let place = |_: &[usize]| target::end_of_file(loaded);
-        let tree = match form {
-            TreeForm::BtCpp | TreeForm::PyTrees => &exported,
-            _ => &learned,
+        let tree = match form.is_for_robots() {
+            true => &exported,
+            false => &learned,
         };
         export::tree(program, tree, form, place)
             .map_err(|mistake| Refused::program(loaded, [mistake]))

@@ -99,6 +99,14 @@ fn taken(table: &Table, policy: &mut Policy, root: &Node) -> Option<()> {
     Some(())
 }
 
+/// What holds of a tree whose memory alone parts it from a table.
+fn agrees(rows: &str) -> String {
+    format!(
+        "  with memory read from the history they agree in {rows}; a memory node starts over where a tick does not reach \
+         it, and the history stays\n  `--transitions FILE` compares them in an environment that was recorded"
+    )
+}
+
 /// A tree and the table that it is compared with.
 struct Sides<'a> {
     program: &'a Program,
@@ -173,11 +181,16 @@ impl Sides<'_> {
         };
         let text = match refuted {
             Refuted::Parts(found) => {
-                let along = match self.policy.transitions.is_empty() {
-                    true => "in an environment consistent with the history window",
-                    false => "along the transitions",
+                let recorded = !self.policy.transitions.is_empty();
+                let along = match recorded {
+                    false => "in an environment consistent with the history window",
+                    true => "along the transitions",
                 };
-                difference(self.program, (tree, table), along, &found)
+                let parts = difference(self.program, (tree, table), along, &found);
+                match recorded {
+                    true => parts,
+                    false => format!("{parts}\n{}", agrees(&rows(&self.policy))),
+                }
             }
             Refuted::Undecided => {
                 format!("undecided: there is too much to explore of `{tree}` and {table}")

@@ -1,11 +1,11 @@
 //! What stands around the tree in its module: imports, the class to derive from, a way to draw it.
 
 use super::code::{Code, WIDTH, quoted, wrapped};
-use crate::emit::leaves::{Family, Leaves, Subject};
+use crate::emit::leaves::{Family, Leaves};
 use crate::emit::notes;
 use crate::emit::steps::Steps;
 use crate::ir::task::History;
-use crate::ir::tree::{Decorator, Tree};
+use crate::ir::tree::{Decorator, Status, Tree};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The names that are imported from the modules of py_trees.
@@ -32,78 +32,16 @@ impl Imports {
     }
 }
 
-const CONDITION: &str = r#"class Condition(Behaviour):
-    """Succeeds in the ticks in which a predicate holds, fails in the others."""
-
-    def __init__(self, name: str, holds: Callable[[], bool]) -> None:
-        super().__init__(name)
-        self.holds = holds
-
-    def update(self) -> Status:
-        return Status.SUCCESS if self.holds() else Status.FAILURE
-
-
-"#;
-
-const STEP: &str = r#"class Step(Decorator):
-    """Ends one tick after its child has ended like this with a behaviour at work."""
-
-    def __init__(self, name: str, child: Behaviour, on: Status) -> None:
-        super().__init__(name, child)
-        self.on = on
-        self.waits = False
-
-    def update(self) -> Status:
-        return self.decorated.status
-
-    def tick(self) -> Iterator[Behaviour]:
-        waited = self.status == Status.RUNNING and self.waits
-        self.waits = False
-        status = self.on
-        if not waited:
-            drove = False
-            for node in self.decorated.tick():
-                drove = drove or is_at_work(node)
-                yield node
-            status = self.decorated.status
-            self.waits = drove and status == self.on
-        if self.waits:
-            status = Status.RUNNING
-        elif status != Status.RUNNING:
-            self.stop(status)
-        self.status = status
-        yield self
-
-
-def is_at_work(node: Behaviour) -> bool:
-    """Whether a node is a behaviour of the robot, and not one that only asks or waits."""
-    return not node.children and type(node).__name__ not in (
-        "Condition",
-        "Failure",
-        "Success",
-        "TickCounter",
-    )
-
-
-"#;
-
-const LIMIT: &str = r#"class Limit(Timeout):
-    """Fails once its time is over, without another tick of its child."""
-
-    def tick(self) -> Iterator[Behaviour]:
-        if self.status == Status.RUNNING and time.monotonic() > self.finish_time:
-            self.stop(Status.FAILURE)
-            self.status = Status.FAILURE
-            yield self
-        else:
-            yield from super().tick()
-
-
-"#;
+// The classes that a module has where its tree needs them.
+const CONDITION: &str = include_str!("condition.py");
+const STEP: &str = include_str!("step.py");
+const LIMIT: &str = include_str!("limit.py");
+const HISTORY: &str = include_str!("history.py");
 
 /// What a module is made of.
 pub(super) struct Parts<'a> {
     pub leaves: &'a Leaves,
+    /// What the history window holds, as far as it is known.
     pub history: Option<History>,
     pub imports: Imports,
     /// Whether a node has to see if a behaviour was ticked under it.
@@ -114,12 +52,17 @@ pub(super) struct Parts<'a> {
 impl Parts<'_> {
     /// The module.
     pub fn module(mut self, tree: &Tree, tick: Option<f64>, root: &Code) -> String {
-        let conditions = self.leaves.families.iter().any(|family| !is_action(family));
-        let actions = self.leaves.families.iter().any(is_action);
+        let families = &self.leaves.families;
+        let conditions = families.iter().any(|family| !family.is_action());
+        let remembers = self.leaves.ask_history;
         self.imports.take("behaviour", "Behaviour");
         self.imports.take("display", "unicode_tree");
-        if actions {
+        if self.leaves.actions().next().is_some() {
             self.imports.take("behaviours", "Dummy");
+        }
+        if remembers {
+            self.imports.take("common", "Status");
+            self.imports.take("decorators", "Decorator");
         }
         let limits = notes::has_decorator(&tree.root, &is_timeout);
         let mut out = docstring(tree, tick, self.steps);
@@ -127,7 +70,14 @@ impl Parts<'_> {
         if limits {
             out.push_str("import time\n");
         }
-        let names = [(conditions, "Callable"), (limits || self.notes, "Iterator")];
+        if remembers {
+            out.push_str("from collections import deque\n");
+        }
+        let names = [
+            (conditions, "Callable"),
+            (remembers, "Container"),
+            (limits || remembers || self.notes, "Iterator"),
+        ];
         let names = names.iter().filter(|(is, _)| *is).map(|(_, name)| *name);
         let names: Vec<&str> = names.collect();
         if !names.is_empty() {
@@ -142,59 +92,93 @@ impl Parts<'_> {
         out.push_str(
             "    \"\"\"What the tree asks of the robot, and what it has the robot do.\"\"\"\n\n",
         );
-        for family in &self.leaves.families {
-            out.push_str(&self.method(family));
-        }
+        let asked = || families.iter().filter(|family| !family.is_history());
+        asked().for_each(|family| out.push_str(&method(family)));
         out.push('\n');
-        if conditions {
-            out.push_str(CONDITION);
+        let history = self.history();
+        let classes = [
+            (conditions, CONDITION),
+            (remembers, history.as_str()),
+            (self.notes, STEP),
+            (limits, LIMIT),
+        ];
+        for (_, class) in classes.iter().filter(|(is, _)| *is) {
+            out.push_str(class);
+            out.push_str("\n\n");
         }
-        if self.notes {
-            out.push_str(STEP);
-        }
-        if limits {
-            out.push_str(LIMIT);
-        }
-        out.push_str("def create_root(robot: Robot) -> Behaviour:\n");
+        out.push_str(match (remembers, self.history) {
+            (false, _) => "def create_root(robot: Robot) -> Behaviour:\n",
+            (true, Some(_)) => {
+                "def create_root(robot: Robot, history: History | None = None) -> Behaviour:\n"
+            }
+            (true, None) => "def create_root(robot: Robot, history: History) -> Behaviour:\n",
+        });
         out.push_str("    \"\"\"The tree, with a behaviour of its own at each place.\"\"\"\n");
+        if remembers && self.history.is_some() {
+            out.push_str("    history = history or History()\n");
+        }
         root.clone().after("return ").write(4, "", &mut out);
         out.push_str("\n\nclass Sketch(Robot):\n");
         out.push_str("    \"\"\"A robot that does nothing, to draw the tree with.\"\"\"\n\n");
-        for family in &self.leaves.families {
-            out.push_str(&sketched(family));
-        }
+        asked().for_each(|family| out.push_str(&sketched(family)));
+        let none = match asked().next() {
+            Some(_) => "",
+            None => "    pass\n\n",
+        };
+        out.push_str(none);
         out.push_str("\nif __name__ == \"__main__\":\n");
-        out.push_str("    print(unicode_tree(create_root(Sketch())))\n");
+        out.push_str(match (remembers, self.history) {
+            (true, None) => "    print(unicode_tree(create_root(Sketch(), History(1, ()))))\n",
+            _ => "    print(unicode_tree(create_root(Sketch())))\n",
+        });
         out
     }
 
-    /// The abstract method of a family.
-    fn method(&self, family: &Family) -> String {
-        let name = signature(family);
-        let says = match family.subjects.first() {
-            Some(Subject::Condition(atom)) => match atom.outcome() {
-                Some(outcome) => {
-                    let holds = notes::window(outcome, "`behavior`", self.history);
-                    format!("Whether {holds}.")
-                }
-                None => format!("Whether `{name}` holds."),
-            },
-            _ => format!("A new `{name}`."),
-        };
-        format!(
-            "    @abc.abstractmethod\n{}        \"\"\"{}\"\"\"\n\n",
-            head(family),
-            in_docstring(&says)
-        )
+    /// The class that keeps the history; what is not known of the window has to be given.
+    fn history(&self) -> String {
+        let mut parameters = vec!["self".to_owned()];
+        match self.history {
+            Some(history) => {
+                let kinds = notes::kinds(history).map(|status| match status {
+                    Status::Success => "Status.SUCCESS, ",
+                    _ => "Status.FAILURE, ",
+                });
+                let kinds: String = kinds.collect();
+                let kinds = match kinds.matches(", ").count() {
+                    1 => kinds.trim_end(),
+                    _ => kinds.trim_end_matches(", "),
+                };
+                parameters.push(format!("last: int = {}", history.window));
+                parameters.push(format!("of: Container[Status] = ({kinds})"));
+            }
+            None => parameters.extend(["last: int", "of: Container[Status]"].map(str::to_owned)),
+        }
+        let parameters = parameters.into_iter().map(Code::Plain).collect();
+        let mut head = String::new();
+        Code::call("def __init__", parameters).write(4, " -> None:", &mut head);
+        let doc = format!("Keeps the last {}.", notes::held(self.history));
+        HISTORY
+            .replace("{doc}", &doc)
+            .replace("    def __init__({parameters}) -> None:\n", &head)
     }
+}
+
+/// The abstract method of a family.
+fn method(family: &Family) -> String {
+    let name = signature(family);
+    let says = match family.is_action() {
+        true => format!("A new `{name}`."),
+        false => format!("Whether `{name}` holds."),
+    };
+    format!(
+        "    @abc.abstractmethod\n{}        \"\"\"{}\"\"\"\n\n",
+        head(family),
+        in_docstring(&says)
+    )
 }
 
 fn is_timeout(kind: Decorator) -> bool {
     matches!(kind, Decorator::Timeout(_))
-}
-
-fn is_action(family: &Family) -> bool {
-    matches!(family.subjects.first(), Some(Subject::Action(_)))
 }
 
 /// `def goto(self, target: str) -> Behaviour:`
@@ -207,7 +191,7 @@ fn head(family: &Family) -> String {
         let ty = if left_out { "str | None = None" } else { "str" };
         parameters.push(Code::Plain(format!("{}: {ty}", parameter.id)));
     }
-    let answer = if is_action(family) {
+    let answer = if family.is_action() {
         " -> Behaviour:"
     } else {
         " -> bool:"
@@ -229,7 +213,7 @@ fn signature(family: &Family) -> String {
 
 /// The method of the robot that does nothing.
 fn sketched(family: &Family) -> String {
-    let body = if is_action(family) {
+    let body = if family.is_action() {
         let parameters: Vec<String> = family
             .parameters
             .iter()

@@ -80,6 +80,25 @@ class Stage:
         return STATUS[answer]
 
 
+class Script:
+    """A history that is what the stage says."""
+
+    def __init__(self, stage):
+        self.stage = stage
+
+    def done(self, behavior):
+        return self.stage.holds(("done", (("behavior", behavior),)))
+
+    def failed(self, behavior):
+        return self.stage.holds(("failed", (("behavior", behavior),)))
+
+    def note(self, behavior, status):
+        pass
+
+    def begin_tick(self):
+        pass
+
+
 def module(text, name="tree"):
     made = types.ModuleType(name)
     exec(compile(text, name, "exec"), made.__dict__)
@@ -107,6 +126,14 @@ def robot(made, stage):
     return type("Player", (made.Robot,), methods)()
 
 
+def root(made, stage, remembers=False):
+    """The tree of a module; it remembers what its behaviours did, or is told what they did."""
+    player = robot(made, stage)
+    if remembers or not hasattr(made, "History"):
+        return made.create_root(player)
+    return made.create_root(player, Script(stage))
+
+
 def keys(texts):
     """What each leaf calls, with its position."""
     found = {}
@@ -115,7 +142,7 @@ def keys(texts):
             continue
         made = module(text)
         rehearsal = Rehearsal()
-        made.create_root(robot(made, rehearsal)).tick_once()
+        root(made, rehearsal).tick_once()
         assert rehearsal.key not in found, rehearsal.key
         found[rehearsal.key] = position
     return found
@@ -124,14 +151,14 @@ def keys(texts):
 def played(play, clock, conditions, behaviors):
     made = module(play["module"])
     stage = Stage(play, conditions, behaviors)
-    root = made.create_root(robot(made, stage))
+    tree = root(made, stage, play["remembers"])
     ticks = []
     for tick, values in enumerate(play["valuations"]):
         clock.tick = tick
         stage.values = values
         stage.calls = []
-        root.tick_once()
-        ticks.append([stage.calls, LETTER[root.status]])
+        tree.tick_once()
+        ticks.append([stage.calls, LETTER[tree.status]])
     return ticks
 
 

@@ -1,13 +1,10 @@
 //! BehaviorTree.CPP 4 on a small scale: it reads the exported file and ticks it as that library's sources say, so that
 //! what the file means there is compared with what the tree means to btc.
-//!
-//! The variable `BTC_BTCPP` names a Python that can import behaviortreepy; the tests of the library itself run where they
-//! are asked for: `BTC_BTCPP=… cargo test export::cpp -- --ignored`
 
 use super::file::{Leaf, inside, leaf, leaves, only};
 use super::play::{Play, Tick};
 use super::trees::{Grower, Kinds, atoms};
-use super::{names, script, written};
+use super::{names, written};
 use crate::examples;
 use crate::tree::build::{decorated, leaf as behavior, parallel};
 use crate::tree::random::Random;
@@ -15,7 +12,6 @@ use btc::emit::form::TreeForm;
 use btc::ir::Program;
 use btc::ir::tree::{Decorator, Node as Root, Status};
 use roxmltree::{Document, Node as Element};
-use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 
@@ -305,10 +301,15 @@ fn by_cpp(text: &str, leaves: &BTreeMap<Leaf, (bool, usize)>, play: &Play) -> Ve
 }
 
 /// A tree, and what it meets.
-type Case = (Root, Play);
+pub(super) type Case = (Root, Play);
 
 /// Plays here and there; gives how many behaviours were ticked.
-fn compare(program: &Program, cases: &[Case], there: &[Vec<Tick>], files: &[String]) -> usize {
+pub(super) fn compare(
+    program: &Program,
+    cases: &[Case],
+    there: &[Vec<Tick>],
+    files: &[String],
+) -> usize {
     let mut calls = 0;
     assert_eq!(cases.len(), there.len());
     for (((root, play), there), text) in cases.iter().zip(there).zip(files) {
@@ -335,31 +336,13 @@ fn compare_reading(program: &Program, cases: &[Case]) {
     assert!(compare(program, cases, &there, &files) > 10 * cases.len());
 }
 
-/// Compares with BehaviorTree.CPP itself.
-fn compare_itself(program: &Program, cases: &[Case]) {
-    let python = script::python("BTC_BTCPP");
-    let files = files(program, cases);
-    let plays = files.iter().zip(cases);
-    let leaves: Vec<Value> = leaves(program)
-        .iter()
-        .map(|((id, ports), (acts, position))| json!([acts, position, id, ports]))
-        .collect();
-    let job = json!({
-        "leaves": leaves,
-        "plays": plays.map(|(text, (_, play))| play.as_json("file", text)).collect::<Vec<_>>(),
-    });
-    let answer = script::run(&python, "play_btcpp.py", &job);
-    let there = script::plays(&answer);
-    assert!(compare(program, cases, &there, &files) > 10 * cases.len());
-}
-
-fn files(program: &Program, cases: &[Case]) -> Vec<String> {
+pub(super) fn files(program: &Program, cases: &[Case]) -> Vec<String> {
     let file = |(root, _): &Case| written(program, root, TreeForm::BtCpp).unwrap();
     cases.iter().map(file).collect()
 }
 
 /// Random trees of these kinds with their plays.
-fn random(program: &Program, number: u64, kinds: Kinds, learned: bool) -> Vec<Case> {
+pub(super) fn random(program: &Program, number: u64, kinds: Kinds, learned: bool) -> Vec<Case> {
     let atoms = atoms(program);
     let cases = (0..number).map(|seed| {
         let random = &mut Random::new(seed);
@@ -378,12 +361,12 @@ fn random(program: &Program, number: u64, kinds: Kinds, learned: bool) -> Vec<Ca
     cases.collect()
 }
 
-const PLAIN: Kinds = Kinds {
+pub(super) const PLAIN: Kinds = Kinds {
     counters: true,
-    timeouts: false,
+    timeouts: true,
     all: true,
 };
-const LEARNED: Kinds = Kinds {
+pub(super) const LEARNED: Kinds = Kinds {
     counters: true,
     timeouts: false,
     all: false,
@@ -393,19 +376,7 @@ const LEARNED: Kinds = Kinds {
 #[test]
 fn plain_trees_do_the_same_in_each_tick() {
     let program = names().program;
-    let kinds = Kinds {
-        timeouts: true,
-        ..PLAIN
-    };
-    compare_reading(&program, &random(&program, 1000, kinds, false));
-}
-
-/// The library's own clock is the one on the wall, so there are no timeouts here.
-#[test]
-#[ignore = "needs behaviortreepy, in the Python that BTC_BTCPP names"]
-fn plain_trees_do_the_same_in_the_library() {
-    let program = names().program;
-    compare_itself(&program, &random(&program, 300, PLAIN, false));
+    compare_reading(&program, &random(&program, 1000, PLAIN, false));
 }
 
 #[test]
@@ -415,25 +386,12 @@ fn learned_trees_do_the_same_in_each_tick() {
 }
 
 #[test]
-#[ignore = "needs behaviortreepy, in the Python that BTC_BTCPP names"]
-fn learned_trees_do_the_same_in_the_library() {
-    let program = names().program;
-    compare_itself(&program, &random(&program, 300, LEARNED, true));
-}
-
-#[test]
 fn examples_do_the_same() {
     on_examples(compare_reading);
 }
 
-#[test]
-#[ignore = "needs behaviortreepy, in the Python that BTC_BTCPP names"]
-fn examples_do_the_same_in_the_library() {
-    on_examples(compare_itself);
-}
-
 /// Compares the trees of the examples.
-fn on_examples(compare: fn(&Program, &[Case])) {
+pub(super) fn on_examples(compare: fn(&Program, &[Case])) {
     for name in examples::names() {
         let program = examples::example(&name).program;
         let atoms = atoms(&program);

@@ -3,7 +3,9 @@
 use super::trees::atoms;
 use crate::tree::random::Random;
 use btc::ir::Program;
-use btc::ir::tree::{Node, Status};
+use btc::ir::history::Window;
+use btc::ir::task::History;
+use btc::ir::tree::{Atom, Node, Status};
 use btc::tree::tick::Runner;
 use serde_json::{Value, json};
 
@@ -16,6 +18,8 @@ pub(super) struct Play {
     answers: Vec<Status>,
     /// Whether those of even number do not fail.
     steady: bool,
+    /// The history window, where the history is what the tree did and not what the valuations say.
+    history: Option<History>,
 }
 
 /// A tick: the behaviours that were ticked, in order, and the answer of the tree.
@@ -45,7 +49,14 @@ impl Play {
             valuations,
             answers: answers.collect(),
             steady,
+            history: None,
         }
+    }
+
+    /// The same where the history is what the tree did.
+    pub(super) fn remembering(mut self, history: History) -> Self {
+        self.history = Some(history);
+        self
     }
 
     /// The same where nothing ends.
@@ -69,6 +80,7 @@ impl Play {
             "valuations": self.valuations.iter().map(digits).collect::<Vec<_>>(),
             "answers": letters.collect::<String>(),
             "steady": self.steady,
+            "remembers": self.history.is_some(),
         })
     }
 
@@ -83,20 +95,38 @@ impl Play {
 
     /// What btc does.
     pub(super) fn by_btc(&self, program: &Program, root: &Node) -> Vec<Tick> {
-        let mut runner = Runner::new(root, &atoms(program)).unwrap();
+        let atoms = atoms(program);
+        let mut runner = Runner::new(root, &atoms).unwrap();
+        let mut window = self.history.map(Window::new);
         let mut call = 0;
         let ticks = self.valuations.iter().map(|values| {
+            let mut values = values.clone();
+            if let Some(window) = &window {
+                for (value, atom) in values.iter_mut().zip(&atoms) {
+                    *value = match atom {
+                        Atom::Predicate(_) => *value,
+                        asked => window.shows(*asked),
+                    };
+                }
+            }
             let mut words = vec![0; values.len().div_ceil(64)];
             for (i, _) in values.iter().enumerate().filter(|(_, holds)| **holds) {
                 words[i / 64] |= 1 << (i % 64);
             }
             let mut calls = Vec::new();
+            let mut ended = Vec::new();
             let status = runner.tick(&words, |behavior| {
                 let answer = self.answer(behavior.index(), call);
                 call += 1;
                 calls.push(behavior.index());
+                ended.push((behavior, answer));
                 answer
             });
+            if let Some(window) = &mut window {
+                for (behavior, answer) in ended {
+                    window.record(behavior, answer);
+                }
+            }
             Tick { calls, status }
         });
         ticks.collect()

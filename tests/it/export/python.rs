@@ -17,25 +17,14 @@ use btc::emit::form::TreeForm;
 use btc::ir::Program;
 use btc::ir::tree::{Decorator, Node, Status};
 use serde_json::{Value, json};
-use std::ffi::OsString;
-
-/// The Python to test with.
-fn python() -> OsString {
-    script::python("BTC_PY_TREES")
-}
 
 /// The module of a tree.
 fn module(program: &Program, root: &Node) -> String {
     written(program, root, TreeForm::PyTrees).unwrap()
 }
 
-/// What py_trees does in each play, and what the programs print.
-fn run(
-    python: &OsString,
-    program: &Program,
-    plays: &[(String, Play)],
-    programs: &[String],
-) -> (Vec<Vec<Tick>>, Vec<String>) {
+/// A job that has the modules of single leaves alone: by what they call, the leaves of other modules are known.
+pub(super) fn job(program: &Program) -> Value {
     // The place of a leaf of another robot stays empty: it has the name of one of ours.
     let module_of = |node: &Node| match is_of_another_robot(program, node) {
         true => String::new(),
@@ -43,17 +32,28 @@ fn run(
     };
     let modules = |nodes: Vec<Node>| -> Vec<String> { nodes.iter().map(module_of).collect() };
     let (asked, done) = subjects(program);
+    json!({
+        "conditions": modules(asked),
+        "behaviors": modules(done),
+        "plays": [],
+        "programs": [],
+    })
+}
+
+/// What py_trees does in each play, and what the programs print.
+fn run(
+    program: &Program,
+    plays: &[(String, Play)],
+    programs: &[String],
+) -> (Vec<Vec<Tick>>, Vec<String>) {
     let plays: Vec<Value> = plays
         .iter()
         .map(|(module, play)| play.as_json("module", module))
         .collect();
-    let job = json!({
-        "conditions": modules(asked),
-        "behaviors": modules(done),
-        "plays": plays,
-        "programs": programs,
-    });
-    let answer = script::run(python, "play_py_trees.py", &job);
+    let mut asked = job(program);
+    asked["plays"] = plays.into();
+    asked["programs"] = programs.into();
+    let answer = script::run(script::py_trees("play_py_trees.py"), &asked);
     let drawn = answer["drawn"].as_array().unwrap().iter();
     let drawn = drawn.map(|text| text.as_str().unwrap().to_owned());
     (script::plays(&answer), drawn.collect())
@@ -61,12 +61,11 @@ fn run(
 
 /// Compares the plays of trees with btc's.
 fn compare(program: &Program, cases: Vec<(Node, Play)>) {
-    let python = python();
     let plays: Vec<(String, Play)> = cases
         .iter()
         .map(|(root, play)| (module(program, root), play.clone()))
         .collect();
-    let (there, _) = run(&python, program, &plays, &[]);
+    let (there, _) = run(program, &plays, &[]);
     let mut calls = 0;
     for (((root, play), there), (text, _)) in cases.iter().zip(&there).zip(&plays) {
         let here = play.by_btc(program, root);
@@ -175,14 +174,35 @@ fn a_timeout_fails_in_the_same_tick() {
     compare(program, vec![(root, play)]);
 }
 
+/// A module keeps the history that its tree asks as btc does: what ends in a tick is asked for from the next one on.
+#[test]
+#[ignore = "needs py_trees, in the Python that BTC_PY_TREES names"]
+fn modules_remember_what_their_trees_did() {
+    let loaded = names();
+    let program = &loaded.program;
+    let history = program.tasks.values().next().unwrap().history;
+    let kinds = Kinds {
+        counters: true,
+        timeouts: false,
+        all: true,
+    };
+    let cases = [false, true].map(|learned| random(program, kinds, learned));
+    let cases = cases.into_iter().flatten();
+    compare(
+        program,
+        cases
+            .map(|(root, play)| (root, play.remembering(history)))
+            .collect(),
+    );
+}
+
 /// Run as a program, a module draws its tree.
 #[test]
 #[ignore = "needs py_trees, in the Python that BTC_PY_TREES names"]
 fn modules_draw_themselves() {
-    let python = python();
     let loaded = names();
     let form = Form::Tree(TreeForm::PyTrees);
     let text = compile::emit(&loaded, form, Some("everything")).unwrap();
-    let (_, drawn) = run(&python, &loaded.program, &[], &[text]);
+    let (_, drawn) = run(&loaded.program, &[], &[text]);
     crate::snapshot::check("names.everything.py.drawn", &drawn[0]);
 }

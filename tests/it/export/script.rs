@@ -1,23 +1,35 @@
-//! Scripts of other languages, which play what their job says.
+//! Programs of other languages, which play what their job says.
 
 use super::play::Tick;
 use btc::ir::tree::Status;
 use serde_json::Value;
-use std::ffi::{OsStr, OsString};
 use std::io::Write;
+use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
-/// The Python that a variable names.
-pub(super) fn python(variable: &str) -> OsString {
+/// What a variable names.
+fn named(variable: &str) -> PathBuf {
     let found = std::env::var_os(variable);
-    found.unwrap_or_else(|| panic!("{variable} has to name a Python to run exported trees with"))
+    let found = found.unwrap_or_else(|| panic!("{variable} has to name what runs exported trees"));
+    found.into()
 }
 
-/// What a script answers to a job.
-pub(super) fn run(python: &OsStr, script: &str, job: &Value) -> Value {
+/// A script for the Python that has py_trees.
+pub(super) fn py_trees(script: &str) -> Command {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/cases/export");
-    let mut child = Command::new(python)
-        .arg(format!("{folder}/{script}"))
+    let mut command = Command::new(named("BTC_PY_TREES"));
+    command.arg(format!("{folder}/{script}"));
+    command
+}
+
+/// A program of the folder in which those of BehaviorTree.CPP are built.
+pub(super) fn btcpp(program: &str) -> Command {
+    Command::new(named("BTC_BTCPP").join(program))
+}
+
+/// What a program answers to a job.
+pub(super) fn run(mut command: Command, job: &Value) -> Value {
+    let mut child = command
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .spawn()

@@ -5,6 +5,7 @@ use crate::program::{self, NoFiles};
 use crate::snapshot;
 use btc::driver::canonicalize::{Form, canonicalize};
 use btc::driver::load::{Loaded, Reader, load};
+use btc::driver::table::Recorded;
 use btc::driver::{size, verify};
 
 /// Trees of the paper's figures, and nestings of them.
@@ -84,6 +85,54 @@ fn tables_of_trees_read_back() {
             assert!(proved.unwrap().holds(), "{name}");
         }
     }
+}
+
+/// The table of a tree with memory says what it lacks, and so does a comparison without it; in an environment that was
+/// recorded the two are equal.
+#[test]
+fn a_table_of_memory_says_what_it_lacks() {
+    let source = include_str!("../../../examples/delivery_small.bt");
+    let delivery = load("delivery_small.bt", source.into(), &mut NoFiles);
+    let trees = program();
+    let all = [
+        (&delivery, "expert"),
+        (&trees, "held"),
+        (&trees, "tried"),
+        (&trees, "both"),
+    ];
+    for (program, name) in all {
+        let (table, _) = canonicalize(program, name, Form::Csv).unwrap();
+        let says =
+            format!("## The decisions of `{name}` where its memory is what the history says.\n");
+        assert!(table.starts_with(&says), "{table}");
+        let table = text("t.csv", table.as_bytes());
+        let proved = verify::table(program, name, (table, None), None).unwrap();
+        assert!(!proved.holds());
+        let (parts, agrees) = proved
+            .text
+            .split_once("\n  with memory read from the history")
+            .unwrap();
+        assert!(parts.starts_with("different: "), "{parts}");
+        assert!(agrees.contains("`--transitions FILE`"), "{agrees}");
+    }
+    let (table, _) = canonicalize(&delivery, "expert", Form::Csv).unwrap();
+    let recorded = "\
+carrying_package,battery_low,done(goto(C)),behavior,status,\
+next:carrying_package,next:battery_low,next:done(goto(C)),count
+,,,,start,0,0,0,1
+0,0,0,goto(A),success,1,0,0,1
+1,0,0,goto(B),success,0,0,0,1
+1,0,0,goto(B),running,1,1,0,1
+1,1,0,goto(C),success,1,1,1,1
+1,1,1,dock(C),success,1,0,0,1
+";
+    let recorded = Recorded {
+        transitions: text("transitions.csv", recorded.as_bytes()),
+        starts: None,
+    };
+    let table = (text("t.csv", table.as_bytes()), None);
+    let proved = verify::table(&delivery, "expert", table, Some(recorded)).unwrap();
+    assert!(proved.holds(), "{}", proved.text);
 }
 
 /// Beside its source a canonical tree is proved equal; memory is read from the history there.
