@@ -47,7 +47,10 @@ impl Client {
         let snippets = json!({ "textDocument": { "completion": { "completionItem": { "snippetSupport": true } } } });
         let answer = client.request(
             "initialize",
-            json!({ "processId": null, "rootUri": null, "workspaceFolders": [folder], "capabilities": snippets }),
+            json!({
+                "processId": null, "rootUri": null, "workspaceFolders": [folder], "capabilities": snippets,
+                "initializationOptions": { "commands": ["btc.learn", "btc.run", "btc.showTree"] },
+            }),
         );
         client.capabilities = answer["result"]["capabilities"].clone();
         client.notify("initialized", json!({}));
@@ -223,6 +226,38 @@ impl Client {
                     "textDocument/foldingRange",
                     json!({ "textDocument": document }),
                 );
+            }
+            "lenses" => {
+                let answer =
+                    self.request("textDocument/codeLens", json!({ "textDocument": document }));
+                let lenses = answer["result"].as_array().unwrap().iter().map(|lens| {
+                    let command = &lens["command"];
+                    let mut said = command["arguments"][0].clone();
+                    let told =
+                        [&command["title"], &command["command"]].map(|it| it.as_str().unwrap());
+                    assert_eq!(
+                        said.as_object_mut().unwrap().remove("uri"),
+                        Some(json!(self.uri(name)))
+                    );
+                    json!([lens["range"], told.join(" | "), said])
+                });
+                return json!({ "result": lenses.collect::<Vec<Value>>() });
+            }
+            // `tree FILE`, `tree FILE NAME`, `tree FILE PLACE`: what the picture is of.
+            "tree" => {
+                let mut wanted = json!({ "uri": self.uri(name) });
+                match rest {
+                    "" => {}
+                    piece if piece.contains('|') => wanted["position"] = self.position(name, piece),
+                    tree => wanted["tree"] = json!(tree),
+                }
+                let params = json!({ "command": "btc.tree", "arguments": [wanted] });
+                let mut answer = self.request("workspace/executeCommand", params);
+                if let Some(svg) = answer["result"]["svg"].as_str() {
+                    let (_, rest) = svg.split_once("<desc>").unwrap();
+                    answer["result"]["svg"] = json!(rest.split_once("</desc>").unwrap().0);
+                }
+                return answer;
             }
             "colours" => return self.colours(name, &document),
             "actions" => {

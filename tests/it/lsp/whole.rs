@@ -33,6 +33,7 @@ fn ask_all(server: &mut Server, place: &Value) {
         "semanticTokens/full",
         "inlayHint",
         "codeAction",
+        "codeLens",
         "formatting",
         "rangeFormatting",
     ] {
@@ -43,6 +44,10 @@ fn ask_all(server: &mut Server, place: &Value) {
         let answer = server.answer(&format!("textDocument/{method}"), params);
         assert!(answer.is_ok(), "{method}: {answer:?}");
     }
+    let tree = json!({ "uri": URI, "position": place });
+    let command = json!({ "command": "btc.tree", "arguments": [tree] });
+    let answer = server.answer("workspace/executeCommand", command);
+    assert!(answer.is_ok(), "{answer:?}");
 }
 
 /// The line and the column of the end of a text.
