@@ -21,4 +21,9 @@ eval "$(lines_of Neovim sh)"
 
 mkdir "$scratch/yard"
 cp examples/delivery_small.bt "$scratch/yard"
+# The file type alone, as Vim takes it.
+found=$("${NVIM:-nvim}" --clean --headless --cmd "set runtimepath^=$PWD/editors/vim" "$scratch/yard/delivery_small.bt" \
+    -c 'lua io.write(vim.bo.filetype, " ", vim.bo.commentstring)' -c qall 2>&1)
+[ "$found" = "behaviortree // %s" ] || { echo "editors/vim: $found" >&2; exit 1; }
+
 timeout 120 "${NVIM:-nvim}" --headless -n "$scratch/yard/delivery_small.bt" -c "luafile editors/neovim/test.lua" 2>&1
