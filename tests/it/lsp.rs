@@ -6,6 +6,7 @@
 
 mod client;
 mod nowhere;
+mod shown;
 mod whole;
 
 use client::Client;
@@ -48,7 +49,7 @@ fn conversation(case: &str) -> String {
     let mut shown = String::new();
     for step in steps {
         let answer = client.step(&step);
-        writeln!(shown, "> {step}\n{}\n", client::short(&answer, &root)).unwrap();
+        writeln!(shown, "> {step}\n{}\n", shown::short(&answer, &root)).unwrap();
     }
     client.goodbye();
     shown.trim_end().to_owned()
