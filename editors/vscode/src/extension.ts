@@ -9,9 +9,14 @@ export async function activate({ extensionUri, subscriptions }: vscode.Extension
   const panel = new Panel(extensionUri, (wanted) => server.picture(wanted), subscriptions);
   const commands = new Commands(server, panel);
   const restart = async () => {
-    await server.stop();
-    await server.start();
+    await server.restart();
     panel.redraw();
+  };
+  let soon: NodeJS.Timeout | undefined;
+  const reconsider = () => {
+    // While the settings are written, they are empty for a moment.
+    clearTimeout(soon);
+    soon = setTimeout(() => void server.reconsider().then(() => panel.redraw()), 500);
   };
   const register = (name: string, run: (about?: About) => Promise<void>) => vscode.commands.registerCommand(name, run);
   subscriptions.push(
@@ -23,9 +28,9 @@ export async function activate({ extensionUri, subscriptions }: vscode.Extension
     register("btc.restart", restart),
     vscode.workspace.onDidChangeConfiguration((event) => {
       if (event.affectsConfiguration("btc.path")) {
-        void restart();
+        reconsider();
       }
     }),
   );
-  await server.start();
+  await server.restart();
 }

@@ -32,9 +32,37 @@ export async function hasBtc(path: string): Promise<boolean> {
 
 export class Server {
   private client: LanguageClient | undefined;
+  /** The path that it was started by last. */
+  private path: string | undefined;
+  /** The start or the end that is under way; the next one waits for it. */
+  private last: Promise<void> = Promise.resolve();
 
-  async start(): Promise<void> {
-    const command = btcPath();
+  /** Starts the server, in place of the one that runs. */
+  restart(): Promise<void> {
+    return this.queued(async () => {
+      await this.end().catch(() => undefined);
+      await this.begin();
+    });
+  }
+
+  /** Starts it anew if it is found at another path now. */
+  async reconsider(): Promise<void> {
+    await this.last.catch(() => undefined);
+    if (btcPath() !== this.path) {
+      await this.restart();
+    }
+  }
+
+  stop(): Promise<void> {
+    return this.queued(() => this.end());
+  }
+
+  private queued(step: () => Promise<void>): Promise<void> {
+    return (this.last = this.last.catch(() => undefined).then(step));
+  }
+
+  private async begin(): Promise<void> {
+    const command = (this.path = btcPath());
     if (!(await hasBtc(command))) {
       return;
     }
@@ -44,17 +72,17 @@ export class Server {
       initializationOptions: { commands: OFFERED },
       synchronize: { fileEvents: watcher },
     });
-    this.client = client;
     try {
       await client.start();
+      this.client = client;
     } catch (why) {
-      this.client = undefined;
+      watcher.dispose();
       const message = why instanceof Error ? why.message : String(why);
       void vscode.window.showErrorMessage(`\`${command} lsp\` does not start: ${message}`);
     }
   }
 
-  async stop(): Promise<void> {
+  private async end(): Promise<void> {
     const { client } = this;
     this.client = undefined;
     await client?.dispose();

@@ -15,10 +15,27 @@ after(() => rmSync(scratch, { recursive: true }));
 // The modules of the extension as they are, with the played editor in place of VS Code, and no client of the server.
 const played = new URL("support/vscode.mjs", import.meta.url);
 const source = (name) => new URL(`../src/${name}.ts`, import.meta.url).pathname;
+const client = `
+  export const CodeLensRequest = {}, ExecuteCommandRequest = { type: "workspace/executeCommand" };
+  export class LanguageClient {
+    constructor(id, name, server, options) { Object.assign(this, { server, options }); }
+    async start() {
+      globalThis.clients.push("start " + this.server.command);
+      await new Promise((resolve) => setTimeout(resolve, 10));
+      if (globalThis.clients.broken) throw new Error("broken");
+    }
+    async dispose() {
+      await new Promise((resolve) => setTimeout(resolve, 10));
+      globalThis.clients.push("end " + this.server.command);
+      if (globalThis.clients.broken) throw new Error("broken");
+    }
+    sendRequest(type, params) { return { type, params, ...this.options.initializationOptions }; }
+  }
+`;
 const bundled = join(scratch, "extension.mjs");
 await build({
   stdin: {
-    contents: ["preview/panel", "commands", "program"].map((name) => `export * from ${JSON.stringify(source(name))};`).join("\n"),
+    contents: ["preview/panel", "commands", "program", "server"].map((name) => `export * from ${JSON.stringify(source(name))};`).join("\n"),
     resolveDir: scratch,
   },
   bundle: true,
@@ -34,11 +51,11 @@ await build({
   }, {
     name: "none",
     setup({ onLoad }) {
-      onLoad({ filter: /.*/, namespace: "none" }, () => ({ contents: "export class LanguageClient {}; export const CodeLensRequest = {}, ExecuteCommandRequest = {};" }));
+      onLoad({ filter: /.*/, namespace: "none" }, () => ({ contents: client }));
     },
   }],
 });
-const { Panel, Commands, expanded, trouble } = await import(pathToFileURL(bundled).href);
+const { Panel, Commands, Server, expanded, trouble } = await import(pathToFileURL(bundled).href);
 
 const A = "file:///robots/a%20b.bt";
 const asked = [];
@@ -170,6 +187,36 @@ test("where there is no btc, that is said, with a way out", async () => {
     ["complained", "There is no program `/nowhere/btc`. Install it with `cargo install --locked --path .` in its repository, or set `btc.path`."],
     ["command", "workbench.action.openSettings", "btc.path"],
   ]);
+});
+
+test("the server is started anew one time after the other, and where its path has changed", async () => {
+  globalThis.clients = [];
+  const server = new Server();
+  await assert.rejects(server.picture({ uri: A }), /the language server is not running/);
+  await Promise.all([server.restart(), server.restart()]);
+  assert.deepEqual(clients, [`start ${btc}`, `end ${btc}`, `start ${btc}`]);
+  const { type, params, commands } = await server.picture({ uri: A });
+  assert.deepEqual([type, params], ["workspace/executeCommand", { command: "btc.tree", arguments: [{ uri: A }] }]);
+  assert.deepEqual(commands, ["btc.learn", "btc.run", "btc.showTree"]);
+  clients.length = 0;
+  await server.reconsider();
+  assert.deepEqual(clients, []);
+
+  vscode.answers.path = "/nowhere/btc";
+  await server.reconsider();
+  assert.deepEqual(clients, [`end ${btc}`]);
+  assert.match(vscode.done[0][1], /There is no program/);
+  vscode.answers.path = btc;
+  clients.broken = true;
+  await server.reconsider();
+  assert.match(vscode.done.at(-1)[1], /lsp` does not start: broken$/);
+  clients.broken = false;
+  await server.restart();
+  clients.broken = true;
+  await assert.rejects(server.stop());
+  clients.broken = false;
+  await server.restart();
+  assert.equal(clients.at(-1), `start ${btc}`, "one that does not end well hinders no other");
 });
 
 test("what is no btc is told from it", async () => {

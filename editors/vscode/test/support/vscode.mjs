@@ -87,6 +87,7 @@ export const window = {
 export const workspace = {
   workspaceFolders: [{ uri: new Uri("/robots") }],
   onDidChangeTextDocument: on("text"),
+  createFileSystemWatcher: () => ({ dispose() {} }),
   getWorkspaceFolder: (uri) => (uri.path.startsWith("/robots/") ? workspace.workspaceFolders[0] : undefined),
   getConfiguration: () => ({ get: () => answers.path }),
   asRelativePath: (uri) => uri.fsPath.replace("/robots/", ""),
