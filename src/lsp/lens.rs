@@ -2,9 +2,10 @@
 
 use super::analysis::Analysis;
 use super::documents::Documents;
+use super::outline::whole_tree;
 use crate::check::learned_name;
 use crate::source::Span;
-use crate::syntax::ast::{Item, ItemKind, Learn, Tree};
+use crate::syntax::ast::{Item, ItemKind, Learn};
 use gen_lsp_types::{CodeLens, Command, Uri};
 use serde_json::json;
 
@@ -121,14 +122,6 @@ impl<'a> Lenses<'a> {
         let items = self.analysis.loaded.asts().flat_map(|ast| &ast.items);
         let tasks = items.filter(|item| matches!(item.kind, ItemKind::Task(_)));
         tasks.count() == 1
-    }
-}
-
-/// The tree of an item, unless it is the subtree of others, with parameters.
-pub(super) fn whole_tree(item: &Item) -> Option<&Tree> {
-    match &item.kind {
-        ItemKind::Tree(tree) if tree.params.is_none() => Some(tree),
-        _ => None,
     }
 }
 

@@ -1,7 +1,7 @@
 //! A tree as a picture, for a panel beside the text.
 
 use super::analysis::Analysis;
-use super::lens::whole_tree;
+use super::outline::whole_tree;
 use crate::driver::compile;
 use crate::emit::form::TreeForm;
 use crate::syntax::ast;
