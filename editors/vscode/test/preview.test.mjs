@@ -96,7 +96,7 @@ after(async () => {
 });
 
 const labels = () => page.locator("#picture svg text").allTextContents();
-const shows = (label) => page.locator("#picture svg text", { hasText: label }).waitFor({ timeout: 5000 });
+const shows = (label) => page.locator("#picture svg text", { hasText: label }).waitFor();
 const at = (piece) => {
   const lines = text.slice(0, text.indexOf(piece)).split("\n");
   return { line: lines.length - 1, character: lines.at(-1).length };
