@@ -25,6 +25,7 @@ mod world;
 
 pub use builtin::names as built_in_names;
 pub use meaning::{Entity, Meaning, Meanings};
+pub use names::learned_name;
 pub use types::written::names as built_in_types;
 
 use crate::diagnostic::Diagnostic;

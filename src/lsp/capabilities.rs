@@ -1,6 +1,6 @@
 //! What the server can do.
 
-use super::tokens;
+use super::{picture, tokens};
 use gen_lsp_types as lsp;
 use serde_json::Value;
 
@@ -39,6 +39,11 @@ pub(super) fn capabilities() -> Value {
                 ..Default::default()
             },
         )),
+        code_lens_provider: Some(lsp::CodeLensOptions::default()),
+        execute_command_provider: Some(lsp::ExecuteCommandOptions {
+            commands: vec![picture::COMMAND.to_owned()],
+            ..Default::default()
+        }),
         document_formatting_provider: Some(true.into()),
         document_range_formatting_provider: Some(true.into()),
         rename_provider: Some(lsp::RenameProvider::RenameOptions(lsp::RenameOptions {

@@ -3,7 +3,7 @@
 use crate::check::Entity;
 use crate::source::Span;
 use crate::syntax::ast::{
-    BehaviorBody, Clause, ClauseKind, File, Ident, Item, ItemKind, Params, RobotEntryKind,
+    BehaviorBody, Clause, ClauseKind, File, Ident, Item, ItemKind, Params, RobotEntryKind, Tree,
     WorldEntryKind,
 };
 
@@ -67,6 +67,14 @@ impl<'a> Outlined<'a> {
 /// What a file declares, in the order of the text.
 pub(super) fn outline(file: &File) -> Vec<Outlined<'_>> {
     file.items.iter().filter_map(item).collect()
+}
+
+/// The tree of an item, unless it is the subtree of others, with parameters.
+pub(super) fn whole_tree(item: &Item) -> Option<&Tree> {
+    match &item.kind {
+        ItemKind::Tree(tree) if tree.params.is_none() => Some(tree),
+        _ => None,
+    }
 }
 
 fn item(item: &Item) -> Option<Outlined<'_>> {

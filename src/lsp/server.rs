@@ -2,10 +2,11 @@
 
 use super::analysis::Analysis;
 use super::documents::{Document, Documents};
+use super::editor::Editor;
 use super::navigate::Declared;
 use super::{
-    Workspace, actions, complete, diagnostics, folding, format, hints, hover, navigate, rename,
-    signature, symbols, tokens, uri,
+    Workspace, actions, complete, diagnostics, folding, format, hints, hover, lens, navigate,
+    picture, rename, signature, symbols, tokens, uri,
 };
 use gen_lsp_types as lsp;
 use gen_lsp_types::{Position, TextDocumentPositionParams as At, Uri};
@@ -23,12 +24,9 @@ const PROGRAMS: usize = 2000;
 pub struct Server<'w> {
     workspace: &'w dyn Workspace,
     documents: Documents,
-    /// The folders of the workspace.
-    folders: Vec<String>,
+    editor: Editor,
     /// Where the text of the library can be read, once it was asked for.
     library: Option<String>,
-    /// Whether the editor fills in places of what is completed.
-    snippets: bool,
     /// Documents that were closed, whose mistakes are to be shown no more.
     closed: Vec<Uri>,
 }
@@ -36,22 +34,11 @@ pub struct Server<'w> {
 impl<'w> Server<'w> {
     /// A server without open documents, for an editor that introduces itself so.
     pub fn new(workspace: &'w dyn Workspace, params: &Value) -> Self {
-        let path = |value: &Value| value.as_str().map(|it| uri::path(&it.into()));
-        let folders = params.get("workspaceFolders").and_then(Value::as_array);
-        let mut folders: Vec<String> = (folders.into_iter().flatten())
-            .filter_map(|folder| path(folder.get("uri")?))
-            .collect();
-        if folders.is_empty() {
-            folders.extend(params.get("rootUri").and_then(path));
-        }
-        let snippets =
-            params.pointer("/capabilities/textDocument/completion/completionItem/snippetSupport");
         Self {
             workspace,
             documents: Documents::default(),
-            folders,
+            editor: Editor::of(params),
             library: None,
-            snippets: snippets.and_then(Value::as_bool).unwrap_or(false),
             closed: Vec::new(),
         }
     }
@@ -130,7 +117,7 @@ impl<'w> Server<'w> {
             "textDocument/completion" => {
                 let at = read::<lsp::CompletionParams>(params)?.text_document_position_params;
                 let (found, byte) = self.at(&at)?;
-                written(complete::complete(&found, byte, self.snippets))
+                written(complete::complete(&found, byte, self.editor.snippets))
             }
             "textDocument/signatureHelp" => {
                 let at = read::<lsp::SignatureHelpParams>(params)?.text_document_position_params;
@@ -169,6 +156,24 @@ impl<'w> Server<'w> {
                 let params = read::<lsp::InlayHintParams>(params)?;
                 let found = self.of(&params.text_document.uri)?;
                 written(hints::hints(&found, params.range))
+            }
+            "textDocument/codeLens" => {
+                let found = self.of(&read::<lsp::CodeLensParams>(params)?.text_document.uri)?;
+                written(lens::lenses(&found, &self.documents, &self.editor.commands))
+            }
+            "workspace/executeCommand" => {
+                let params = read::<lsp::ExecuteCommandParams>(params)?;
+                if params.command != picture::COMMAND {
+                    return Err(refused(format!("`{}` is no command", params.command)));
+                }
+                let wanted = params.arguments.into_iter().flatten().next();
+                let wanted = read::<picture::Wanted>(wanted.unwrap_or_default())?;
+                let path = uri::path(&wanted.uri);
+                let found = self.analysis(&path);
+                let found = found.or_else(|| self.closed_program(&path, None));
+                let missing = || refused(format!("{} cannot be read", wanted.uri.0));
+                let found = found.ok_or_else(missing)?;
+                written(picture::picture(&found, wanted))
             }
             _ => Err(error(
                 ErrorCode::MethodNotFound,
@@ -228,10 +233,10 @@ impl<'w> Server<'w> {
                 let gone: Vec<String> = (params.event.removed.iter())
                     .map(|folder| uri::path(&folder.uri))
                     .collect();
-                self.folders.retain(|folder| !gone.contains(folder));
+                let folders = &mut self.editor.folders;
+                folders.retain(|folder| !gone.contains(folder));
                 let added = params.event.added.iter();
-                self.folders
-                    .extend(added.map(|folder| uri::path(&folder.uri)));
+                folders.extend(added.map(|folder| uri::path(&folder.uri)));
             }
             _ => {}
         }
@@ -325,7 +330,7 @@ impl<'w> Server<'w> {
     /// The programs of the workspace, open or not, whose text has a name.
     fn all_programs(&mut self, name: Option<&str>) -> Vec<Rc<Analysis>> {
         let mut paths: BTreeSet<String> = self.documents.open.keys().cloned().collect();
-        for folder in &self.folders {
+        for folder in &self.editor.folders {
             paths.extend(self.workspace.programs(folder));
         }
         let mut programs = Vec::new();

@@ -6,6 +6,7 @@
 
 mod client;
 mod nowhere;
+mod shown;
 mod whole;
 
 use client::Client;
@@ -48,7 +49,7 @@ fn conversation(case: &str) -> String {
     let mut shown = String::new();
     for step in steps {
         let answer = client.step(&step);
-        writeln!(shown, "> {step}\n{}\n", client::short(&answer, &root)).unwrap();
+        writeln!(shown, "> {step}\n{}\n", shown::short(&answer, &root)).unwrap();
     }
     client.goodbye();
     shown.trim_end().to_owned()
@@ -79,7 +80,7 @@ fn it_answers_to_what_it_says_that_it_can_do() {
         .cloned()
         .collect();
     able.retain(|name| name.ends_with("Provider"));
-    assert_eq!(able.len(), 15, "{able:?}");
+    assert_eq!(able.len(), 17, "{able:?}");
     let unknown = client.request("textDocument/moniker", json!({}));
     assert_eq!(unknown["error"]["code"], -32601);
     let wrong = client.request("textDocument/hover", json!({ "textDocument": 3 }));
@@ -89,6 +90,18 @@ fn it_answers_to_what_it_says_that_it_can_do() {
         json!({ "textDocument": { "uri": "file:///not/open.bt" }, "position": { "line": 0, "character": 0 } }),
     );
     assert_eq!(closed["error"]["code"], -32602);
+    for wrong in [
+        json!({}),
+        json!({ "command": "btc.tree", "arguments": [{ "uri": 3 }] }),
+    ] {
+        let refused = client.request("workspace/executeCommand", wrong);
+        assert_eq!(refused["error"]["code"], -32602);
+    }
+    let unknown = client.request(
+        "workspace/executeCommand",
+        json!({ "command": "btc.dance" }),
+    );
+    assert_eq!(unknown["error"]["code"], -32803);
     client.notify("textDocument/didChange", json!({ "textDocument": 1 }));
     client.notify("$/unheard", Value::Null);
     client.step("open a.bt");

@@ -119,7 +119,7 @@ impl<'a> Checker<'a> {
     }
 
     fn dwells_too_long(&mut self, learn: &'a ast::Learn) {
-        let name = crate::check::names::learned_name(learn);
+        let name = crate::check::learned_name(learn);
         let mut learners = self.program.learners.values();
         let learner = learners.find(|learner| learner.name.is(name));
         let Some((dwell, episode)) = learner.map(|learner| (learner.dwell, learner.episode_ticks))

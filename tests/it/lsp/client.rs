@@ -47,7 +47,10 @@ impl Client {
         let snippets = json!({ "textDocument": { "completion": { "completionItem": { "snippetSupport": true } } } });
         let answer = client.request(
             "initialize",
-            json!({ "processId": null, "rootUri": null, "workspaceFolders": [folder], "capabilities": snippets }),
+            json!({
+                "processId": null, "rootUri": null, "workspaceFolders": [folder], "capabilities": snippets,
+                "initializationOptions": { "commands": ["btc.learn", "btc.run", "btc.showTree"] },
+            }),
         );
         client.capabilities = answer["result"]["capabilities"].clone();
         client.notify("initialized", json!({}));
@@ -224,6 +227,38 @@ impl Client {
                     json!({ "textDocument": document }),
                 );
             }
+            "lenses" => {
+                let answer =
+                    self.request("textDocument/codeLens", json!({ "textDocument": document }));
+                let lenses = answer["result"].as_array().unwrap().iter().map(|lens| {
+                    let command = &lens["command"];
+                    let mut said = command["arguments"][0].clone();
+                    let told =
+                        [&command["title"], &command["command"]].map(|it| it.as_str().unwrap());
+                    assert_eq!(
+                        said.as_object_mut().unwrap().remove("uri"),
+                        Some(json!(self.uri(name)))
+                    );
+                    json!([lens["range"], told.join(" | "), said])
+                });
+                return json!({ "result": lenses.collect::<Vec<Value>>() });
+            }
+            // `tree FILE`, `tree FILE NAME`, `tree FILE PLACE`: what the picture is of.
+            "tree" => {
+                let mut wanted = json!({ "uri": self.uri(name) });
+                match rest {
+                    "" => {}
+                    piece if piece.contains('|') => wanted["position"] = self.position(name, piece),
+                    tree => wanted["tree"] = json!(tree),
+                }
+                let params = json!({ "command": "btc.tree", "arguments": [wanted] });
+                let mut answer = self.request("workspace/executeCommand", params);
+                if let Some(svg) = answer["result"]["svg"].as_str() {
+                    let (_, rest) = svg.split_once("<desc>").unwrap();
+                    answer["result"]["svg"] = json!(rest.split_once("</desc>").unwrap().0);
+                }
+                return answer;
+            }
             "colours" => return self.colours(name, &document),
             "actions" => {
                 let place = self.position(name, rest);
@@ -338,62 +373,4 @@ fn byte(text: &str, place: &Value) -> usize {
         at += letter.len_utf8();
     }
     at
-}
-
-/// An answer for a person: ranges as `line:column-line:column` from 1, files by their names, what is not said left out.
-pub(super) fn short(answer: &Value, root: &Path) -> String {
-    let shown = match (answer.get("result"), answer.get("error")) {
-        (Some(result), _) => result,
-        (None, Some(error)) => return format!("refused: {}", error["message"].as_str().unwrap()),
-        (None, None) => answer,
-    };
-    let text = serde_json::to_string_pretty(&shortened(shown)).unwrap();
-    let folder = format!("file://{}/", root.to_str().unwrap());
-    text.replace(&folder, "").replace("\\n", "\n        ")
-}
-
-fn shortened(value: &Value) -> Value {
-    let place = |it: &Value| {
-        Some((
-            it.get("line")?.as_u64()? + 1,
-            it.get("character")?.as_u64()? + 1,
-        ))
-    };
-    match value {
-        Value::Object(fields) => {
-            if let (2, Some(start), Some(end)) =
-                (fields.len(), fields.get("start"), fields.get("end"))
-                && let (Some((a, b)), Some((c, d))) = (place(start), place(end))
-            {
-                return json!(if a == c {
-                    format!("{a}:{b}-{d}")
-                } else {
-                    format!("{a}:{b}-{c}:{d}")
-                });
-            }
-            if let Some((line, column)) = place(value) {
-                return json!(format!("{line}:{column}"));
-            }
-            let mut fields: Vec<(String, Value)> = (fields.iter())
-                .filter(|(name, _)| *name != "sortText")
-                .map(|(name, value)| (library(name), shortened(value)))
-                .collect();
-            fields.sort_by(|a, b| a.0.cmp(&b.0));
-            Value::Object(fields.into_iter().collect())
-        }
-        Value::Array(list) => Value::Array(list.iter().map(shortened).collect()),
-        Value::String(text) => json!(library(text)),
-        other => other.clone(),
-    }
-}
-
-/// The library's text lies somewhere among the files of the moment.
-fn library(text: &str) -> String {
-    match text
-        .strip_prefix("file://")
-        .and_then(|path| path.rsplit_once("/btc-"))
-    {
-        Some((_, rest)) if rest.ends_with("std.bt") => "(library) std.bt".to_owned(),
-        _ => text.to_owned(),
-    }
 }

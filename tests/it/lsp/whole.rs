@@ -11,9 +11,13 @@ const URI: &str = "file:///robots/a.bt";
 
 fn opened(text: &str) -> Server<'static> {
     let mut server = Server::new(&Nowhere, &json!({}));
+    open(&mut server, text);
+    server
+}
+
+fn open(server: &mut Server, text: &str) {
     let item = json!({ "uri": URI, "languageId": "bt", "version": 1, "text": text });
     server.notice("textDocument/didOpen", json!({ "textDocument": item }));
-    server
 }
 
 /// Asks all that can be asked of a document and of a place in it.
@@ -33,6 +37,7 @@ fn ask_all(server: &mut Server, place: &Value) {
         "semanticTokens/full",
         "inlayHint",
         "codeAction",
+        "codeLens",
         "formatting",
         "rangeFormatting",
     ] {
@@ -43,6 +48,10 @@ fn ask_all(server: &mut Server, place: &Value) {
         let answer = server.answer(&format!("textDocument/{method}"), params);
         assert!(answer.is_ok(), "{method}: {answer:?}");
     }
+    let tree = json!({ "uri": URI, "position": place });
+    let command = json!({ "command": "btc.tree", "arguments": [tree] });
+    let answer = server.answer("workspace/executeCommand", command);
+    assert!(answer.is_ok(), "{answer:?}");
 }
 
 /// The line and the column of the end of a text.
@@ -103,6 +112,31 @@ fn a_text_that_is_broken_anywhere_is_answered() {
         );
         ask_all(&mut server, &place);
     }
+}
+
+/// What is offered above items are commands of the editor: one that has none is offered none.
+#[test]
+fn only_commands_that_the_editor_has_are_offered() {
+    let text = fs::read_to_string(repository("examples/delivery_small.bt")).unwrap();
+    let offered = |commands: Value| -> Vec<Value> {
+        let options = json!({ "initializationOptions": { "commands": commands } });
+        let mut server = Server::new(&Nowhere, &options);
+        open(&mut server, &text);
+        let params = json!({ "textDocument": { "uri": URI } });
+        let lenses = server.answer("textDocument/codeLens", params).unwrap();
+        let lenses = lenses.as_array().unwrap().iter();
+        lenses
+            .map(|lens| lens["command"]["command"].clone())
+            .collect()
+    };
+    assert_eq!(offered(Value::Null), Vec::<Value>::new());
+    assert_eq!(offered(json!(["btc.dance"])), Vec::<Value>::new());
+    let shown = offered(json!(["btc.showTree"]));
+    assert_eq!(
+        shown,
+        vec![json!("btc.showTree"); 2],
+        "above the task and the tree"
+    );
 }
 
 /// Each name of a program can be changed; the program is as sound as it was, and means the same.

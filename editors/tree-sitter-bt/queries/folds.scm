@@ -1,0 +1,13 @@
+[
+  (world)
+  (robot)
+  (enum)
+  (behavior)
+  (task)
+  (start)
+  (reward)
+  (learn)
+  (children)
+  (block)
+  (yield)
+] @fold

@@ -1,0 +1,17 @@
+[
+  (world)
+  (robot)
+  (variants)
+  (behavior)
+  (task)
+  (start)
+  (reward)
+  (learn)
+  (children)
+  (block)
+  (yield)
+  (arguments)
+  (parameters)
+] @indent.begin
+
+["}" ")"] @indent.end @indent.branch
