@@ -21,6 +21,7 @@ pub mod place;
 pub mod probe;
 pub mod propose;
 pub mod race;
+pub mod reader;
 mod step;
 
 use crate::checkpoint::{Keeper, Part};

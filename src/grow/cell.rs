@@ -46,6 +46,8 @@ pub struct Cell {
     squares: f64,
     /// The sum of the rewards below zero.
     losses: f64,
+    /// Decisions that did harm.
+    harms: f64,
     /// Decisions that ended the episode.
     ends: f64,
     ticks: f64,
@@ -86,6 +88,7 @@ impl Cell {
         self.reward *= keep;
         self.squares *= keep;
         self.losses *= keep;
+        self.harms *= keep;
         self.ends *= keep;
         self.ticks *= keep;
         self.refused *= keep;
@@ -100,6 +103,7 @@ impl Cell {
         self.count += 1.0;
         self.reward += taken.reward;
         self.losses += taken.reward.min(0.0);
+        self.harms += f64::from(u8::from(taken.harmed));
         self.ends += f64::from(u8::from(next.is_none()));
         self.squares += taken.reward * taken.reward;
         self.ticks += taken.ticks as f64;
@@ -116,11 +120,12 @@ impl Cell {
         }
     }
 
-    /// What is to be expected, if so many decisions more went wrong as any may.
+    /// What is to be expected, if so many decisions more went wrong as any may, and each harm costs what the hazard says.
     pub(super) fn outlook(&self, sight: Sight, doubt: f64, hazard: &Hazard) -> Outlook {
         let n = self.count;
         let ticks = self.ticks / n;
         let plain = (self.reward - self.losses) / n;
+        let reward = self.reward - hazard.price * self.harms;
         let supposed = plain + ticks * hazard.losses / hazard.ticks;
         let stays = (1.0 - ticks * hazard.ends / hazard.ticks).clamp(0.0, 1.0);
         let met = n - self.ends;
@@ -130,7 +135,7 @@ impl Cell {
         };
         let next = self.next.iter();
         Outlook {
-            reward: (self.reward + doubt * supposed) / (n + doubt),
+            reward: (reward + doubt * supposed) / (n + doubt),
             ticks,
             next: next
                 .map(|(row, _, factors)| (*row, sight.of(factors) * scale))
@@ -155,16 +160,19 @@ impl Cell {
 
 /// What goes wrong in a tick, whatever is done.
 pub(super) struct Hazard {
+    /// What a harm costs besides what it loses.
+    price: f64,
     losses: f64,
     ends: f64,
     ticks: f64,
 }
 
 impl Hazard {
-    pub(super) fn of(cells: &[Cell]) -> Self {
-        let sum = |figure: fn(&Cell) -> f64| cells.iter().map(figure).sum();
+    pub(super) fn of(cells: &[Cell], price: f64) -> Self {
+        let sum = |figure: fn(&Cell) -> f64| -> f64 { cells.iter().map(figure).sum() };
         Self {
-            losses: sum(|cell| cell.losses),
+            price,
+            losses: sum(|cell| cell.losses) - price * sum(|cell| cell.harms),
             ends: sum(|cell| cell.ends),
             ticks: sum(|cell| cell.ticks),
         }
@@ -174,6 +182,7 @@ impl Hazard {
     pub(super) fn with(&self, anywhere: &Self) -> Self {
         let some = ANYWHERE / anywhere.ticks.max(1.0);
         Self {
+            price: self.price,
             losses: self.losses + some * anywhere.losses,
             ends: self.ends + some * anywhere.ends,
             ticks: self.ticks + ANYWHERE,

@@ -3,13 +3,13 @@
 //! The advantage of a decision says what it brings once, if the tree before goes on from there. A tree that takes it again
 //! and again goes elsewhere. So a tree is followed through the counts: what it is worth, and where it goes.
 
-use super::evidence::{Cell, Evidence, FAR, Sight, Visits};
-use super::field::{Field, Numbers, driven, numbers, without_memory};
+use super::evidence::{Evidence, FAR, Sight, Visits};
+use super::field::Field;
 use super::ground::Ground;
-use crate::ir::tree::{Atom, Node};
+use super::reader::Reader;
+use crate::ir::tree::Node;
 use crate::learn::process::{Key, World};
 use crate::learn::solve::Problem;
-use crate::tree::Runner;
 
 /// The counted process, in which trees are followed.
 #[derive(Debug)]
@@ -22,9 +22,7 @@ pub struct Chart<'w> {
     from: Vec<f64>,
     /// The return of an episode for each unit of discounted value.
     scale: f64,
-    atoms: &'w [Atom],
-    asked: &'w [Atom],
-    numbers: Numbers,
+    reader: Reader<'w>,
 }
 
 /// A tree as it was followed.
@@ -54,17 +52,14 @@ impl<'w> Chart<'w> {
         let keys = evidence.keys();
         let all: f64 = keys.iter().map(|key| evidence.begun(*key)).sum();
         let from = keys.iter().map(|key| evidence.begun(*key) / all.max(1.0));
-        let refuses = |row| evidence.cells(row).iter().map(Cell::refuses).collect();
         let horizons = length as f64 / (FAR * ground.start.limit as f64);
         Self {
             problem: evidence.doubted(Sight::Far, doubt),
             keys: keys.to_vec(),
-            refuses: (0..keys.len()).map(refuses).collect(),
+            refuses: evidence.refusing(),
             from: from.collect(),
             scale: horizons / (1.0 - crate::math::exp(-horizons)).max(1e-9),
-            atoms: ground.atoms(),
-            asked: ground.world.atoms(),
-            numbers: numbers(ground),
+            reader: Reader::new(ground),
         }
     }
 
@@ -100,20 +95,9 @@ impl<'w> Chart<'w> {
         }
     }
 
-    /// What a tree does in each row.
     fn policy(&self, root: &Node) -> Option<Vec<Option<usize>>> {
-        let read = without_memory(root, self.atoms);
-        let mut runner = Runner::new(&read, self.asked).ok()?;
-        let states = self.problem.states.iter();
-        let rows = self.keys.iter().zip(&self.refuses).zip(states);
-        let policy = rows.map(|((key, refuses), state)| {
-            let drive = driven(&mut runner, *key, &self.numbers, |choice| {
-                refuses.get(choice).copied().unwrap_or(false)
-            });
-            let taken = |(choice, _): &(usize, _)| Some(*choice) == drive.choice;
-            state.iter().position(taken)
-        });
-        Some(policy.collect())
+        self.reader
+            .policy(root, &self.problem, &self.keys, &self.refuses)
     }
 
     /// The minterms that matter to a tree, by how often an episode enters them.

@@ -31,6 +31,8 @@ pub struct Evidence {
     cells: Vec<Cell>,
     /// The reward of failing at once: its sum, and how often it was met.
     refused: (f64, f64),
+    /// What a harm costs, besides what it loses.
+    harm: f64,
     /// The most that a cell counts.
     most: f64,
     /// The minterms in which episodes began, with how often.
@@ -57,6 +59,7 @@ impl Evidence {
             rows: FxHashMap::default(),
             cells: Vec::new(),
             refused: (0.0, 0.0),
+            harm: 0.0,
             most: MOST,
             starts: FxHashMap::default(),
         }
@@ -68,6 +71,11 @@ impl Evidence {
             most: f64::INFINITY,
             ..Self::new(ground)
         }
+    }
+
+    /// Charges so much for a harm from now on.
+    pub fn charge(&mut self, harm: f64) {
+        self.harm = harm;
     }
 
     /// The minterms that were met, by row.
@@ -84,6 +92,13 @@ impl Evidence {
     pub fn cells(&self, row: usize) -> &[Cell] {
         let from = row * self.choices;
         self.cells.get(from..from + self.choices).unwrap_or(&[])
+    }
+
+    /// Which choices fail at once, in each row.
+    pub fn refusing(&self) -> Vec<Vec<bool>> {
+        let rows = self.cells.chunks(self.choices.max(1));
+        rows.map(|cells| cells.iter().map(Cell::refuses).collect())
+            .collect()
     }
 
     /// How many episodes from the task's own starts began in a minterm.
@@ -177,9 +192,9 @@ impl Evidence {
     /// The decision problem of the counts, and of so many decisions more in each cell that go as badly as any in the
     /// minterm: what is rare and dear is not met in a few decisions.
     pub fn doubted(&self, sight: Sight, doubt: f64) -> Problem {
-        let anywhere = Hazard::of(&self.cells);
+        let anywhere = Hazard::of(&self.cells, self.harm);
         let known = |row: &[Cell]| {
-            let here = Hazard::of(row).with(&anywhere);
+            let here = Hazard::of(row, self.harm).with(&anywhere);
             let known = |cell: &Cell| cell.count >= KNOWN;
             // A choice that fails at once is no way to wait: a tree goes on to the next.
             let acts = |cell: &Cell| known(cell) && !cell.refuses();

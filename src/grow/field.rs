@@ -5,17 +5,12 @@
 
 use super::evidence::{Cell, Evidence, Sight, Visits};
 use super::ground::Ground;
+use super::reader::{Drive, Reader};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
-use crate::ir::tree::Guard;
-use crate::ir::tree::{Atom, Composite, Node, Status};
+use crate::ir::tree::{Atom, Node};
 use crate::learn::process::{Key, World};
 use crate::learn::solve::Problem;
-use crate::tree::Runner;
-use crate::tree::atoms::behaviors;
-use crate::tree::guard::or;
-use crate::tree::unit::{guarded, selector};
-use rustc_hash::FxHashMap;
 
 /// By whose decisions what follows is judged.
 #[derive(Clone, Copy, Debug)]
@@ -24,18 +19,6 @@ pub enum Aim<'n> {
     Best,
     /// Those of a tree.
     Of(&'n Node),
-}
-
-/// The behaviours by their numbers among the choices.
-pub(super) type Numbers = FxHashMap<Id<Behavior>, usize>;
-
-/// What a tree does in a minterm.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Drive {
-    /// The behaviour that drives, by its number among the choices; `None` if the tree selects nothing.
-    pub choice: Option<usize>,
-    /// Whether another behaviour failed at once before it.
-    pub fell: bool,
 }
 
 /// A minterm that matters.
@@ -77,11 +60,9 @@ pub struct Field<'w> {
     pub spots: Vec<Spot>,
     /// The atoms of a minterm.
     pub atoms: &'w [Atom],
-    /// All that the world lets a tree ask.
-    asked: &'w [Atom],
     /// The behaviours to choose from.
     pub choices: &'w [Id<Behavior>],
-    numbers: Numbers,
+    reader: Reader<'w>,
 }
 
 /// The most minterms that are scored.
@@ -96,26 +77,17 @@ impl<'w> Field<'w> {
         visits: &Visits,
         aim: Aim,
     ) -> Self {
-        let atoms = ground.atoms();
-        let numbers = numbers(ground);
         let mut problem = evidence.problem(sight);
-        let runner = match aim {
+        let policy = match aim {
             Aim::Best => None,
-            Aim::Of(root) => Runner::new(&without_memory(root, atoms), ground.world.atoms()).ok(),
+            Aim::Of(root) => {
+                let reader = Reader::new(ground);
+                reader.policy(root, &problem, evidence.keys(), &evidence.refusing())
+            }
         };
-        let values = match runner {
+        let values = match policy {
             None => problem.solve().values,
-            Some(mut runner) => {
-                let rows = evidence.keys().iter().zip(&problem.states).enumerate();
-                let policy = rows.map(|(row, (key, state))| {
-                    let cells = evidence.cells(row);
-                    let drive = driven(&mut runner, *key, &numbers, |choice| {
-                        cells.get(choice).is_some_and(Cell::refuses)
-                    });
-                    let taken = |(choice, _): &(usize, _)| Some(*choice) == drive.choice;
-                    state.iter().position(taken)
-                });
-                let policy: Vec<Option<usize>> = policy.collect();
+            Some(policy) => {
                 // What is not known of the tree is about as bad as anything else that it does.
                 problem.unknown = problem.low(&problem.evaluate(&policy));
                 problem.evaluate(&policy)
@@ -132,8 +104,6 @@ impl<'w> Field<'w> {
         values: &[f64],
         visits: &Visits,
     ) -> Self {
-        let atoms = ground.atoms();
-        let numbers = numbers(ground);
         let refusal = evidence.refusal();
         let mut spots: Vec<Spot> = visits
             .iter()
@@ -171,23 +141,17 @@ impl<'w> Field<'w> {
         spots.truncate(SPOTS);
         Self {
             spots,
-            atoms,
-            asked: ground.world.atoms(),
+            atoms: ground.atoms(),
             choices: ground.choices,
-            numbers,
+            reader: Reader::new(ground),
         }
     }
 
     /// What a tree does in each minterm; `None` if it asks what the world does not know.
     pub fn drives(&self, root: &Node) -> Option<Vec<Drive>> {
-        let read = without_memory(root, self.atoms);
-        let mut runner = Runner::new(&read, self.asked).ok()?;
-        let drives = self.spots.iter().map(|spot| {
-            driven(&mut runner, spot.key, &self.numbers, |choice| {
-                spot.refuses.get(choice).copied().unwrap_or(false)
-            })
-        });
-        Some(drives.collect())
+        let rows = self.spots.iter();
+        self.reader
+            .drives(root, rows.map(|spot| (spot.key, spot.refuses.as_slice())))
     }
 
     /// How much more a tree returns than another that does `now`, as far as the counts tell.
@@ -202,106 +166,4 @@ impl<'w> Field<'w> {
         });
         gains.sum()
     }
-}
-
-pub(super) fn numbers<W>(ground: &Ground<W>) -> Numbers {
-    let choices = ground.choices.iter().enumerate();
-    choices.map(|(at, id)| (*id, at)).collect()
-}
-
-/// In how many of these minterms two trees select the same behaviour first, or none.
-pub fn alike<W: World>(ground: &Ground<W>, trees: [&Node; 2], keys: &[Key]) -> usize {
-    let read =
-        |root: &Node| Runner::new(&without_memory(root, ground.atoms()), ground.world.atoms()).ok();
-    let [Some(mut own), Some(mut other)] = trees.map(read) else {
-        return 0;
-    };
-    let numbers = numbers(ground);
-    let first = |runner: &mut Runner, key| driven(runner, key, &numbers, |_| false).choice;
-    let alike = |key: &&Key| first(&mut own, **key) == first(&mut other, **key);
-    keys.iter().filter(alike).count()
-}
-
-/// What a tree does in a minterm, its memory fresh, where some choices fail at once.
-pub(super) fn driven(
-    runner: &mut Runner,
-    key: Key,
-    numbers: &Numbers,
-    refuses: impl Fn(usize) -> bool,
-) -> Drive {
-    runner.reset();
-    let mut drive = Drive {
-        choice: None,
-        fell: false,
-    };
-    runner.tick_key(key, |behavior| {
-        let choice = numbers.get(&behavior).copied();
-        if choice.is_some_and(&refuses) {
-            drive.fell = true;
-            return Status::Failure;
-        }
-        drive.choice = choice;
-        Status::Running
-    });
-    drive
-}
-
-/// A tree whose memory nodes ask the history instead: a sequence goes on behind the last child that has succeeded, a
-/// selector behind the last that has failed. Where the history is not kept, a later child comes first and fails at
-/// once where it is not its turn.
-pub(super) fn without_memory(node: &Node, atoms: &[Atom]) -> Node {
-    match node {
-        Node::Condition(_) | Node::Behavior(_) => node.clone(),
-        Node::Composite {
-            kind,
-            memory,
-            children,
-        } => {
-            let children = children.iter().map(|child| without_memory(child, atoms));
-            let children: Vec<Node> = children.collect();
-            if *memory {
-                return by_history(*kind, &children, atoms);
-            }
-            Node::Composite {
-                kind: *kind,
-                memory: false,
-                children,
-            }
-        }
-        Node::Parallel {
-            successes,
-            children,
-        } => {
-            let children = children.iter().map(|child| without_memory(child, atoms));
-            Node::Parallel {
-                successes: *successes,
-                children: children.collect(),
-            }
-        }
-        Node::Decorator { child, .. } => without_memory(child, atoms),
-    }
-}
-
-fn by_history(kind: Composite, children: &[Node], atoms: &[Atom]) -> Node {
-    let mut units: Vec<Node> = Vec::new();
-    for (at, child) in children.iter().enumerate() {
-        let before = at.checked_sub(1).and_then(|before| children.get(before));
-        let unit = match before {
-            None => child.clone(),
-            Some(before) => {
-                let ended = behaviors(before).into_iter().map(|behavior| match kind {
-                    Composite::Sequence => Atom::Done(behavior),
-                    Composite::Selector => Atom::Failed(behavior),
-                });
-                let kept = ended.filter(|atom| atoms.contains(atom));
-                let kept: Vec<Guard> = kept.map(Guard::Atom).collect();
-                match kept.is_empty() {
-                    true => child.clone(),
-                    false => guarded(or(kept), child.clone()),
-                }
-            }
-        };
-        units.insert(0, unit);
-    }
-    selector(units)
 }

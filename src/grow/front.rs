@@ -1,8 +1,9 @@
 //! The trees that none beats in both nodes and return, and the one of them that is taken.
 
-use super::field;
+use super::ground::does_more_harm;
 use super::grower::{Found, Visited};
 use super::race::{Entrant, Judge, Terms};
+use super::reader;
 use super::{Settings, Starts};
 use crate::ir::tree::{Atom, Node};
 use crate::learn::process::World;
@@ -14,6 +15,8 @@ use serde::{Deserialize, Serialize};
 
 /// For each stage of the choice, the episodes up to which its trees play, and the most that stay after it.
 const STAGES: [(usize, usize); 3] = [(60, 7), (160, 3), (500, 3)];
+/// The standard errors by which a tree does surely more harm than another.
+const SURE: f64 = 2.0;
 /// The most trees that are looked at for the front.
 const LOOKED_AT: usize = 16;
 /// Fresh episodes that measure the tree that was chosen.
@@ -151,7 +154,7 @@ pub(super) fn choose<W: World>(
         },
         kept: root == starts.exact,
         alike: [
-            field::alike(judge.ground, [&root, &starts.exact], &starts.minterms),
+            reader::alike(judge.ground, [&root, &starts.exact], &starts.minterms),
             starts.minterms.len(),
         ],
         root,
@@ -226,12 +229,12 @@ fn chosen<W: World>(
         return exact;
     };
     let mean = |entrant: &Entrant| entrant.contender.returns().mean;
-    // Those that have played to the end and did no more harm.
+    // Those that have played to the end and did no more harm, as far as the episodes can tell.
     let safe: Vec<(usize, &Entrant)> = entrants
         .iter()
         .enumerate()
         .filter(|(_, entrant)| entrant.contender.episodes() == base.contender.episodes())
-        .filter(|(_, entrant)| judge.harms(entrant) <= judge.harms(base))
+        .filter(|(_, entrant)| !does_more_harm([judge.harms(entrant), judge.harms(base)], SURE))
         .collect();
     let best = |from: &[(usize, &Entrant)], worth: &dyn Fn(&Entrant) -> f64| {
         let worths = from.iter().map(|(at, entrant)| (*at, worth(entrant)));

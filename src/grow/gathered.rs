@@ -27,6 +27,8 @@ pub(super) struct Taken {
     pub(super) ticks: u64,
     pub(super) status: Status,
     pub(super) end: End,
+    /// Whether something went wrong, see [`Ground::harm`].
+    pub(super) harmed: bool,
 }
 
 impl Taken {
@@ -133,6 +135,7 @@ impl Gathered {
         let mut driver: Option<(Id<Behavior>, Status)> = None;
         let mut alone = true;
         let mut earned = Earned::default();
+        let broken = ground.broken(process.events());
         loop {
             process.begin_tick();
             let before = driver;
@@ -173,6 +176,7 @@ impl Gathered {
                         ticks,
                         status,
                         end,
+                        harmed: tick.lost || ground.broken(process.events()) > broken,
                     });
                 }
             } else {

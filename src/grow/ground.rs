@@ -8,7 +8,8 @@ use crate::learn::discount::Discounting;
 use crate::learn::episode::Episode;
 use crate::learn::process::World;
 use crate::learn::simulated::Purpose;
-use crate::trial::paired::Trials;
+use crate::learn::statistics::Mean;
+use crate::trial::paired::{Trials, error};
 use crate::world::Start;
 
 /// Where trees grow.
@@ -64,8 +65,24 @@ impl<'w, W: World> Ground<'w, W> {
 
     /// What went wrong in an episode: an end that costs, and each event that is claimed never to happen.
     pub fn harm(&self, episode: &Episode) -> u64 {
-        let fired = |event: &&usize| episode.events.get(**event).is_some_and(|count| *count > 0);
-        let broken = self.never.iter().filter(fired).count() as u64;
-        broken.max(u64::from(episode.lost))
+        self.broken(&episode.events).max(u64::from(episode.lost))
     }
+
+    /// How many of the events that are claimed never to happen have happened, by how often each event has fired.
+    pub fn broken(&self, events: &[u64]) -> u64 {
+        let fired = |event: &&usize| events.get(**event).is_some_and(|count| *count > 0);
+        self.never.iter().filter(fired).count() as u64
+    }
+}
+
+/// Whether so many harms are more than so many others by more than so many standard errors of a count.
+pub fn does_more_harm([own, other]: [u64; 2], errors: f64) -> bool {
+    let more = own.saturating_sub(other) as f64;
+    more > errors * ((own + other) as f64).sqrt()
+}
+
+/// What the price of harm is a part of: the return of an episode, or its standard deviation if that is more.
+pub fn scale(returns: &Mean, episodes: usize) -> f64 {
+    let spread = error(returns) * (episodes as f64).sqrt();
+    returns.mean.abs().max(spread)
 }

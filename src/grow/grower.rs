@@ -60,6 +60,8 @@ pub struct Grower<'g, 'w, 'a, W> {
     random: Random,
     collected: u64,
     price: f64,
+    /// What the price of harm is a part of.
+    scale: f64,
     visited: Vec<Visited>,
     /// The best single behaviour.
     single: Option<Node>,
@@ -81,6 +83,7 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
             random: Random::new(ground.seed, 1 << 41, 0),
             collected: 0,
             price: 0.0,
+            scale: 0.0,
             visited: Vec::new(),
             single: None,
         }
@@ -121,6 +124,7 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
             random: self.random.clone(),
             collected: self.collected,
             price: self.price,
+            scale: self.scale,
             visited: self.visited.clone(),
             single: self.single.clone(),
             seen: self.judge.seen,
@@ -134,6 +138,7 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
         self.random = halted.random;
         self.collected = halted.collected;
         self.price = halted.price;
+        self.scale = halted.scale;
         self.visited = halted.visited;
         self.single = halted.single;
         self.judge.seen = halted.seen;
@@ -186,6 +191,7 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
         let least = means.fold(f64::NEG_INFINITY, f64::max);
         let scale = (top - least).min(top.abs().max(spread)).max(0.1 * spread);
         self.price = PRICE * scale.max(1e-6);
+        self.scale = exact.scale();
         let mean = |single: &Entrant| single.contender.returns().mean;
         let best = singles
             .iter()
@@ -250,8 +256,14 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
     /// The tree that has won, pruned.
     fn taken(&mut self, found: Entrant) -> Node {
         let base = self.pruned(&found.root, &found);
+        self.scale = found.scale();
         self.visit(&base);
         base
+    }
+
+    /// Lets the counts charge for harm what the races do in which a tree is taken.
+    fn charge(&mut self, terms: Terms) {
+        self.evidence.charge(terms.harm * self.scale);
     }
 
     /// The tree without what it never showed in its episodes: it plays them alike.

@@ -6,7 +6,7 @@
 //! was not is counted, and the next round knows it.
 
 use super::evidence::{Cell, Evidence, Sight};
-use super::ground::Ground;
+use super::ground::{Ground, does_more_harm};
 use crate::checkpoint::Part;
 use crate::ir::Id;
 use crate::ir::law::Behavior;
@@ -180,7 +180,7 @@ impl<W: World> Iteration<'_, '_, W> {
                 }
             }
             if round == 1 {
-                self.acts(&evidence, &mut base.choices);
+                ticks += self.act(&evidence, &mut base);
             }
             base.played.clear();
             let candidates = self.candidates(&evidence, &base.choices, &mut random);
@@ -236,9 +236,27 @@ impl<W: World> Iteration<'_, '_, W> {
             .1
     }
 
-    /// Decisions that fail at once give way to the best that do not, by the counts: a tree would not wait there, but go
-    /// on to something else.
-    fn acts(&self, evidence: &Evidence, choices: &mut Choices) {
+    /// Takes decisions that do not fail at once, unless they are surely worse: a tree would not wait there, but go on to
+    /// something else. Gives the ticks that it took to find out.
+    fn act(&self, evidence: &Evidence, base: &mut Candidate) -> u64 {
+        let mut acting = Candidate {
+            choices: self.acting(evidence, base.choices.clone()),
+            played: Vec::new(),
+        };
+        if acting.choices == base.choices {
+            return 0;
+        }
+        let start = self.ground.episodes(Purpose::Improve, 1 << 12);
+        let used = self.play([&mut *base, &mut acting].into_iter(), start, TELLING);
+        let gain = gain(&acting, base);
+        if gain.mean >= -error(&gain) {
+            *base = acting;
+        }
+        used
+    }
+
+    /// The best decisions that do not fail at once, by the counts, in place of those that do.
+    fn acting(&self, evidence: &Evidence, mut choices: Choices) -> Choices {
         let problem = evidence.problem(Sight::Far);
         let policy = evidence.cautious(&problem, 1.0, Sight::Far).solve().policy;
         let rows = evidence.keys().iter().zip(&problem.states).zip(&policy);
@@ -252,6 +270,7 @@ impl<W: World> Iteration<'_, '_, W> {
                 *now = *best;
             }
         }
+        choices
     }
 
     /// Policies that are better by the counts, or take a part of what makes one better.
@@ -345,8 +364,7 @@ impl<W: World> Iteration<'_, '_, W> {
                 harms.sum()
             };
             let (own, other) = (harms(&candidate.played), harms(&base.played));
-            let more = own.saturating_sub(other) as f64;
-            more <= ((own + other) as f64).sqrt()
+            !does_more_harm([own, other], 1.0)
                 && is_worth_it(&totals(&candidate.played), &totals(&base.played), SURE)
         };
         (standing.into_iter().next().filter(surely), used)

@@ -1,11 +1,12 @@
 //! Trees one change away from another, with what the counts promise of them.
 
-use super::field::{Drive, Field};
+use super::field::Field;
 use super::guards::{conjunctions, nodes};
-use super::place::{self, Place, edited, paths};
+use super::place::{self, Path, Place, edited, paths};
+use super::reader::Drive;
 use crate::ir::tree::{Composite, Guard, Node};
 use crate::tree::Size;
-use crate::tree::guard::{and, or};
+use crate::tree::guard::{and, conjuncts, not, or, with_part};
 use crate::tree::prune::{self, Requirement, tidy};
 use crate::tree::unit::{guarded, memory};
 use rayon::prelude::*;
@@ -25,6 +26,8 @@ pub struct Proposal {
 const GUARDS: usize = 2;
 /// The most nodes of a tree all of whose smaller neighbours are looked at.
 const LARGE: usize = 90;
+/// The prices at which larger ones are thinned, in parts of a node's.
+const THINNED: [f64; 4] = [1.0 / 3.0, 1.0, 3.0, 10.0];
 
 /// What proposals are made from.
 #[derive(Debug)]
@@ -99,11 +102,7 @@ impl Proposer<'_, '_> {
                 {
                     found.extend(kept.literals.iter().filter_map(|(bit, value)| {
                         let atom = Guard::Atom(*self.field.atoms.get(*bit)?);
-                        let literal = if *value {
-                            crate::tree::guard::not(atom)
-                        } else {
-                            atom
-                        };
+                        let literal = if *value { not(atom) } else { atom };
                         Some(with(and([guard.clone(), literal])))
                     }));
                 }
@@ -111,13 +110,11 @@ impl Proposer<'_, '_> {
             // Other literals instead.
             for bit in self.field.atoms {
                 let atom = Guard::Atom(*bit);
-                let parts = crate::tree::guard::conjuncts(guard).len().max(1);
+                let parts = conjuncts(guard).len().max(1);
                 for part in 0..parts {
-                    for literal in [atom.clone(), crate::tree::guard::not(atom.clone())] {
+                    for literal in [atom.clone(), not(atom.clone())] {
                         let new = match guard {
-                            Guard::And(_) => {
-                                crate::tree::guard::with_part(guard, part, Some(literal))
-                            }
+                            Guard::And(_) => with_part(guard, part, Some(literal)),
                             Guard::Or(_) => continue,
                             _ => literal,
                         };
@@ -159,9 +156,31 @@ impl Proposer<'_, '_> {
             let candidates = prune::candidates(root, self.requirements).into_iter();
             candidates.map(|candidate| candidate.root).collect()
         } else {
-            dropped(root)
+            let prices = THINNED.into_par_iter();
+            let thinned = prices.filter_map(|factor| self.thinned(root, self.price * factor));
+            let mut found: Vec<Node> = thinned.collect();
+            found.extend(parts(root).iter().map(|part| part.left_out(root)));
+            found
         };
         self.scored(found, root, now)
+    }
+
+    /// The tree without all those parts that are worth less than their price, one after another; `None` if there is none.
+    fn thinned(&self, root: &Node, price: f64) -> Option<Node> {
+        let mut tree = root.clone();
+        let mut now = self.field.drives(&tree)?;
+        let mut at = 0;
+        while let Some(part) = parts(&tree).get(at) {
+            let less = tidy(part.left_out(&tree));
+            let saved = Size::of(&tree).nodes.saturating_sub(Size::of(&less).nodes);
+            let drives = self.field.drives(&less)?;
+            if saved > 0 && self.field.gain(&drives, &now) + price * saved as f64 > 0.0 {
+                (tree, now) = (less, drives);
+            } else {
+                at += 1;
+            }
+        }
+        (tree != *root).then_some(tree)
     }
 
     /// Behaviours joined to nodes with memory. The counts cannot tell what memory is worth.
@@ -251,18 +270,51 @@ fn is_selector(node: &Node) -> bool {
     )
 }
 
-/// The trees with one child of a selector less.
-fn dropped(root: &Node) -> Vec<Node> {
+/// A part of a tree that it can do without.
+enum Part {
+    /// A child of a selector, or the guard of a sequence.
+    Child(Path, usize),
+    /// A literal of a guard.
+    Literal(Path, usize),
+}
+
+/// The parts of a tree, from its end on.
+fn parts(root: &Node) -> Vec<Part> {
     let mut found = Vec::new();
-    for path in paths(root, &is_selector) {
-        let count = place::at(root, &path).map_or(0, |node| node.children().len());
-        for child in 0..count {
-            found.push(edited(root, &path, &mut |node| {
-                if let Node::Composite { children, .. } = node {
-                    children.remove(child);
-                }
-            }));
+    for path in paths(root, &|_| true) {
+        match place::at(root, &path) {
+            Some(Node::Condition(guard @ Guard::And(_))) => {
+                let literals = 0..conjuncts(guard).len();
+                found.extend(literals.map(|at| Part::Literal(path.clone(), at)));
+            }
+            Some(
+                node @ Node::Composite {
+                    memory: false,
+                    children,
+                    ..
+                },
+            ) => {
+                let every = is_selector(node);
+                let children = children.iter().enumerate();
+                let children = children.filter(|(_, it)| every || matches!(it, Node::Condition(_)));
+                found.extend(children.map(|(at, _)| Part::Child(path.clone(), at)));
+            }
+            _ => {}
         }
     }
+    found.reverse();
     found
+}
+
+impl Part {
+    fn left_out(&self, root: &Node) -> Node {
+        let (Self::Child(path, at) | Self::Literal(path, at)) = self;
+        edited(root, path, &mut |node| match node {
+            Node::Composite { children, .. } => {
+                children.remove(*at);
+            }
+            Node::Condition(guard) => *guard = with_part(guard, *at, None),
+            _ => {}
+        })
+    }
 }

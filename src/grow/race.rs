@@ -1,6 +1,6 @@
 //! Races: trees against another on common seeds that nothing was chosen by before.
 
-use super::ground::Ground;
+use super::ground::{self, Ground};
 use crate::ir::tree::Node;
 use crate::learn::process::World;
 use crate::learn::simulated::Purpose;
@@ -21,7 +21,7 @@ const HOPELESS: f64 = 2.0;
 /// more easily mended than one that returns little.
 const CHEAP: f64 = 1.0;
 /// What it costs where a tree is to be taken.
-const DEAR: f64 = 5.0;
+const DEAR: f64 = 20.0;
 
 /// What a tree is charged for in a race.
 #[derive(Clone, Copy, Debug)]
@@ -53,6 +53,13 @@ pub struct Entrant {
     pub nodes: usize,
     /// Its episodes.
     pub contender: Contender,
+}
+
+impl Entrant {
+    /// What the price of harm is a part of.
+    pub fn scale(&self) -> f64 {
+        ground::scale(&self.contender.returns(), self.contender.episodes())
+    }
 }
 
 /// What a judge has seen so far.
@@ -147,7 +154,7 @@ impl<'g, 'w, W: World> Judge<'g, 'w, W> {
         let loss = entrant.contender.loss(&base.contender);
         let nodes = terms.price * (entrant.nodes as f64 - base.nodes as f64);
         let more = self.harm_rate(entrant) - self.harm_rate(base);
-        let cost = nodes + terms.harm * scale(base) * more;
+        let cost = nodes + terms.harm * base.scale() * more;
         let [low, high] = loss.ci95;
         Mean {
             mean: -loss.mean - cost,
@@ -191,10 +198,4 @@ impl<'g, 'w, W: World> Judge<'g, 'w, W> {
             gain.mean > error(&gain)
         })
     }
-}
-
-/// What the cost of harm is a part of: a return, or its standard deviation if that is more.
-fn scale(entrant: &Entrant) -> f64 {
-    let contender = &entrant.contender;
-    contender.returns().mean.abs().max(contender.spread())
 }

@@ -270,3 +270,70 @@ impl Problem {
         values
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{LEFT, Outlook, Problem};
+    use proptest::prelude::*;
+
+    /// The most of a state's value that is left of what follows it.
+    const KEPT: f64 = 0.9;
+
+    /// Problems of up to six states with one choice or two, and a policy in each.
+    fn problems() -> impl Strategy<Value = (Problem, Vec<Option<usize>>)> {
+        let choice = (
+            -1.0..1.0_f64,
+            prop::collection::vec((0_usize..6, 0.01..1.0_f64), 0..4),
+            0.0..KEPT,
+        );
+        let choices = prop::collection::vec(choice, 1..3);
+        let states = prop::collection::vec((choices, 0_usize..2), 1..7);
+        states.prop_map(|states| {
+            let count = states.len();
+            let (mut problem, mut policy) = (Problem::default(), Vec::new());
+            for (choices, taken) in states {
+                policy.push(Some(taken % choices.len()));
+                let choices = choices.into_iter().map(|(reward, next, kept)| {
+                    let all: f64 = next.iter().map(|(_, weight)| weight).sum();
+                    let next = next
+                        .iter()
+                        .map(|(to, weight)| (to % count, weight / all * kept));
+                    Outlook {
+                        reward,
+                        ticks: 1.0,
+                        next: next.collect(),
+                    }
+                });
+                problem.states.push(choices.enumerate().collect());
+            }
+            (problem, policy)
+        })
+    }
+
+    proptest! {
+        /// What is worth d · v is paid where the policy goes: u · r.
+        #[test]
+        fn what_is_worth_is_paid_on_the_way((problem, policy) in problems(), begin in 0_usize..6) {
+            let mut from = vec![0.0; problem.states.len()];
+            from[begin % problem.states.len()] = 1.0;
+            let values = problem.evaluate(&policy);
+            let worth: f64 = from.iter().zip(&values).map(|(part, value)| part * value).sum();
+            let met = problem.occupancy(&policy, &from);
+            let paid = met.iter().enumerate().map(|(state, met)| {
+                met * problem.outlook(state, policy[state]).unwrap().reward
+            });
+            let paid: f64 = paid.sum();
+            prop_assert!((worth - paid).abs() <= LEFT / (1.0 - KEPT), "{worth} {paid}");
+        }
+
+        /// Sweeps from the values of another policy come to those of elimination.
+        #[test]
+        fn sweeps_from_near_values_agree_with_elimination((problem, policy) in problems()) {
+            let from = problem.evaluate(&problem.first());
+            let values = problem.evaluate(&policy);
+            for (near, exact) in problem.evaluate_near(&policy, from, 0.0).iter().zip(&values) {
+                prop_assert!((near - exact).abs() < 1e-3, "{near} {exact}");
+            }
+        }
+    }
+}

@@ -35,14 +35,17 @@ impl<W: World> Grower<'_, '_, '_, W> {
         }
         self.report(&base);
         let price = self.price * factor;
-        let trees = self.proposals(&base, price, *only, &mut stage.tried);
-        if trees.is_empty() {
-            return (base, Step::Climb(Stage::of(stage.number + 1)));
-        }
         let terms = match stage.number {
             0 => Terms::searching(price),
             _ => Terms::taking(price),
         };
+        if stage.number > 0 {
+            self.charge(terms);
+        }
+        let trees = self.proposals(&base, price, *only, &mut stage.tried);
+        if trees.is_empty() {
+            return (base, Step::Climb(Stage::of(stage.number + 1)));
+        }
         match self.judge.race(&base, trees, terms) {
             Some(found) => (self.taken(found), Step::Climb(Stage::of(stage.number))),
             None => {
@@ -59,19 +62,30 @@ impl<W: World> Grower<'_, '_, '_, W> {
         }
         let Some(factor) = DEARER.get(stage.number) else {
             // However few nodes are asked for, there is a tree.
-            if let Some(single) = self.single.clone() {
+            if let Some(single) = self.best_single() {
                 self.visit(&single);
             }
             return (base, Step::Done);
         };
         if !self.spent(1.0) {
             let price = self.price * factor;
+            let terms = Terms::taking(price);
+            self.charge(terms);
             let trees = self.proposals(&base, price, true, &mut stage.tried);
-            if let Some(found) = self.judge.race(&base, trees, Terms::taking(price)) {
+            if let Some(found) = self.judge.race(&base, trees, terms) {
                 return (self.taken(found), Step::Refine(stage));
             }
         }
         (base, Step::Refine(Stage::of(stage.number + 1)))
+    }
+
+    /// The behaviour that does best by itself.
+    fn best_single(&mut self) -> Option<Node> {
+        let single = self.single.clone()?;
+        let choices = self.ground.choices.iter().map(|id| Node::Behavior(*id));
+        let others = choices.filter(|other| *other != single).collect();
+        let found = self.judge.race(&single, others, Terms::taking(0.0));
+        Some(found.map_or(single, |found| found.root))
     }
 
     fn proposals(
