@@ -96,9 +96,12 @@ pub(super) fn robot(class: &str, [x, y]: Point, ahead: Point, radius: f64, page:
     page.line("nose", [x, y], nose);
 }
 
-/// The mark of the `i`-th event.
+/// How many marks differ by their outline.
+const OUTLINES: usize = 6;
+
+/// The mark of the `i`-th event: an outline; those that have one in common with an earlier mark have smaller ones inside.
 pub(super) fn mark(i: usize, [x, y]: Point, page: &mut Page) {
-    let corners: &[Point] = match i % 6 {
+    let corners: &[Point] = match i % OUTLINES {
         0 => &[[0.0, -5.5], [5.0, 4.0], [-5.0, 4.0]],
         1 => &[[0.0, 5.5], [5.0, -4.0], [-5.0, -4.0]],
         2 => &[[-4.0, -4.0], [4.0, -4.0], [4.0, 4.0], [-4.0, 4.0]],
@@ -122,6 +125,12 @@ pub(super) fn mark(i: usize, [x, y]: Point, page: &mut Page) {
             [-5.0, 0.0],
         ],
     };
-    let corners = corners.iter().map(|[dx, dy]| [x + dx, y + dy]);
-    page.path("mark", page::chain(corners) + "Z");
+    let all = i / OUTLINES + 1;
+    for inside in 0..all {
+        let scale = (all - inside) as f64 / all as f64;
+        let corners = corners
+            .iter()
+            .map(|[dx, dy]| [x + scale * dx, y + scale * dy]);
+        page.path("mark", page::chain(corners) + "Z");
+    }
 }
