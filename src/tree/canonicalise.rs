@@ -7,7 +7,7 @@ mod shorten;
 mod table;
 mod units;
 
-pub(super) use shorten::shorten;
+pub(super) use shorten::{covered, shorten};
 pub use table::Decided;
 
 use super::circuit::Signal;

@@ -30,7 +30,7 @@ pub(in crate::tree) fn shorten(
     });
     let support = guards.support(&[signal, free]);
     let flat = (support.len() <= TWO_LEVELS).then(|| two_levels(signal, free, &support, guards));
-    let found = built.into_iter().chain(flat.into_iter().flatten());
+    let found = built.into_iter().chain(flat);
     found.min_by_key(literals)
 }
 
@@ -82,13 +82,20 @@ fn without(guard: &Guard, at: &mut usize) -> Option<Guard> {
     None
 }
 
-/// The smallest disjunction of conjunctions, and the negation of that of its negation.
-fn two_levels(
-    signal: Signal,
-    free: Signal,
-    support: &[(Atom, Signal)],
-    guards: &Guards,
-) -> [Guard; 2] {
+/// A guard that holds in the rows `on` and not in the rows `off`: the smallest disjunction of conjunctions, or the
+/// negation of that of its negation if that is shorter.
+pub(in crate::tree) fn covered(columns: &Columns, on: &Bits, off: &Bits, atoms: &[Atom]) -> Guard {
+    let plain = factored(&minimise(columns, on, off), atoms);
+    let turned = not(factored(&minimise(columns, off, on), atoms));
+    if literals(&turned) < literals(&plain) {
+        turned
+    } else {
+        plain
+    }
+}
+
+/// The two-level form of a signal, by its truth table.
+fn two_levels(signal: Signal, free: Signal, support: &[(Atom, Signal)], guards: &Guards) -> Guard {
     let inputs: Vec<Signal> = support.iter().map(|(_, input)| *input).collect();
     let atoms: Vec<Atom> = support.iter().map(|(atom, _)| *atom).collect();
     let rows = 1usize << inputs.len();
@@ -110,8 +117,5 @@ fn two_levels(
     let minterm = |row| Minterm::new((0..inputs.len()).rev().map(|digit| row >> digit & 1 == 1));
     let minterms: Vec<Minterm> = (0..rows).map(minterm).collect();
     let columns = Columns::new(inputs.len(), minterms.iter().map(Minterm::words));
-    [
-        factored(&minimise(&columns, &on, &off), &atoms),
-        not(factored(&minimise(&columns, &off, &on), &atoms)),
-    ]
+    covered(&columns, &on, &off, &atoms)
 }
