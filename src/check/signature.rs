@@ -137,7 +137,8 @@ impl<'a> Checker<'a> {
             }
             (ArgKind::Binder { .. }, _) => self
                 .error(Code::E0305, arg.span, format!("{owner} takes no `in`"))
-                .label("only any, all, count and nearest range over a kind")
+                .label("nothing ranges over a kind here")
+                .help("`any`, `all`, `count`, `nearest` range over a kind, and so do the lines of `observe`, `choose` and `reward`")
                 .none(),
             (ArgKind::Range(..), _) => self
                 .error(Code::E0305, arg.span, format!("{owner} takes no range"))

@@ -8,7 +8,7 @@ use crate::ir::task::{Learner, Task};
 use crate::ir::tree::Tree;
 use crate::ir::{Id, Program};
 use crate::source::Span;
-use crate::syntax::ast::{AspectKind, Item, ItemKind, LearnEntry, Start};
+use crate::syntax::ast::{AspectKind, Item, ItemKind, LearnEntry, Start, StartLine};
 
 /// The end of the main file: where something is missing.
 pub fn end_of_file(loaded: &Loaded) -> Span {
@@ -33,7 +33,8 @@ pub fn positions(loaded: &Loaded) -> Vec<Span> {
     let mut found = Vec::new();
     let mut lines = |start: &Start| {
         let lines = start.lines.iter();
-        let positions = lines.filter(|line| line.target.name.name == "position");
+        let at = |line: &&StartLine| matches!(line.target.name.name.as_str(), "position" | "pose");
+        let positions = lines.filter(at).filter(|line| line.target.args.is_none());
         found.extend(positions.map(|line| line.value.span));
     };
     for item in loaded.asts().flat_map(|ast| &ast.items) {

@@ -7,9 +7,9 @@ use crate::check::members::Member;
 use crate::check::names::Decl;
 use crate::check::types::{Type, Typed, Value};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::ir::Id;
-use crate::ir::expr::{Expr, ExprId};
+use crate::ir::expr::ExprId;
 use crate::ir::program::{Effect, Event};
+use crate::ir::{self, Id};
 use crate::syntax::ast::{self, Ident, Params, Ref, Trigger};
 
 /// The id of an event.
@@ -94,7 +94,7 @@ impl<'a> Checker<'a> {
                 };
                 let mut happens = Vec::new();
                 for Member { codes, is } in family {
-                    let is = vec![self.program.pool.leaf(Expr::Event(is))];
+                    let is = vec![self.program.pool.leaf(ir::Expr::Event(is))];
                     happens.push(Member { codes, is });
                 }
                 let none = self.nothing(&Type::Bool, 1);
@@ -132,7 +132,7 @@ impl<'a> Checker<'a> {
                 };
                 let effects = self.for_each_member(scopes.unwrap_or_default(), |checker, _| {
                     checker.context.region = Region::Event;
-                    let when = checker.expect(event, &Type::Bool, "what an `on` waits for");
+                    let when = checker.waited_for(event);
                     checker.effect(when.scalar(), &on.block)
                 });
                 self.program.effects.extend(effects.into_iter().flatten());
@@ -140,6 +140,23 @@ impl<'a> Checker<'a> {
             Trigger::Family { name, params } => self.on_family(name, params, &on.block),
         }
         self.context.scope.clear();
+    }
+
+    /// The condition of an `on`.
+    fn waited_for(&mut self, event: &'a ast::Expr) -> Typed {
+        let role = "what an `on` waits for";
+        let is_tick =
+            plain_ref(event).is_some_and(|it| it.name.name == "tick" && it.args.is_none());
+        let typed = self.expr(event);
+        if is_tick && typed.ty.dim().is_some() {
+            let message = format!("{role} is {}, not {}", Type::Bool, typed.ty);
+            return self
+                .unlike(&typed, &Type::Bool, message)
+                .this_is(&typed.ty)
+                .help("what is done in every tick stands in `each tick { … }`")
+                .typed();
+        }
+        self.coerce(typed, event, &Type::Bool, role)
     }
 
     /// What is done where a condition holds, in the scope at hand.
@@ -172,7 +189,7 @@ impl<'a> Checker<'a> {
         let effects = self.for_each_member(scopes, |checker, scope| {
             let codes = checker.member_codes(scope)?;
             let member = family.iter().find(|member| member.codes == codes)?;
-            let on = checker.program.pool.leaf(Expr::Event(member.is));
+            let on = checker.program.pool.leaf(ir::Expr::Event(member.is));
             checker.effect(Some(on), block)
         });
         self.program.effects.extend(effects.into_iter().flatten());

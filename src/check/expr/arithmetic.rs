@@ -99,14 +99,16 @@ impl<'a> Checker<'a> {
         self.alike(first, rest, role)
     }
 
-    /// The first of some values with the rest, which have to be of its type.
+    /// The first of some values with the rest, which have to be of one type with it.
     pub fn alike(&mut self, first: Typed, rest: &[&'a Expr], role: &str) -> Option<Vec<Typed>> {
         let mut all = vec![first.clone()];
+        let mut like = first;
         for value in rest {
-            let next = self.expect_like(value, &first, role);
+            let next = self.expect_like(value, &like, role);
             if next.ty == Type::Error {
                 return None;
             }
+            like.ty = like.ty.join(&next.ty).unwrap_or(like.ty);
             all.push(next);
         }
         Some(all)

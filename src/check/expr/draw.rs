@@ -91,7 +91,7 @@ impl<'a> Checker<'a> {
             let i = self.program.pool.num(i as f64);
             let is = self.program.pool.binary(Binary::Eq, index, i);
             let condition = Typed::new(Type::Bool, Value::Scalar(is), span);
-            let ty = result.ty.clone();
+            let ty = result.ty.join(&choice.ty)?;
             result = self.select(&condition, &choice, &result, ty, span)?;
         }
         Some(result)

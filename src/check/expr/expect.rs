@@ -28,7 +28,7 @@ impl<'a> Checker<'a> {
     /// Checks an expression that has to be of the type of another one.
     pub fn expect_like(&mut self, expr: &'a Expr, first: &Typed, role: &str) -> Typed {
         let typed = self.expr(expr);
-        if typed.ty.fits(&first.ty) {
+        if first.ty.join(&typed.ty).is_some() {
             self.warn_plain_ratio(expr, &first.ty);
             return typed;
         }

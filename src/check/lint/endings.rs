@@ -21,11 +21,18 @@ pub struct Asked {
 
 impl Checker<'_> {
     /// `success(b)`, `failure(b)`, `done(b)`, `failed(b)` of a behaviour that never ends so, or that nothing runs: one
-    /// message for each behaviour and outcome.
+    /// message for each behaviour and outcome. Where one text stands for a family, one member that may end so is enough.
     pub fn endings_that_never_come(&mut self) {
         let run = run(&self.program);
+        let asked = std::mem::take(&mut self.endings);
+        let may = |asked: &&Asked| {
+            let status = status(asked.failure);
+            may_end(&self.program, asked.behavior, status)
+                && run.as_ref().is_none_or(|run| run.contains(&asked.behavior))
+        };
+        let come: BTreeSet<Span> = asked.iter().filter(may).map(|asked| asked.span).collect();
         let mut places: BTreeMap<(Id<Behavior>, bool), Vec<Span>> = BTreeMap::new();
-        for asked in std::mem::take(&mut self.endings) {
+        for asked in asked.iter().filter(|asked| !come.contains(&asked.span)) {
             let key = (asked.behavior, asked.failure);
             places.entry(key).or_default().push(asked.span);
         }
@@ -34,12 +41,7 @@ impl Checker<'_> {
                 continue;
             };
             let name = self.program.behaviors[behavior].name.clone();
-            let status = if failure {
-                Status::Failure
-            } else {
-                Status::Success
-            };
-            let draft = if !may_end(&self.program, behavior, status) {
+            let draft = if !may_end(&self.program, behavior, status(failure)) {
                 let (verb, clause) = if failure {
                     ("fails", "neither `requires` nor `fail when`")
                 } else {
@@ -59,6 +61,13 @@ impl Checker<'_> {
                 .fold(draft, |draft, place| draft.also(*place, "nor does this"))
                 .emit();
         }
+    }
+}
+
+fn status(failure: bool) -> Status {
+    match failure {
+        true => Status::Failure,
+        false => Status::Success,
     }
 }
 

@@ -52,6 +52,9 @@ impl<'a> Checker<'a> {
                 let help = "let a task choose it or a tree run it";
                 self.unused(&behavior.name, "behaviour", help, mentions);
             }
+            ItemKind::Enum(of) if !of.variants.iter().any(|one| mentioned(one, mentions)) => {
+                self.unused(&of.name, "enum", "take it away", mentions);
+            }
             ItemKind::Tree(tree) if tree.params.is_some() => {
                 self.unused(&tree.name, "subtree", "use it in a tree", mentions);
             }

@@ -87,6 +87,10 @@ impl<'a> Checker<'a> {
             Some(starts) => grid.flood(&free, &starts),
             None => free,
         };
+        // A start in a wall is reported where it is said.
+        if reached.is_empty() {
+            return;
+        }
         for (name, span, place) in wanted {
             let near =
                 |at: Point| place.shape.contains(at) || clearance(&place.shape, at) <= grid.step;

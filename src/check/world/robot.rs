@@ -56,7 +56,15 @@ impl<'a> Checker<'a> {
                 world.robot = robot;
             }
         }
-        if acting.is_none() {
+        if acting.is_none() && !self.scripts.is_empty() {
+            self.error(
+                Code::E0402,
+                world.name.span,
+                "no robot of this world learns",
+            )
+            .label("every robot has `runs`")
+            .help("leave out `runs` of the robot that is to learn");
+        } else if acting.is_none() {
             self.missing(
                 Code::E0402,
                 world.name.span,

@@ -127,12 +127,16 @@ impl<'i> Builder<'i> {
         let mut lines = Vec::new();
         let mut otherwise: Option<Expr> = None;
         let mut last: Option<Span> = None;
+        // One `otherwise` that stands too early is one mistake, however many lines follow it.
+        let mut told = false;
         self.entries(parts, Rule::strict_reward, |builder, node, span| {
             let Some(node) = node else { return };
             let rule = node.as_rule();
             if let Some(last) = last
+                && (rule == Rule::otherwise || !told)
                 && builder.failed_at.is_none_or(|at| at < last.range().start)
             {
+                told |= rule != Rule::otherwise;
                 builder.after_otherwise(rule, span, last);
             }
             if rule == Rule::otherwise {
