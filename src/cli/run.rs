@@ -68,6 +68,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
         (None, None) => Subject::only_tree(&loaded),
     };
     let subject = subject.map_err(|refused| say.refused(&refused))?;
+    let mut traced = None;
     if let Some(path) = &arguments.trace {
         let step = match arguments.ticks {
             true => Step::Tick,
@@ -85,12 +86,11 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
             TraceFormat::Jsonl => trace.json_lines(),
         };
         if path.as_os_str() == files::STDIN {
-            return files::print(&text);
+            traced = Some(text);
+        } else {
+            files::write(path, &text)?;
         }
-        files::write(path, &text)?;
     }
-    let ran = run::run(&loaded, &subject, arguments.episodes, arguments.seed)
-        .map_err(|refused| say.refused(&refused))?;
     if let Some(path) = &arguments.svg {
         let picture = picture::draw(
             &loaded,
@@ -101,6 +101,11 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
         .map_err(|refused| say.refused(&refused))?;
         files::write(path, &picture)?;
     }
+    if let Some(traced) = traced {
+        return files::print(&traced);
+    }
+    let ran = run::run(&loaded, &subject, arguments.episodes, arguments.seed)
+        .map_err(|refused| say.refused(&refused))?;
     match arguments.format {
         Format::Human => files::print(&ran.human()),
         Format::Json => files::print(&ran.json()),

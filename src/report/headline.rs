@@ -1,4 +1,4 @@
-//! The report of `btc learn` in five lines, all of them on the tree that is printed.
+//! The report of `btc learn` in five lines: four on the tree that is printed, one on the values of the policy.
 
 use super::ends::Ended;
 use super::results::Results;
@@ -54,11 +54,15 @@ pub fn lines<W>(results: &Results<W>) -> Vec<String> {
         "{} nodes, {} literals; {}",
         size.nodes, size.literals, printed.evidence
     );
+    let mut value = Value::of(results).text();
+    if results.grown.as_ref().is_some_and(|grown| !grown.kept) {
+        value.push_str("; of the policy, not of the tree");
+    }
     vec![
         line("return", &first),
         line("events", &events),
         line("ends", &ends.join("; ")),
         line("tree", &tree),
-        line("value", &Value::of(results).text()),
+        line("value", &value),
     ]
 }

@@ -77,7 +77,7 @@ pub struct Printed<'r> {
 
 impl<W> Results<'_, W> {
     /// The tree that is printed. The exact tree takes the decisions of the policy, so the episodes of the policy are its
-    /// own, unless it was tested in others.
+    /// own, unless it was tested in others, as it is where a behaviour fails at once: there the tree goes on.
     pub fn printed(&self) -> Printed<'_> {
         match &self.grown {
             Some(grown) => Printed {

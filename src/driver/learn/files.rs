@@ -98,6 +98,7 @@ pub(super) fn written(
         ("metrics.json", metrics::json(&results, &request)),
     ];
     let mut report = report::learned::lines(&results);
+    let mut headline = report::headline::lines(&results);
     if let Some(grown) = &results.grown {
         let name = format!(
             "{}, seed {}",
@@ -106,13 +107,15 @@ pub(super) fn written(
         );
         files.push(("front.svg", grown::picture(grown, &name)));
         if options.front {
-            report.extend(grown::front(grown));
+            let front = grown::front(grown);
+            headline.extend(front.iter().cloned());
+            report.extend(front);
         }
     }
     Ok(Learned {
         text: item,
         files,
-        headline: report::headline::lines(&results),
+        headline,
         report,
         warnings,
         tree: learned,

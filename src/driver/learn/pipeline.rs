@@ -105,10 +105,16 @@ pub fn learn<'e, W: World>(
             progress,
         )?),
     };
-    let tested = if options.tests > 0 {
+    // Where a behaviour fails at once the policy waits, and a tree goes on: its episodes are others.
+    let differs = grown.is_none() && !trees.chosen().failing.is_empty();
+    let tests = match options.tests {
+        0 if differs => options.roll_outs,
+        tests => tests,
+    };
+    let tested = if tests > 0 {
         progress(Stage::Testing);
         let care = learned::care_set(options.care, &run.decisions, &met);
-        let tested = learned::test(experiment, exact, &care, options.tests, seed);
+        let tested = learned::test(experiment, exact, &care, tests, seed);
         Some(tested.map_err(Unlearned::Unknown)?)
     } else {
         None
@@ -166,7 +172,12 @@ fn grown<W: World>(
         ..
     } = *experiment;
     let ground = grow::ground(experiment, seed);
-    let played = |tree: &&Tree| tree.task.is_none_or(|task| task == learner.task);
+    let played = |tree: &&Tree| {
+        let mut chosen = tree.task.is_none_or(|of| of == learner.task);
+        tree.root
+            .visit_behaviors(&mut |behavior| chosen &= task.choose.contains(&behavior));
+        chosen
+    };
     let others = program
         .trees
         .values()

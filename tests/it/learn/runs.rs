@@ -111,7 +111,7 @@ fn an_average_is_learned() {
     );
 }
 
-fn metrics(learned: &Learned) -> serde_json::Value {
+pub(super) fn metrics(learned: &Learned) -> serde_json::Value {
     let mut files = learned.files.iter();
     let (_, text) = files.find(|(name, _)| *name == "metrics.json").unwrap();
     serde_json::from_str(text).unwrap()

@@ -1,13 +1,17 @@
 //! Worlds with a trap each: the report names it.
 
-use super::runs::OPTIONS;
+use super::runs::{OPTIONS, metrics};
 use crate::program;
 use crate::snapshot;
 use btc::diagnostic::Code;
-use btc::driver::learn::{Learned, Options, learn};
+use btc::driver::learn::{Learned, Options, Shape, learn};
 use std::path::Path;
 
 fn learned(name: &str) -> Learned {
+    learned_as(name, OPTIONS)
+}
+
+fn learned_as(name: &str, options: Options<'static>) -> Learned {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/worlds/traps");
     let file = format!("{name}.bt");
     let loaded = program::named(&file, &folder.join(&file));
@@ -15,7 +19,7 @@ fn learned(name: &str) -> Learned {
     let options = Options {
         episodes: None,
         roll_outs: 60,
-        ..OPTIONS
+        ..options
     };
     learn(&loaded, &options, &|_| {}).unwrap()
 }
@@ -44,4 +48,50 @@ fn a_report_names_the_trap_of_a_world() {
         }
     }
     snapshot::check("traps", &text);
+}
+
+/// The first number of a line of the headline.
+fn first_number(line: &str) -> f64 {
+    let number = line.split_whitespace().nth(1).unwrap();
+    number.trim_end_matches(',').parse().unwrap()
+}
+
+/// What the learned tree returns when it is run.
+fn returns(name: &str, learned: &Learned) -> f64 {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/worlds/traps/{name}.bt"));
+    let text = std::fs::read_to_string(path).unwrap();
+    let program = btc::Program::from_text(&format!("{text}\n{}", learned.text)).unwrap();
+    program.run("learned", 100, 7).unwrap().summary.total.mean
+}
+
+/// Where a behaviour fails at once a tree goes on and its policy waits: the figures are those of the tree.
+#[test]
+fn the_figures_of_an_exact_tree_are_its_own() {
+    let learned = learned("shut_door");
+    let (told, simulated) = (
+        first_number(&learned.headline[0]),
+        returns("shut_door", &learned),
+    );
+    assert!(
+        (told - simulated).abs() < 0.1 * simulated.abs().max(10.0),
+        "{told} {simulated}"
+    );
+}
+
+/// A policy that waits where a behaviour fails is not given up for one that acts and earns less.
+#[test]
+fn waiting_is_not_given_up_unseen() {
+    let learned = learned_as(
+        "shut_door",
+        Options {
+            shape: Shape::Grown,
+            effort: 3_000_000,
+            ..OPTIONS
+        },
+    );
+    let policy = metrics(&learned)["greedy"]["return"]["mean"]
+        .as_f64()
+        .unwrap();
+    assert!(policy > 50.0, "{policy}");
+    assert!(returns("shut_door", &learned) > 50.0);
 }
