@@ -24,7 +24,7 @@ module.exports = grammar({
     _item: ($) =>
       choice(
         $.use, $.world, $.enum, $.input, $.state, $.event, $.each_tick, $.on, $.let, $.predicate, $.behavior, $.task,
-        $.learn, $.tree, $.claim,
+        $.learn, $.tree, $.claim, $.test,
       ),
 
     // ---- items
@@ -101,6 +101,16 @@ module.exports = grammar({
       ),
     within: ($) => seq("within", $._expression),
     probability: ($) => prec.left(seq("with", "probability", ">=", $._expression)),
+
+    // ---- tests
+
+    test: ($) => seq("test", field("title", $.string), "of", field("tree", $.reference), block($.given, $.test_tick)),
+    given: ($) => seq("given", $._changes),
+    test_tick: ($) =>
+      seq("tick", optional($._changes), optional(seq("for", field("time", $._expression))), "=>", $.step, repeat(seq(",", $.step))),
+    _changes: ($) => seq($._expression, repeat(seq(",", $._expression))),
+    step: ($) => seq(field("name", $.reference), optional(field("answer", $.answer))),
+    answer: () => choice("succeeds", "fails", "runs"),
 
     // ---- statements
 

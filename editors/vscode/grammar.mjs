@@ -22,7 +22,7 @@ const INFIX = raw`(?:^\s*|(?<=[\w)${"`"}%])[ \t]+)`;
 /** Where an entry of a block can begin. */
 const ENTRY = raw`(?:^|(?<=[{}]))\s*`;
 /** A new item at the margin ends all blocks whose `}` is missing. */
-const ITEM = raw`^(?=(?:world|enum|state|event|predicate|behavior|task|learn|tree|claim)\s+[A-Za-z_${"`"}]|use\s+(?:std\b|")|each\s+tick\b|input\s+${NAME}\s*:)`;
+const ITEM = raw`^(?=(?:world|enum|state|event|predicate|behavior|task|learn|tree|claim)\s+[A-Za-z_${"`"}]|use\s+(?:std\b|")|test\s+["“]|each\s+tick\b|input\s+${NAME}\s*:)`;
 
 const scoped = (scope) => `${scope}.behaviortree`;
 
@@ -256,9 +256,15 @@ const repository = {
       ...rules("expression"),
     ],
   },
+  test: block("test", raw`\b(test)\s+(["“][^"”\n]*["”])\s+(of)\s+(${NAME})(${ARGUMENTS})\s*(\{)`,
+    ["storage.type.test", "string.quoted.double", "keyword.other.of", "entity.name.function.tree", { patterns: rules("parens") }], [
+      parts(raw`${ENTRY}(given|tick)\b${NO_NAME}`, "keyword.other.$1"),
+      parts(raw`(?<=[\w)${"`"}])[ \t]+(${alternatives("answer")})\b`, "constant.language.answer"),
+      ...rules("expression"),
+    ]),
 };
 
-const items = ["use", "world", "enum", "input", "state", "event", "each-tick", "on", "let", "predicate", "behavior", "task", "learn", "tree", "claim"];
+const items = ["test", "use", "world", "enum", "input", "state", "event", "each-tick", "on", "let", "predicate", "behavior", "task", "learn", "tree", "claim"];
 const grammar = {
   name: "Behaviour tree",
   scopeName: "source.behaviortree",

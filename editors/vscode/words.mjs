@@ -19,6 +19,6 @@ export function pestWords(pest, rule) {
 /** The rules of the grammar that stand for a right program and are nothing but words. */
 export function wordRules(pest) {
   const names = [...pest.matchAll(/^(\w+)\s*=/gm)].map(([, name]) => name);
-  const others = ["reserved", "known_word", "boolean", "std", "outcome", "factor_name", "or_op", "and_op", "not_op", "link"];
+  const others = ["reserved", "known_word", "boolean", "std", "outcome", "answer", "factor_name", "or_op", "and_op", "not_op", "link"];
   return names.filter((name) => name.startsWith("kw_") || others.includes(name));
 }

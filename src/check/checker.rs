@@ -186,6 +186,11 @@ impl<'a> Checker<'a> {
                 self.claim(claim);
             }
         }
+        for item in items() {
+            if let ItemKind::Test(test) = &item.kind {
+                self.test(test);
+            }
+        }
         self.tunables(items());
         self.whole_program(files);
     }

@@ -44,6 +44,8 @@ pub enum Entity {
     Task,
     /// A learner.
     Learner,
+    /// A test, by what it says; no name stands for it.
+    Test,
     /// A parameter.
     Parameter,
     /// A name that a body binds: a local, a `let`, a member that is ranged over.

@@ -153,6 +153,8 @@ pub struct Names<'a> {
     pub tasks: BTreeMap<&'a str, &'a ast::Task>,
     /// The learners, by the name of what they learn.
     pub learners: BTreeMap<&'a str, &'a ast::Learn>,
+    /// The tests, by what they say.
+    pub tests: BTreeMap<&'a str, &'a Ident>,
     /// The sensors of robots that run a tree of their own, each with its robot.
     pub other_sensors: Vec<(&'a Ident, &'a Ident)>,
     /// The names of declarations that were not understood.

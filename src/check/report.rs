@@ -223,7 +223,7 @@ pub fn merge(sorted: &mut Vec<Diagnostic>) {
     let mut further: BTreeMap<usize, Vec<Span>> = BTreeMap::new();
     for found in sorted.drain(..) {
         let about = match found.code {
-            Code::E0202 | Code::E0406 => found.message.clone(),
+            Code::E0202 | Code::E0406 | Code::W0603 => found.message.clone(),
             Code::E0305 if found.message.contains(" needs its argument ") => found.message.clone(),
             Code::E0407 => String::new(),
             // The same of what stands side by side: the coordinates of a point, the arguments of a shape.

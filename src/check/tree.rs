@@ -3,6 +3,7 @@
 mod claim;
 mod guard;
 mod node;
+mod test;
 
 use super::Checker;
 use super::context::Region;

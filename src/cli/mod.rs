@@ -76,7 +76,7 @@ enum Command {
     Verify(verify::Arguments),
     /// Say which decisions of a tree or a table have changed, each change under one condition.
     Diff(diff::Arguments),
-    /// Learn again, and hold each tree against its snapshot.
+    /// Run the tests of programs; learn again, and hold each tree against its snapshot.
     Test(test::Arguments),
     /// Say how large trees are.
     Size(size::Arguments),

@@ -1,5 +1,7 @@
 //! `btc test`
 
+mod scripted;
+
 use super::check::programs;
 use super::diff::{Form, written};
 use super::files;
@@ -7,9 +9,9 @@ use super::progress::Progress;
 use super::report::{Reporter, tell};
 use super::{Failure, PLAYED};
 use crate::diagnostic::render;
-use crate::driver::learn::Shape;
+use crate::driver::learn::{Learned, Shape};
 use crate::driver::load::Loaded;
-use crate::driver::snapshot;
+use crate::driver::{snapshot, test};
 use clap::Args;
 use std::io::{self, BufRead, IsTerminal};
 use std::path::{Path, PathBuf};
@@ -19,6 +21,9 @@ pub(super) struct Arguments {
     /// The programs to test, or folders of them.
     #[arg(value_name = "PATH", default_value = ".")]
     paths: Vec<String>,
+    /// Run the tests that stand in programs, and learn nothing.
+    #[arg(long, conflicts_with_all = ["accept", "review"])]
+    no_learn: bool,
     /// Take every tree that is learned now for the expected one.
     #[arg(long, conflicts_with = "review")]
     accept: bool,
@@ -31,17 +36,18 @@ pub(super) struct Arguments {
     /// How many episodes an old tree and a new one play where they decide differently.
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u64).range(1..=PLAYED))]
     episodes: u64,
-    /// How to write what parts a tree from its snapshot.
+    /// How to write what the tests find, and what parts a tree from its snapshot.
     #[arg(long, value_name = "FORM", default_value = "human")]
     format: Form,
 }
 
-/// How many trees were as expected, and how many not.
+/// How many tests and trees were as expected, and how many not.
 #[derive(Default)]
 struct Count {
     passed: usize,
     accepted: usize,
     failed: usize,
+    skipped: usize,
 }
 
 pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {
@@ -61,32 +67,56 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
                 is_tested = true;
                 continue;
             };
-            for learner in snapshot::learners(&loaded) {
-                one(arguments, path, &loaded, &learner, &mut count, say)?;
+            if is_one_of(path, &snapshots) {
+                continue;
+            }
+            let learners = snapshot::learners(&loaded);
+            let is_learned = |due: &test::Due| {
+                let learner = due.learner(&loaded);
+                learner.is_some_and(|learner| learners.contains(&learner))
+            };
+            let (later, now): (Vec<_>, Vec<_>) =
+                test::due(&loaded).into_iter().partition(is_learned);
+            is_tested |= !now.is_empty() || !later.is_empty();
+            scripted::run(arguments, path, &loaded, (&now, &[]), &mut count, say)?;
+            if arguments.no_learn {
+                scripted::skip(arguments, path, &later, &mut count)?;
+                continue;
+            }
+            let mut learned = Vec::new();
+            for learner in learners {
+                learned.push(one(arguments, path, &loaded, &learner, &mut count, say)?);
                 snapshots.push(beside(path, &learner));
                 is_tested = true;
             }
+            scripted::run(
+                arguments,
+                path,
+                &loaded,
+                (&later, &learned),
+                &mut count,
+                say,
+            )?;
         }
         if !is_tested {
             empty.push((named, programs.len()));
         }
     }
     // A snapshot that is named beside its program is tested with it.
-    let snapshots: Vec<PathBuf> = snapshots.iter().flat_map(|it| it.canonicalize()).collect();
-    let is_snapshot = |named: &str| {
-        let real = Path::new(named).canonicalize();
-        real.is_ok_and(|real| snapshots.contains(&real))
-    };
-    empty.retain(|(named, _)| !is_snapshot(named));
+    empty.retain(|(named, _)| !is_one_of(named, &snapshots));
     for (named, programs) in &empty {
-        files::complain(&nothing(named, *programs));
+        files::complain(&nothing(named, *programs, arguments.no_learn));
     }
+    let skipped = match count.skipped {
+        0 => String::new(),
+        n => format!(", {n} skipped"),
+    };
     let accepted = match count.accepted {
         0 => String::new(),
         n => format!(", {n} accepted"),
     };
     tell(&format!(
-        "{} passed, {} failed{accepted}",
+        "{} passed, {} failed{accepted}{skipped}",
         count.passed, count.failed
     ));
     match count.failed + empty.len() {
@@ -95,15 +125,24 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     }
 }
 
+/// Whether a path leads to one of these files.
+fn is_one_of(path: &str, files: &[PathBuf]) -> bool {
+    let real = Path::new(path).canonicalize();
+    let mut files = files.iter().flat_map(|file| file.canonicalize());
+    real.is_ok_and(|real| files.any(|file| file == real))
+}
+
 /// Why nothing can be tested at a path with so many programs.
-fn nothing(named: &str, programs: usize) -> String {
+fn nothing(named: &str, programs: usize, no_learn: bool) -> String {
+    let (no, has_no) = match no_learn {
+        true => ("no `test`", "a `test`"),
+        false => ("neither a `test` nor a `learn`", "a `test` or a `learn`"),
+    };
     let why = match programs {
-        _ if !Path::new(named).is_dir() => {
-            "it has no `learn`, so no tree is learned from it".to_owned()
-        }
+        _ if !Path::new(named).is_dir() => format!("it has {no}"),
         0 => "no file in this folder ends in `.bt`".to_owned(),
-        1 => "the program in this folder has no `learn`".to_owned(),
-        n => format!("none of the {n} programs in this folder has a `learn`"),
+        1 => format!("the program in this folder has {no}"),
+        n => format!("none of the {n} programs in this folder has {has_no}"),
     };
     format!(
         "there is nothing to test in `{}`: {why}",
@@ -119,7 +158,7 @@ fn one(
     learner: &str,
     count: &mut Count,
     say: &Reporter,
-) -> Result<(), Failure> {
+) -> Result<Learned, Failure> {
     let place = beside(path, learner);
     let shown = place.display().to_string();
     let source = Path::new(path).file_name().unwrap_or_default();
@@ -135,28 +174,36 @@ fn one(
             files::write(&place, &new)?;
             count.accepted += 1;
         } else {
-            files::print(&format!(
-                "{shown}: there is no snapshot yet; `btc test --accept` writes it\n"
-            ))?;
+            files::print(&match arguments.format {
+                Form::Json => scripted::missing(&shown),
+                _ => {
+                    format!("{shown}: there is no snapshot yet; `btc test --accept` writes it\n")
+                }
+            })?;
             count.failed += 1;
         }
-        return Ok(());
+        return Ok(learned);
     }
     let old = files::load(&shown, say)?;
     let found = snapshot::compared(loaded, &learned, &old, arguments.episodes, 1);
     let found = found.map_err(|refused| say.refused(&refused))?;
+    let text = written(&found, arguments.format, &shown);
     if found.is_same() {
         count.passed += 1;
-        return files::print(&format!("{shown}: ok\n"));
+        files::print(&match arguments.format {
+            Form::Json => text,
+            _ => format!("{shown}: ok\n"),
+        })?;
+        return Ok(learned);
     }
-    let text = written(&found, arguments.format, &shown);
     if arguments.accept || arguments.review && agreed(&text, &learned.text)? {
         files::write(&place, &new)?;
         count.accepted += 1;
-        return Ok(());
+        return Ok(learned);
     }
     count.failed += 1;
-    files::print(&text)
+    files::print(&text)?;
+    Ok(learned)
 }
 
 /// The snapshot of a learner, beside its program: `world.learned.bt`.

@@ -129,7 +129,10 @@ codes! {
     E0609 "a tree that is not equal to its policy",
     E0610 "a table that does not fit",
     E0611 "an end that never comes",
-
+    E0612 "a test that fails",
+    E0613 "a behaviour that the tree does not have",
+    E0614 "what a test cannot set",
+    E0615 "an expectation that is not whole",
 
     E0801 "a keyword of a PLA that does not fit",
     E0802 "a row of a PLA of another width",
@@ -184,6 +187,7 @@ codes! {
 
     W0601 "a condition that always or never holds",
     W0602 "a node that is never reached",
+    W0603 "a predicate that the tree does not ask",
 }
 
 impl Code {

@@ -26,6 +26,7 @@ pub mod snapshot;
 pub mod suggest;
 pub mod table;
 pub mod target;
+pub mod test;
 mod text;
 pub mod trace;
 pub mod tune;

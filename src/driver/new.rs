@@ -16,7 +16,11 @@ pub fn welcome(name: &str) -> String {
     let steps = [
         ("btc run world.bt", "run the tree that a person wrote"),
         ("btc learn world.bt -o learned", "learn one"),
-        ("btc verify tests.bt", "test what is to hold"),
+        (
+            "btc test --no-learn tests.bt",
+            "test the tree without its world",
+        ),
+        ("btc verify tests.bt", "test what is to hold in it"),
     ];
     let mut text =
         format!("{name}: world.bt, tests.bt, .github/workflows/btc.yml\n\n  cd {name}\n");

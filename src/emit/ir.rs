@@ -335,6 +335,11 @@ impl Out<'_> {
             };
             self.line(0, format!("claim of {tree}: {}", claim.text));
         }
+        for test in &program.tests {
+            let lines = test.lines.len();
+            let (title, tree) = (&test.title, &test.tree);
+            self.line(0, format!("test {title:?} of {tree}, lines: {lines}"));
+        }
     }
 
     fn expr(&self, id: ExprId) -> String {

@@ -13,6 +13,7 @@ pub(crate) mod operator;
 pub mod program;
 pub mod table;
 pub mod task;
+pub mod test;
 pub mod tree;
 pub mod tunable;
 pub mod world;

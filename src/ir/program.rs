@@ -6,6 +6,7 @@ use super::law::{Behavior, Block};
 use super::name::Name;
 use super::table::{Id, Table};
 use super::task::{Claim, Learner, Task};
+use super::test::Test;
 use super::tree::{Atom, Status, Tree};
 use super::tunable::Tunable;
 use super::world::World;
@@ -41,6 +42,8 @@ pub struct Program {
     pub trees: Table<Tree>,
     /// The claims.
     pub claims: Vec<Claim>,
+    /// The tests of trees.
+    pub tests: Vec<Test>,
     /// The numbers that may be tuned. Each is a constant of the expressions that it stands in.
     pub tunables: Table<Tunable>,
 }

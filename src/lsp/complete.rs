@@ -119,6 +119,8 @@ impl List<'_> {
                 self.words(["done", "failed"]);
                 self.bound();
             }
+            Wanted::TestLine => self.words(["given", "tick"]),
+            Wanted::Expected => self.declared(&[E::Behavior, E::Tree]),
             Wanted::Outcome => self.words(["success", "failure"]),
             Wanted::Value => self.values(),
         }
@@ -332,5 +334,6 @@ fn kind(entity: Entity) -> CompletionItemKind {
         Entity::Predicate => CompletionItemKind::Property,
         Entity::Tree => CompletionItemKind::Struct,
         Entity::Task | Entity::Learner => CompletionItemKind::Class,
+        Entity::Test => CompletionItemKind::Text,
     }
 }

@@ -56,6 +56,10 @@ pub(super) enum Wanted {
     Tree,
     /// A node of a tree.
     Node,
+    /// A line of a test.
+    TestLine,
+    /// What a test expects of a tick.
+    Expected,
     /// The end of a behaviour.
     Outcome,
     /// A value of any type.
@@ -329,6 +333,7 @@ fn at_item(words: &[&str]) -> Wanted {
         "claim" if words.len() == 1 || last == "equals" => Wanted::Tree,
         "claim" if matches!(last, "never" | "reaches") => Wanted::Event,
         "claim" => Wanted::Nothing,
+        "test" if last == "of" => Wanted::Tree,
         "on" if words.len() == 1 => Wanted::Event,
         "on" => Wanted::Event,
         "behavior" if has_value => Wanted::Behavior,
@@ -376,6 +381,9 @@ fn within(kind: &str, words: &[&str]) -> Wanted {
         ("control" | "each" | "on", "let" | "for") if !has_value => Wanted::Nothing,
         ("control" | "each" | "on", _) => Wanted::Value,
         ("tree", _) => Wanted::Node,
+        ("test", "") => Wanted::TestLine,
+        ("test", _) if words.contains(&"=>") => Wanted::Expected,
+        ("test", _) => Wanted::Predicate,
         ("enum", _) => Wanted::Nothing,
         _ => Wanted::Value,
     }
@@ -451,6 +459,14 @@ mod tests {
             ("event e = success(", Wanted::Behavior),
             ("each tick {\n    ", Wanted::Effect),
             ("learn t {\n    ", Wanted::Setting),
+            ("test \"a\" of ", Wanted::Tree),
+            ("test \"a\" of t {\n    ", Wanted::TestLine),
+            ("test \"a\" of t {\n    given low, ", Wanted::Predicate),
+            ("test \"a\" of t {\n    tick low => ", Wanted::Expected),
+            (
+                "test \"a\" of t {\n    tick low => a fails, ",
+                Wanted::Expected,
+            ),
             ("// ", Wanted::Nothing),
             ("use \"a", Wanted::Nothing),
         ] {

@@ -110,6 +110,7 @@ fn item(item: &Item) -> Option<Outlined<'_>> {
         }
         ItemKind::Task(task) => new(&task.name, Entity::Task),
         ItemKind::Learn(learn) => new(learn.name.as_ref()?, Entity::Learner),
+        ItemKind::Test(test) => new(&test.title, Entity::Test),
         ItemKind::Use(_)
         | ItemKind::EachTick(_)
         | ItemKind::On(_)

@@ -101,6 +101,7 @@ pub(super) fn what(entity: Entity) -> &'static str {
         Entity::Tree => "tree",
         Entity::Task => "task",
         Entity::Learner => "learner",
+        Entity::Test => "test",
         Entity::Parameter => "parameter",
         Entity::Local => "local",
     }
@@ -119,5 +120,6 @@ fn kind(entity: Entity) -> SymbolKind {
         Entity::Let | Entity::Behavior => SymbolKind::Function,
         Entity::Predicate => SymbolKind::Boolean,
         Entity::Tree | Entity::Learner => SymbolKind::Object,
+        Entity::Test => SymbolKind::Method,
     }
 }

@@ -39,7 +39,7 @@ pub(super) fn legend() -> SemanticTokensLegend {
 }
 
 /// The words that mean something where they stand, besides those that are no names anywhere.
-const WORDS: [&str; 34] = [
+const WORDS: [&str; 39] = [
     "std",
     "tick",
     "place",
@@ -74,6 +74,11 @@ const WORDS: [&str; 34] = [
     "in",
     "drive",
     "tune",
+    "test",
+    "given",
+    "succeeds",
+    "fails",
+    "runs",
 ];
 
 /// The tokens of the main file that have a colour, each by its distance from the one before.
@@ -161,6 +166,7 @@ fn named(analysis: &Analysis, entity: Entity, name: Span, declared: Span) -> (&'
         Entity::Behavior => ("function", 0),
         Entity::Tree => ("macro", 0),
         Entity::Task | Entity::Learner => ("class", 0),
+        Entity::Test => ("string", 0),
     };
     (word, declares | readonly | library)
 }

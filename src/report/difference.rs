@@ -1,6 +1,6 @@
 //! What a tree or a table decides otherwise than an older one, in the forms that people and tools read.
 
-use super::words::counted;
+use super::words::{command_data, command_property, counted};
 use crate::emit::bt;
 use crate::ir::law::Behavior;
 use crate::ir::{Id, Program};
@@ -158,14 +158,10 @@ impl Difference {
     /// A workflow command for GitHub at a file: an error where the decisions are others, else a notice.
     pub fn github(&self, file: &str) -> String {
         let level = if self.is_equal() { "notice" } else { "error" };
-        let escaped = |text: &str| {
-            let text = text.replace('%', "%25").replace('\r', "%0D");
-            text.replace('\n', "%0A")
-        };
-        let place = escaped(file).replace(':', "%3A").replace(',', "%2C");
+        let place = command_property(file);
         format!(
             "::{level} file={place}::{}\n",
-            escaped(self.human().trim_end())
+            command_data(self.human().trim_end())
         )
     }
 

@@ -13,6 +13,7 @@ pub mod metrics;
 pub mod program;
 pub mod results;
 pub mod suggested;
+pub mod tested;
 pub mod trace;
 pub mod tuned;
 pub mod value;

@@ -20,6 +20,17 @@ pub fn counted(n: usize, what: &str) -> String {
     }
 }
 
+/// A text as the data of a workflow command for GitHub.
+pub fn command_data(text: &str) -> String {
+    let text = text.replace('%', "%25").replace('\r', "%0D");
+    text.replace('\n', "%0A")
+}
+
+/// A text as a property of a workflow command for GitHub.
+pub fn command_property(text: &str) -> String {
+    command_data(text).replace(':', "%3A").replace(',', "%2C")
+}
+
 /// The atoms that hold in a minterm, in braces.
 pub fn minterm(program: &Program, atoms: &[Atom], minterm: &Minterm) -> String {
     let atoms = atoms.iter().zip(minterm.values());

@@ -8,6 +8,7 @@ mod block;
 mod declaration;
 mod expr;
 mod task;
+mod test;
 mod tree;
 mod world;
 
@@ -28,6 +29,7 @@ pub use task::{
     Aspect, AspectKind, Learn, LearnEntry, Link, Outcome, Paid, RewardLine, Setting, Start,
     StartLine, Task,
 };
+pub use test::{Answer, Step, Test, TestLine, TestLineKind};
 pub use tree::{Claim, ClaimWhat, Node, NodeKind, Tree, Word};
 pub use world::{Field, RobotEntry, RobotEntryKind, World, WorldEntry, WorldEntryKind};
 
@@ -153,6 +155,8 @@ pub enum ItemKind {
     Tree(Tree),
     /// `claim a equals b`
     Claim(Claim),
+    /// `test "title" of tree { … }`
+    Test(Test),
     /// Not understood, and reported.
     Error,
 }

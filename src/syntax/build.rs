@@ -11,6 +11,7 @@ mod learn;
 mod lost;
 mod number;
 mod task;
+mod test;
 mod tree;
 mod world;
 

@@ -81,6 +81,7 @@ fn beginnings(strict: Rule) -> &'static [&'static str] {
             "`learn`",
             "`tree`",
             "`claim`",
+            "`test`",
         ],
         Rule::strict_world_entry => &["`place`", "`wall`", "`robot`", "a name"],
         Rule::strict_robot_entry => &["`sensor`", "a name"],
@@ -96,6 +97,7 @@ fn beginnings(strict: Rule) -> &'static [&'static str] {
         ],
         Rule::strict_reward => &["`on`", "`while`", "`per`", "`otherwise`"],
         Rule::strict_learn_entry => &["`start`", "a name"],
+        Rule::strict_test_entry => &["`given`", "`tick`"],
         Rule::strict_stmt => &["`let`", "`for`", "`if`", "a name", "a statement"],
         _ => &[],
     }
@@ -166,6 +168,15 @@ fn name(rule: Rule) -> Option<(Rank, &'static str)> {
         Rule::within | Rule::kw_within => (More, "`within`"),
         Rule::probability | Rule::kw_with => (More, "`with`"),
         Rule::kw_probability => (Word, "`probability`"),
+        Rule::test | Rule::kw_test => (Word, "`test`"),
+        Rule::title => (Part, "a title in quotes"),
+        Rule::kw_of => (Word, "`of`"),
+        Rule::given | Rule::kw_given => (Word, "`given`"),
+        Rule::test_tick => (Word, "`tick`"),
+        Rule::changes | Rule::change => (Part, "a predicate"),
+        Rule::lasting => (More, "`for`"),
+        Rule::steps | Rule::step => (Part, "a behaviour"),
+        Rule::answer => (More, "`succeeds`, `fails`, `runs`"),
         Rule::std => (Word, "`std`"),
         Rule::outcome => (Word, "`success`, `failure`"),
         Rule::open_brace => (Mark, "`{`"),
@@ -272,6 +283,10 @@ fn name(rule: Rule) -> Option<(Rank, &'static str)> {
         | Rule::start_ahead
         | Rule::reward_ahead
         | Rule::wrong_else_if
+        | Rule::wrong_answer
+        | Rule::wrong_verb
+        | Rule::test_entry
+        | Rule::test_ahead
         | Rule::unclosed_string
         | Rule::unclosed_name
         | Rule::stray_mark
@@ -306,6 +321,7 @@ fn name(rule: Rule) -> Option<(Rank, &'static str)> {
         | Rule::strict_start_line
         | Rule::strict_reward
         | Rule::strict_learn_entry
+        | Rule::strict_test_entry
         | Rule::strict_child
         | Rule::strict_stmt => return None,
     })

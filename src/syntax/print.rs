@@ -21,6 +21,7 @@ mod names;
 mod remarks;
 mod source;
 mod task;
+mod test;
 mod tree;
 mod world;
 

@@ -1,9 +1,9 @@
 //! The words of the language.
 
-use super::ast::{AssignOp, BinaryOp, Link, Outcome, UnaryOp, Word};
+use super::ast::{Answer, AssignOp, BinaryOp, Link, Outcome, UnaryOp, Word};
 
 /// The words that begin an item.
-pub const ITEMS: [&str; 15] = [
+pub const ITEMS: [&str; 16] = [
     "use",
     "world",
     "enum",
@@ -19,6 +19,7 @@ pub const ITEMS: [&str; 15] = [
     "learn",
     "tree",
     "claim",
+    "test",
 ];
 
 /// The words that begin an aspect of a task; without parentheses or backquotes, they do not stand in a list.
@@ -187,6 +188,13 @@ pub(super) const INNER: [(&[&str], &str, &str); 5] = [
     ),
 ];
 
+/// The words with which a test says what a behaviour, or the tree, answers.
+pub const ANSWERS: [(&str, Answer); 3] = [
+    ("succeeds", Answer::Succeeds),
+    ("fails", Answer::Fails),
+    ("runs", Answer::Runs),
+];
+
 /// The units, as a person would list them.
 pub const UNITS: [&str; 14] = [
     "m", "cm", "mm", "km", "s", "ms", "min", "h", "tick", "ticks", "deg", "rad", "Hz", "%",
@@ -230,6 +238,16 @@ impl Word {
             .iter()
             .find(|(_, word)| *word == self)
             .map_or("selector", |(spelling, _)| spelling)
+    }
+}
+
+impl Answer {
+    /// The word as it is written.
+    pub fn spelling(self) -> &'static str {
+        ANSWERS
+            .iter()
+            .find(|(_, answer)| *answer == self)
+            .map_or("runs", |(spelling, _)| spelling)
     }
 }
 

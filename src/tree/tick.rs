@@ -16,6 +16,8 @@ pub trait Surroundings {
     fn matches(&mut self, word: usize, mask: u64, value: u64) -> bool;
     /// Ticks a behaviour.
     fn behavior(&mut self, behavior: Id<Behavior>) -> Status;
+    /// Is told what a node has answered, by the place of the node in pre-order.
+    fn answered(&mut self, _node: usize, _status: Status) {}
 }
 
 /// A tree with its memory.
@@ -108,7 +110,7 @@ impl<S: Surroundings> Tick<'_, S> {
         let Some(&placed) = self.tree.nodes.get(at) else {
             return Status::Failure;
         };
-        match placed.op {
+        let status = match placed.op {
             Op::Condition(test) => answers::condition(self.condition(test)),
             Op::Behavior(behavior) => {
                 self.ticked += 1;
@@ -121,7 +123,9 @@ impl<S: Surroundings> Tick<'_, S> {
             Op::Composite { kind, memory: true } => self.resuming(at, placed, kind),
             Op::Parallel { needed, children } => self.parallel(at, placed, needed, children),
             Op::Decorator(kind) => self.decorator(at, placed, kind),
-        }
+        };
+        self.surroundings.answered(at, status);
+        status
     }
 
     fn condition(&mut self, mut at: Jump) -> bool {

@@ -2,7 +2,7 @@
 //!
 //! [`play`] plays episodes under a tree or a policy, [`learned`] measures a learned tree, [`claim`] tests claims on
 //! events, until [`anytime`] says enough. [`paired`] compares trees on common seeds; what they do alike there is not played twice,
-//! see [`trace`]. [`duel`] does so for two trees in different worlds.
+//! see [`trace`]. [`test`] ticks a tree without a world. [`duel`] does so for two trees in different worlds.
 
 pub mod anytime;
 pub mod claim;
@@ -10,6 +10,7 @@ pub mod duel;
 pub mod learned;
 pub mod paired;
 pub mod play;
+pub mod test;
 pub mod trace;
 
 pub use play::Unplayable;

@@ -155,12 +155,15 @@ fn to_test_nothing_is_a_mistake() {
     fs::write(path.join("alone.bt"), "").unwrap();
     for (named, why) in [
         ("none", "no file in this folder ends in `.bt`"),
-        ("two", "none of the 2 programs in this folder has a `learn`"),
         (
-            "alone.bt",
-            "it has no `learn`, so no tree is learned from it",
+            "two",
+            "none of the 2 programs in this folder has a `test` or a `learn`",
         ),
-        (".", "none of the 3 programs in this folder has a `learn`"),
+        ("alone.bt", "it has neither a `test` nor a `learn`"),
+        (
+            ".",
+            "none of the 3 programs in this folder has a `test` or a `learn`",
+        ),
     ] {
         let output = btc(path, &["test", named]);
         assert_eq!(output.status.code(), Some(1), "{named}");

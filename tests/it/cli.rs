@@ -279,6 +279,7 @@ fn a_new_project_holds_what_it_claims() {
     for arguments in [
         &["fmt", "--check", "world.bt", "tests.bt"][..],
         &["check", "world.bt", "tests.bt"],
+        &["test", "--no-learn", "tests.bt"],
         &["verify", "tests.bt"],
     ] {
         let output = run(arguments, "hall");

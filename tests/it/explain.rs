@@ -4,7 +4,7 @@ use crate::program::{self, NoFiles};
 use btc::diagnostic::{Code, Diagnostic};
 use btc::driver::compile::Form;
 use btc::driver::load::{Loaded, Reader, load};
-use btc::driver::{Refused, Text, compile, learn, minimize, run, verify};
+use btc::driver::{Refused, Text, compile, learn, minimize, run, test, verify};
 use btc::emit::form::TreeForm;
 use btc::grow::Choice;
 use btc::tree::decanonicalise::{Care, Method};
@@ -39,7 +39,7 @@ fn codes(diagnostics: &[Diagnostic]) -> Vec<Code> {
 }
 
 /// The codes that loading a program does not meet; each has a test below.
-const LATER: [Code; 32] = [
+const LATER: [Code; 33] = [
     Code::E0130,
     Code::E0211,
     Code::E0212, // this and W0203: results
@@ -50,6 +50,7 @@ const LATER: [Code; 32] = [
     Code::E0505,
     Code::E0609, // driver::decanonicalize
     Code::E0610,
+    Code::E0612,
     Code::E0811, // this and those below: tables::cases
     Code::E0812,
     Code::E0813,
@@ -140,6 +141,20 @@ fn a_table_of_another_run() {
     let loaded = load("wrong.bt", example(code, "Wrong").into(), &mut Table);
     assert_eq!(codes(&loaded.diagnostics), [code]);
     right(code);
+}
+
+/// E0612: a tick that selects something else.
+#[test]
+fn a_test_that_fails() {
+    let code = Code::E0612;
+    let failures = |loaded: &Loaded| {
+        assert_eq!(program::shown(loaded), "");
+        let due = test::due(loaded);
+        assert_eq!(due.len(), 1);
+        codes(&test::run(loaded, "a.bt", &due, &[]).failures)
+    };
+    assert_eq!(failures(&wrong(code)), [code]);
+    assert_eq!(failures(&right(code)), []);
 }
 
 /// E0409: a robot that is larger than its arena.

@@ -40,6 +40,7 @@ mod suggest;
 mod svg;
 mod syntax;
 mod tables;
+mod tested;
 mod tree;
 mod tune;
 mod verdicts;

@@ -7,6 +7,7 @@
   (start)
   (reward)
   (learn)
+  (test)
   (children)
   (block)
   (yield)

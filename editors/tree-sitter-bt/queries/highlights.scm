@@ -8,6 +8,7 @@
 (unit) @type
 (boolean) @boolean
 (outcome) @constant.builtin
+(answer) @constant.builtin
 
 (identifier) @variable
 (quoted_name) @variable
@@ -20,21 +21,23 @@
 ["and" "or" "not" "is" "of" "per"] @keyword.operator
 
 [
-  "world" "enum" "input" "state" "event" "predicate" "behavior" "task" "learn" "tree" "claim" "let" "place" "wall" "robot"
+  "world" "enum" "input" "state" "event" "predicate" "behavior" "task" "learn" "tree" "claim" "test" "let" "place" "wall" "robot"
   "sensor" "local"
 ] @keyword
 [
   "each" "tick" "on" "facing" "requires" "succeed" "fail" "when" "control" "observe" "choose" "history" "last" "patience"
-  "start" "end" "after" "reward" "otherwise" "while" "equals" "never" "reaches" "within" "with" "probability" "memory"
+  "start" "end" "after" "reward" "otherwise" "while" "equals" "never" "reaches" "within" "with" "probability" "memory" "given"
 ] @keyword
 (price "per" @keyword)
 (claim "never" @keyword)
+(test "of" @keyword)
 "use" @keyword.import
 "std" @module
 ["if" "else"] @keyword.conditional
 ["for" "in"] @keyword.repeat
 (tree "for" @keyword)
 (learn "for" @keyword)
+(test_tick "for" @keyword)
 
 (reference name: (_) @function.call (arguments))
 (setting name: (_) @property)
@@ -63,5 +66,6 @@
 (tree task: (_) @type)
 (claim tree: (_) @function)
 (claim other: (_) @function)
+(test tree: (reference name: (_) @function))
 
 (composite kind: (reference name: (_) @keyword.control))

@@ -83,6 +83,8 @@ impl<'a> Mentions<'a> {
                     ClaimWhat::Never(event) | ClaimWhat::Reaches(event) => self.expr(event),
                 }
             }
+            // What a tree does not ask and does not run is not of use because a test names it.
+            ItemKind::Test(test) => self.reference(&test.tree),
         }
     }
 

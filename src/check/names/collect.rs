@@ -87,6 +87,16 @@ impl<'a> Collector<'_, 'a> {
                         .help("give one of them a name of its own: `learn NAME for TASK { … }`");
                 }
             }
+            ItemKind::Test(test) => {
+                let title = &test.title;
+                let first = *self.names.tests.entry(&title.name).or_insert(title);
+                if first.span != title.span {
+                    let message = format!("two tests are called \"{}\"", title.name);
+                    self.error(Code::E0201, title, message)
+                        .label("called so again here")
+                        .also(first.span, "first called so here");
+                }
+            }
             ItemKind::Use(_)
             | ItemKind::EachTick(_)
             | ItemKind::On(_)

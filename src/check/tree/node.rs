@@ -238,7 +238,13 @@ impl<'a> Checker<'a> {
         }
     }
 
-    fn subtree(&mut self, tree: &'a ast::Tree, library: bool, reference: &'a Ref) -> Option<Node> {
+    /// A subtree under the arguments of a reference.
+    pub(super) fn subtree(
+        &mut self,
+        tree: &'a ast::Tree,
+        library: bool,
+        reference: &'a Ref,
+    ) -> Option<Node> {
         let scope = self.bind_arguments(tree.params.as_ref(), library, reference)?;
         if scope.iter().any(|binding| binding.value == Value::Unknown) {
             return None;

@@ -26,6 +26,7 @@ impl<'i> Builder<'i> {
             Rule::learn => ItemKind::Learn(self.learn(node)),
             Rule::tree => ItemKind::Tree(self.tree(node)),
             Rule::claim => ItemKind::Claim(self.claim(node)),
+            Rule::test => self.test(node),
             _ => ItemKind::Error,
         }
     }
@@ -39,7 +40,7 @@ impl<'i> Builder<'i> {
         let path = match what.as_rule() {
             Rule::std => UseWhat::Std,
             Rule::string => {
-                self.straight_quotes(&what);
+                self.straight_quotes(&what, "a path");
                 UseWhat::Path(unquoted(what.as_str()).to_owned())
             }
             _ => {
@@ -57,14 +58,15 @@ impl<'i> Builder<'i> {
         })
     }
 
-    fn straight_quotes(&mut self, node: &Node<'i>) {
+    /// Reports quotes of print around `what` is written in quotes.
+    pub(super) fn straight_quotes(&mut self, node: &Node<'i>, what: &str) {
         if node.as_str().starts_with('“') {
             let right = format!("\"{}\"", unquoted(node.as_str()));
             let span = self.span(node);
             self.respell(
                 Code::E0121,
                 span,
-                "a path is written in straight quotes".into(),
+                format!("{what} is written in straight quotes"),
                 &right,
             );
         }
@@ -256,7 +258,7 @@ impl<'i> Builder<'i> {
 }
 
 /// A text without the quotes around it.
-fn unquoted(text: &str) -> &str {
+pub(super) fn unquoted(text: &str) -> &str {
     let mut inner = text.chars();
     inner.next();
     inner.next_back();

@@ -76,7 +76,7 @@ impl<'i> Builder<'i> {
         let Some(arrow) = parts.maybe(Rule::guards) else {
             return NodeKind::Leaf(expr);
         };
-        self.guards(&arrow);
+        self.guards(&arrow, "a guard is followed");
         NodeKind::Guarded {
             guard: expr,
             node: Box::new(self.take_node(&mut parts)),
@@ -105,7 +105,8 @@ impl<'i> Builder<'i> {
         }
     }
 
-    fn guards(&mut self, arrow: &Node<'i>) {
+    /// Reports an arrow other than `=>`; `before` says what stands before it.
+    pub(super) fn guards(&mut self, arrow: &Node<'i>, before: &str) {
         let written = arrow.as_str();
         let span = self.span(arrow);
         match written {
@@ -113,7 +114,7 @@ impl<'i> Builder<'i> {
             "->" => self.respell(
                 Code::E0116,
                 span,
-                "a guard is followed by `=>`, not by `->`".into(),
+                format!("{before} by `=>`, not by `->`"),
                 "=>",
             ),
             _ => self.respell(

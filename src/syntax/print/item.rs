@@ -60,6 +60,7 @@ impl Printer<'_> {
             ItemKind::Learn(learn) => (Align::None, self.learn(learn, item.span)),
             ItemKind::Tree(tree) => (Align::None, self.tree(tree)),
             ItemKind::Claim(claim) => (Align::None, self.claim(claim).flat()),
+            ItemKind::Test(test) => (Align::None, self.test(test, item.span)),
             ItemKind::Error => (Align::None, Doc::from("// not understood")),
         };
         Entry::aligned(item.span, align, doc).documented(&item.docs)

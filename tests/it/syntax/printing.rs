@@ -4,9 +4,10 @@ use btc::source::FileId;
 use btc::syntax::{ast, parse, print};
 use proptest::prelude::*;
 
-const EXAMPLES: [&str; 2] = [
+const EXAMPLES: [&str; 3] = [
     include_str!("../../../examples/delivery_small.bt"),
     include_str!("../../../examples/delivery_large.bt"),
+    include_str!("../../cases/tested/follows_the_history.bt"),
 ];
 
 /// The items of a text that parses, without their places.
@@ -223,6 +224,10 @@ fn item() -> impl Strategy<Value = String> {
         )),
         (name(), node()).prop_map(|(n, t)| format!("tree {n}(p: place) for {n} = {t}")),
         (name(), expr()).prop_map(|(n, e)| format!("claim {n} never {e} within {e} with probability >= 95%")),
+        (name(), expr(), expr()).prop_map(|(n, e, f)| format!(
+            "test \"it ticks\" of {n}({e}) {{ given {e}, not ({f})\ntick => {n}\n\
+             tick {e}, {f} for {e} => {n}({f}) fails, {n} succeeds\ntick for {f} => {n} runs }}"
+        )),
         Just("enum kind { one, two }".to_owned()),
     ]
 }
@@ -249,7 +254,7 @@ proptest! {
 
     #[test]
     fn comments_survive_wherever_they_stand(
-        example in 0..2_usize,
+        example in 0..3_usize,
         places in prop::collection::vec((any::<prop::sample::Index>(), 0..5_usize), 1..6),
     ) {
         let mut text = EXAMPLES[example].to_owned();

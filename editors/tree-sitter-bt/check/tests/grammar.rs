@@ -93,6 +93,7 @@ fn programs() -> Vec<(String, String)> {
         "tests/cases/run",
         "tests/cases/sound",
         "tests/cases/suggest",
+        "tests/cases/tested",
         "tests/cases/world",
     ];
     let mut paths: Vec<PathBuf> = sound

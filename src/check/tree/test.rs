@@ -1,0 +1,125 @@
+//! Tests of trees without a world.
+
+mod lines;
+
+use crate::check::Checker;
+use crate::check::context::{Context, Region};
+use crate::check::names::Decl;
+use crate::diagnostic::Code;
+use crate::ir::task::Task;
+use crate::ir::test::{Subject, Test};
+use crate::ir::tree::Node;
+use crate::ir::world::{Robot, World};
+use crate::ir::{Id, Name};
+use crate::syntax::ast::{self, Expr, ExprKind, Ref};
+use crate::syntax::print;
+
+/// The tree that a test ticks.
+struct Tested {
+    subject: Subject,
+    task: Option<Id<Task>>,
+    /// The robot that runs it.
+    robot: Id<Robot>,
+    /// Its root, where the test has to fit it. A tree that was learned anew in another file may do otherwise: then the test
+    /// fails.
+    root: Option<Node>,
+}
+
+impl<'a> Checker<'a> {
+    /// `test "title" of tree { … }`
+    pub fn test(&mut self, test: &'a ast::Test) {
+        self.context = Context::new(Region::Tree);
+        let tested = self.tested(test);
+        let robot = tested.as_ref().map_or(World::acting(), |it| it.robot);
+        let root = tested.as_ref().and_then(|tested| tested.root.as_ref());
+        let lines = self.as_robot(robot, |checker| checker.test_lines(test, root));
+        if let (Some(tested), Some(lines)) = (tested, lines) {
+            self.program.tests.push(Test {
+                title: test.title.name.clone(),
+                tree: called(&test.tree),
+                subject: tested.subject,
+                task: tested.task,
+                lines,
+            });
+        }
+    }
+
+    fn tested(&mut self, test: &'a ast::Test) -> Option<Tested> {
+        let tree = &test.tree;
+        let name = tree.name.name.as_str();
+        let learner = self.names.learners.get(name).copied();
+        let Some((Decl::Tree(decl), library)) = self.names.value(name, false) else {
+            return self.learned(tree);
+        };
+        self.value_of(&tree.name);
+        let robot = self.runs(decl);
+        let runner = robot.unwrap_or(World::acting());
+        let whole = decl.params.is_none() && tree.args.is_none() && robot.is_none();
+        let (subject, root, task) = if whole {
+            let called = Name::word(name);
+            let id = self.program.trees.find(|tree| tree.name == called)?;
+            let known = &self.program.trees[id];
+            (Subject::Tree(id), known.root.clone(), known.task)
+        } else {
+            self.asked.clear();
+            let root = self.as_robot(runner, |checker| checker.subtree(decl, library, tree))?;
+            let task = self.task_for(decl).filter(|_| robot.is_none());
+            if let Some(task) = task {
+                self.asks_kept_history(task);
+            }
+            (Subject::Subtree(root.clone()), root, task)
+        };
+        let fits = decl.name.span.file == test.title.span.file || learner.is_none();
+        Some(Tested {
+            subject,
+            task,
+            robot: runner,
+            root: fits.then_some(root),
+        })
+    }
+
+    /// The task that a tree is for, or the only one.
+    fn task_for(&self, tree: &ast::Tree) -> Option<Id<Task>> {
+        let tasks = &self.program.tasks;
+        match &tree.task {
+            Some(task) => tasks.find(|known| known.name == Name::word(&task.name)),
+            None => tasks.ids().next().filter(|_| tasks.len() == 1),
+        }
+    }
+
+    /// The tree that a learner is yet to learn.
+    fn learned(&mut self, tree: &'a Ref) -> Option<Tested> {
+        let name = tree.name.name.as_str();
+        let Some(learn) = self.names.learners.get(name).copied() else {
+            let trees = self.names.values(|decl| matches!(decl, Decl::Tree(_)));
+            let trees = trees.chain(self.names.learners.keys().copied());
+            let likely = self.likely(name, trees);
+            return match self.value_of(&tree.name) {
+                Some((decl, _)) => self
+                    .error(Code::E0203, tree.span, "a tree is needed here")
+                    .label(format!("`{name}` is {}", decl.what()))
+                    .none(),
+                None => self.undeclared(&tree.name, "tree", likely).none(),
+            };
+        };
+        if let Some(name) = &learn.name {
+            self.stands_for(&tree.name, name.span);
+        }
+        let called = Name::word(name);
+        let id = self.program.learners.find(|known| known.name == called)?;
+        Some(Tested {
+            subject: Subject::Learned(id),
+            task: Some(self.program.learners[id].task),
+            robot: World::acting(),
+            root: None,
+        })
+    }
+}
+
+/// A reference as it is written.
+fn called(reference: &Ref) -> String {
+    print::expr(&Expr {
+        kind: ExprKind::Ref(reference.clone()),
+        span: reference.span,
+    })
+}
