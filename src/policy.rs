@@ -23,7 +23,7 @@ use crate::ir::task::History;
 use crate::ir::tree::{Atom, Status};
 use crate::logic::minterm::agree;
 use crate::logic::packed::Packed;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A policy with what is known of the process under it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -91,6 +91,18 @@ impl Policy {
         at.ok()
             .and_then(|i| self.rows.get(i))
             .map(|row| row.behavior)
+    }
+
+    /// Leaves out the minterms in which nothing was recorded, if anything was recorded in any.
+    pub fn keep_recorded(&mut self) {
+        let starts = self.starts.iter().map(|(minterm, _)| minterm);
+        let from = self.transitions.iter().map(|transition| &transition.from);
+        let to = self.transitions.iter().filter_map(|it| it.to.as_ref());
+        let met: BTreeSet<&Minterm> = starts.chain(from).chain(to).collect();
+        let recorded = |row: &Row| row.free.is_some() || met.contains(&row.minterm);
+        if !met.is_empty() && self.rows.iter().any(recorded) {
+            self.rows.retain(recorded);
+        }
     }
 
     /// The rows with each minterm that they stand for in a row of its own, sorted. Where rows overlap the first decides.

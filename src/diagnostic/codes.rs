@@ -184,6 +184,7 @@ codes! {
     W0513 "predicates that say the same",
     W0514 "a requirement that is not observed",
     W0515 "a cost per decision and a behaviour without duration",
+    W0516 "a sum without an end",
 
     W0601 "a condition that always or never holds",
     W0602 "a node that is never reached",

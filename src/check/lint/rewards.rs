@@ -4,7 +4,7 @@ use super::cases::{Cases, of_expr};
 use crate::check::Checker;
 use crate::diagnostic::Code;
 use crate::ir::expr::ExprId;
-use crate::ir::task::Task;
+use crate::ir::task::{Discount, Learner, Objective, Task};
 use crate::ir::{Id, Name};
 use crate::source::Span;
 use crate::syntax::ast::{self, AspectKind, Expr, Item, ItemKind, LearnEntry, RewardLine};
@@ -20,7 +20,10 @@ impl<'a> Checker<'a> {
                         self.rewards_of(task, id);
                     }
                 }
-                ItemKind::Learn(learn) => self.dwells_too_long(learn),
+                ItemKind::Learn(learn) => {
+                    self.dwells_too_long(learn);
+                    self.sums_without_end(learn);
+                }
                 _ => {}
             }
         }
@@ -118,22 +121,50 @@ impl<'a> Checker<'a> {
         }
     }
 
-    fn dwells_too_long(&mut self, learn: &'a ast::Learn) {
+    fn learner(&self, learn: &ast::Learn) -> Option<&Learner> {
         let name = crate::check::learned_name(learn);
         let mut learners = self.program.learners.values();
-        let learner = learners.find(|learner| learner.name.is(name));
+        learners.find(|learner| learner.name.is(name))
+    }
+
+    /// A discount of 1 where nothing ends an episode but its limit: the learner does not know the limit.
+    fn sums_without_end(&mut self, learn: &'a ast::Learn) {
+        let Some(learner) = self.learner(learn) else {
+            return;
+        };
+        let factor = match learner.objective {
+            Objective::Discounted(Discount::PerDecision(factor) | Discount::PerTime(factor, _)) => {
+                factor
+            }
+            Objective::Average(_) => return,
+        };
+        let ends = !self.program.tasks[learner.task].end_on.is_empty();
+        if let Some(setting) = setting(learn, "discount").filter(|_| factor >= 1.0 && !ends) {
+            self.warning(Code::W0516, setting.value.span, "what is learned is a sum without an end")
+                .label("nothing counts less for being late")
+                .note("no event ends an episode, and the learner does not know of the limit of its ticks")
+                .help("let it be less than 1, such as `0.95 per decision`, or say `objective = average per 1 s` with `method = model`");
+        }
+    }
+
+    fn dwells_too_long(&mut self, learn: &'a ast::Learn) {
+        let learner = self.learner(learn);
         let Some((dwell, episode)) = learner.map(|learner| (learner.dwell, learner.episode_ticks))
         else {
             return;
         };
-        let setting = learn.entries.iter().find_map(|entry| match entry {
-            LearnEntry::Setting(setting) if setting.name.name == "dwell" => Some(setting),
-            _ => None,
-        });
-        if let Some(setting) = setting.filter(|_| dwell >= episode) {
+        if let Some(setting) = setting(learn, "dwell").filter(|_| dwell >= episode) {
             self.warning(Code::W0512, setting.value.span, "no episode lasts so long")
                 .label("so there is one decision in each episode")
                 .note(format!("an episode of learning ends after {episode} ticks"));
         }
     }
+}
+
+/// The setting of that name.
+fn setting<'a>(learn: &'a ast::Learn, name: &str) -> Option<&'a ast::Setting> {
+    learn.entries.iter().find_map(|entry| match entry {
+        LearnEntry::Setting(setting) if setting.name.name == name => Some(setting),
+        _ => None,
+    })
 }

@@ -20,8 +20,9 @@ use crate::tree::tick::Runner;
 /// The most rows to list that a tree decides otherwise.
 const LISTED: usize = 10;
 
-/// Proves that a tree takes the decisions of a table: in each row, with memory read from the history, and along the
-/// transitions that are given or else in any environment that is consistent with the history window.
+/// Proves that a tree takes the decisions of a table: in each row, with memory read from the history, and in any
+/// environment that is consistent with the history window; or, where transitions are given, along these, and at least in
+/// the rows that they meet.
 ///
 /// # Errors
 /// There is no such tree, or the table cannot be read, or it does not say what the tree asks.
@@ -72,6 +73,7 @@ pub fn table(
         text,
         tree: name,
         root: &loaded.program.trees[id].root,
+        beside: 0,
         policy,
     };
     sides.prove()
@@ -115,12 +117,33 @@ struct Sides<'a> {
     tree: &'a str,
     root: &'a Node,
     policy: Policy,
+    /// Rows that are left out: nothing was recorded there.
+    beside: usize,
 }
 
 impl Sides<'_> {
+    /// The same with the minterms alone in which something was recorded; `None` if that is all of them.
+    fn recorded(&self) -> Option<Self> {
+        let mut policy = self.policy.clone();
+        policy.keep_recorded();
+        let beside = self.policy.rows.len() - policy.rows.len();
+        (beside > 0).then(|| Self {
+            policy,
+            beside,
+            ..*self
+        })
+    }
+
     fn prove(&self) -> Result<Proved, Refused> {
         let (tree, table) = (self.tree, self.text.name);
-        let rows = rows(&self.policy);
+        let rows = match self.beside {
+            0 => rows(&self.policy),
+            beside => format!(
+                "{} (nothing was recorded in {})",
+                rows(&self.policy),
+                counted(beside, "other")
+            ),
+        };
         let found = match compare(self.root, &self.policy, LISTED) {
             Ok(Compared::Equal(proof)) => {
                 let recorded = self.policy.transitions.len();
@@ -145,7 +168,10 @@ impl Sides<'_> {
                     ),
                 });
             }
-            Ok(Compared::Differs(found)) => found,
+            Ok(Compared::Differs(found)) => match self.recorded() {
+                Some(recorded) => return recorded.prove(),
+                None => found,
+            },
             Err(refuted) => return self.parted(refuted),
         };
         let more = match found.len() {

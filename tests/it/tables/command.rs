@@ -120,6 +120,15 @@ fn exit_codes_tell_what_came_of_it() {
         "{out}"
     );
     assert_eq!(code, Some(1));
+    // Where nothing was recorded, a tree may do as it likes.
+    let met = folder.path().join("met.csv");
+    let recorded = "is-low,near,behavior,status,next:is-low,next:near,count\n,,,start,0,0,3\n0,0,go to (A),success,,,3\n";
+    fs::write(&met, recorded).unwrap();
+    let met = met.to_str().unwrap();
+    let along = &["verify", bt, "learned", "-", "--transitions", met];
+    let (out, _, code) = ran(along, &other);
+    assert!(out.contains("(nothing was recorded in 1 other)"), "{out}");
+    assert_eq!(code, Some(0), "{out}");
     for usage in [
         &["decanonicalize"][..],
         &["decanonicalize", "-", "--slack", "-1"],
