@@ -1,6 +1,8 @@
 //! What one side decides otherwise than another: a condition for each pair of decisions.
 
-use super::canonicalise::{LITERALS, covered, decisions, shorten};
+mod listed;
+
+use super::canonicalise::{LITERALS, decisions, shorten};
 use super::circuit::Signal;
 use super::circuit::guards::Guards;
 use super::equivalence::Side;
@@ -8,8 +10,6 @@ use super::reading::{Irreducible, Reading};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::{Atom, Guard};
-use crate::logic::{Bits, Columns, Minterm};
-use crate::policy::Policy;
 
 /// Where one behaviour takes the place of another.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -32,7 +32,7 @@ type Decision = (Option<Id<Behavior>>, Signal);
 /// A tree depends on more than predicates and the history.
 pub fn changes(old: Side, new: Side, window: usize) -> Result<Vec<Change>, Irreducible> {
     if let (Side::Policy(old), Side::Policy(new)) = (old, new)
-        && let Some(changes) = listed(old, new)
+        && let Some(changes) = listed::listed(old, new)
     {
         return Ok(changes);
     }
@@ -71,55 +71,6 @@ pub fn changes(old: Side, new: Side, window: usize) -> Result<Vec<Change>, Irred
         }
     }
     Ok(changes)
-}
-
-/// The changes of a table whose rows are minterms against another of the same atoms, by the rows that both have; `None`
-/// if they are not such tables. The rows say more than a circuit of them would: minterms beside them are free.
-fn listed(old: &Policy, new: &Policy) -> Option<Vec<Change>> {
-    let place = |atom| new.atoms.iter().position(|other| other == atom);
-    let places: Vec<usize> = old.atoms.iter().map(place).collect::<Option<_>>()?;
-    let mut rows = old.rows.iter().chain(&new.rows);
-    if places.len() != new.atoms.len() || rows.any(|row| row.free.is_some()) {
-        return None;
-    }
-    // The atoms of the new table, in its order, among those of the old one.
-    let mut inverse = vec![0; places.len()];
-    for (at, place) in places.into_iter().enumerate() {
-        *inverse.get_mut(place)? = at;
-    }
-    let both = old.rows.iter().filter_map(|row| {
-        let values = inverse.iter().map(|at| row.minterm.get(*at));
-        let is = new.choice(&Minterm::new(values))?;
-        Some((&row.minterm, (row.behavior, is)))
-    });
-    let (minterms, decided): (Vec<&Minterm>, Vec<_>) = both.unzip();
-    let columns = Columns::new(old.atoms.len(), minterms.iter().map(|it| it.words()));
-    let order = |policy: &Policy| -> Vec<Id<Behavior>> {
-        let mut order = Vec::new();
-        for row in &policy.rows {
-            if !order.contains(&row.behavior) {
-                order.push(row.behavior);
-            }
-        }
-        order
-    };
-    let mut changes = Vec::new();
-    for was in order(old) {
-        for is in order(new).into_iter().filter(|is| *is != was) {
-            let rows = decided.iter().enumerate();
-            let changed = rows.filter(|(_, pair)| **pair == (was, is));
-            let on = Bits::collect(decided.len(), changed.map(|(row, _)| row));
-            if !on.is_empty() {
-                let off = Bits::full(decided.len()).minus(&on);
-                changes.push(Change {
-                    when: Some(covered(&columns, &on, &off, &old.atoms)),
-                    old: Some(was),
-                    new: Some(is),
-                });
-            }
-        }
-    }
-    Some(changes)
 }
 
 /// When each behaviour is selected, and where anything is said at all.

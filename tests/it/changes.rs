@@ -62,6 +62,15 @@ fn tables_are_compared_as_trees_are() {
     assert_eq!(output.status.code(), Some(0), "{}", out(&output));
 }
 
+/// One row of many columns has changed: a condition of a few literals tells it from the other rows.
+#[test]
+fn a_changed_row_is_told_in_a_few_words() {
+    let output = btc(&cases(), &["diff", "wide_old.csv", "wide_new.csv"]);
+    let change = out(&output).lines().last().unwrap();
+    assert!(change.ends_with(": go → wait"), "{change}");
+    assert!(change.split(" and ").count() <= 2, "{change}");
+}
+
 /// A world in which two rewards lead to two trees.
 fn world(folder: &Path, at_gate: &str) {
     let world = format!(
