@@ -127,7 +127,7 @@ impl Sides<'_> {
         let mut policy = self.policy.clone();
         policy.keep_recorded();
         let beside = self.policy.rows.len() - policy.rows.len();
-        (beside > 0).then(|| Self {
+        (beside > 0).then_some(Self {
             policy,
             beside,
             ..*self
