@@ -191,6 +191,7 @@ fn code(kind: &TableErrorKind) -> Code {
         TableErrorKind::RepeatedColumn(_)
         | TableErrorKind::SecondBehavior(_)
         | TableErrorKind::MissingColumn { .. }
+        | TableErrorKind::Separator(_)
         | TableErrorKind::Nameless => Code::E0813,
         TableErrorKind::UnknownValue { .. } | TableErrorKind::NoValue { .. } => Code::E0814,
         TableErrorKind::Contradiction { .. }

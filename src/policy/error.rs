@@ -45,6 +45,8 @@ pub enum TableErrorKind {
         /// A column that is nearly called so.
         likely: Option<String>,
     },
+    /// The columns are parted by this character, and not by commas.
+    Separator(char),
     /// A column without a name.
     Nameless,
     /// A name that the language cannot write.
@@ -148,6 +150,12 @@ impl fmt::Display for TableError {
                 write!(f, "`{name}` is a second column that says what is done")
             }
             TableErrorKind::MissingColumn { name, .. } => write!(f, "column `{name}` is missing"),
+            TableErrorKind::Separator('\t') => {
+                write!(f, "columns are parted by commas, not by tabs")
+            }
+            TableErrorKind::Separator(other) => {
+                write!(f, "columns are parted by commas, not by `{other}`")
+            }
             TableErrorKind::Nameless => write!(f, "a column without a name"),
             TableErrorKind::UnusableName { name, why } => {
                 write!(f, "`{name}` cannot be a name: {why}")

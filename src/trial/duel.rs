@@ -80,8 +80,8 @@ impl Player {
     }
 }
 
-/// Lets two trees play the same episodes of a task, which has the same id in both programs; the episodes of the second come
-/// with the figures.
+/// Lets two trees play the same episodes of a task, which has the same id in both programs; the episodes of both come with
+/// the figures.
 ///
 /// # Errors
 /// One of them cannot be played.
@@ -90,7 +90,7 @@ pub fn duel(
     [before, after]: [(&Program, &Node); 2],
     start: Start,
     episodes: u64,
-) -> Result<(Duel, Vec<Episode>), Unplayable> {
+) -> Result<(Duel, [Vec<Episode>; 2]), Unplayable> {
     let number = usize::try_from(episodes).unwrap_or(usize::MAX);
     let play = |(program, root): (&Program, &Node)| -> Result<Vec<Episode>, Unplayable> {
         let player = Player::new(program, task, root)?;
@@ -105,7 +105,7 @@ pub fn duel(
         ended: ended(&after, &before),
         ticks: before.iter().chain(&after).map(|e| e.ticks).sum(),
     };
-    Ok((duel, after))
+    Ok((duel, [before, after]))
 }
 
 /// What one gains over another, episode by episode.

@@ -19,7 +19,8 @@ pub struct Confirmed {
     pub values: Vec<f64>,
     /// How they do.
     pub duel: Duel,
-    /// The claims on the tree that do not hold under these values, as they are written.
+    /// The claims on the tree that do not hold under these values, and hold under those in use or fail more seldom, as they are
+    /// written.
     pub refuted: Vec<String>,
 }
 
@@ -48,7 +49,7 @@ fn fought(
     program: &Program,
     (used, root): (&Program, &Node),
     options: &Options,
-) -> Result<(Duel, Vec<Episode>), Unplayable> {
+) -> Result<(Duel, [Vec<Episode>; 2]), Unplayable> {
     let limit = program.tasks[subject.task].end_after;
     let start = Purpose::TuneConfirm.start(options.seed, limit);
     let both = [(used, root), (program, subject.root)];
@@ -67,18 +68,25 @@ pub(super) fn confirm(
     let Some(program) = (subject.revalued)(&values) else {
         return Ok(None);
     };
-    let (duel, episodes) = fought(subject, &program, (subject.program, subject.root), options)?;
+    let (duel, [before, after]) =
+        fought(subject, &program, (subject.program, subject.root), options)?;
     let never = never(subject);
     let mut refuted = Vec::new();
     let mut tests = Tests::new(&program);
+    let mut used = Tests::new(subject.program);
     for claim in program.claims.iter().filter(|c| c.tree == subject.claimed) {
         let ClaimKind::Never(occurrence) = &claim.kind else {
             continue;
         };
-        let tested = tests.event((subject.task, subject.root), occurrence, false)?;
+        let tree = (subject.task, subject.root);
+        let tested = tests.event(tree, occurrence, false)?;
         let event = occurrence.event.index();
-        let met = never.contains(&event) && happened(&episodes, &[event]) > 0;
-        if tested.refuted() || met {
+        let [before, after] = [&before, &after].map(|played| happened(played, &[event]));
+        let met = never.contains(&event) && after > 0;
+        // A claim that fails in any case, and not more often, tells against neither.
+        let fails = (tested.refuted() || met)
+            && (after > before || !used.event(tree, occurrence, false)?.refuted());
+        if fails {
             refuted.push(claim.text.clone());
         }
     }

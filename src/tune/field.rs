@@ -189,14 +189,17 @@ impl<'a> Field<'a> {
         gain(self.episodes(point), self.episodes(other))
     }
 
-    /// Whether a point is out of the question: what must never happen has happened, or lines of `end on` have ended
-    /// clearly more of its episodes to its loss.
+    /// Whether a point is out of the question: what must never happen has happened in more episodes than under the values in
+    /// use, or lines of `end on` have ended clearly more of its episodes to its loss.
     pub fn is_out(&self, point: &[usize]) -> bool {
         let episodes = self.episodes(point);
-        let (worse, better) = ended(episodes, self.episodes(&self.used()));
+        let used = self.used();
+        let used = self.episodes(&used);
+        let same = used.get(..episodes.len()).unwrap_or(used);
+        let (worse, better) = ended(episodes, used);
         let (worse, better) = (worse as f64, better as f64);
         episodes.is_empty()
-            || happened(episodes, self.never) > 0
+            || happened(episodes, self.never) > happened(same, self.never)
             // A sign test at 95 %.
             || worse - better > 1.645 * (worse + better).sqrt() && worse > better + 1.0
     }

@@ -1,7 +1,8 @@
 //! The explanations, run: the wrong program provokes its code and nothing else, the right one nothing.
 
 use crate::program::{self, NoFiles};
-use btc::diagnostic::{Code, Diagnostic};
+use crate::snapshot;
+use btc::diagnostic::{Code, Diagnostic, render};
 use btc::driver::compile::Form;
 use btc::driver::load::{Loaded, Reader, load};
 use btc::driver::{Refused, Text, compile, learn, minimize, run, test, verify};
@@ -195,19 +196,23 @@ fn nothing_is_learned() {
     assert!(learned(&right(code), None).is_ok());
 }
 
-/// W0502–W0508: what is told of a result.
+/// W0502–W0508: what is told of a result, and how.
 #[test]
 fn what_learning_finds() {
-    let of = |loaded: &Loaded| codes(&learned(loaded, None).unwrap().warnings);
+    let of = |loaded: &Loaded| learned(loaded, None).unwrap().warnings;
     let code = |code: &&Code| (Code::W0502..=Code::W0508).contains(code);
+    let mut text = String::new();
     for code in Code::ALL.iter().filter(code) {
         let loaded = wrong(*code);
         assert_eq!(program::shown(&loaded), "", "{code}");
-        let found = of(&loaded);
-        assert!(found.contains(code), "{code}: {found:?}");
-        let found = of(&right(*code));
+        let mut found = of(&loaded);
+        found.retain(|found| found.code == *code);
+        assert!(!found.is_empty(), "{code}");
+        text.push_str(&render::human(&loaded.sources, &found, false));
+        let found = codes(&of(&right(*code)));
         assert!(!found.contains(code), "{code}: {found:?}");
     }
+    snapshot::check("what_learning_finds", &text);
 }
 
 /// E0610: a table that was recorded for another task.

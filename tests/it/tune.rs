@@ -128,10 +128,19 @@ fn a_good_threshold_stays() {
 #[test]
 fn what_a_claim_excludes_is_not_proposed() {
     let text = small("tune(18%, 10% .. 18%)")
-        .replace("event dead ", "event thin = battery <= 13%\nevent dead ");
+        .replace("event dead ", "event thin = battery <= 7%\nevent dead ");
     let low = |claim: &str| tuned(&format!("{text}\n{claim}\n")).fixed;
     assert_eq!(low("").len(), 1);
     assert_eq!(low("claim expert never thin"), []);
+}
+
+/// A claim that fails under the value in use as well tells against no other.
+#[test]
+fn what_fails_anyway_excludes_nothing() {
+    let text = small("tune(18%, 10% .. 20%)")
+        .replace("event dead ", "event half = battery <= 50%\nevent dead ");
+    let found = tuned(&format!("{text}\nclaim expert never half\n"));
+    assert_eq!(found.fixed.len(), 1, "{}", found.human);
 }
 
 /// Both numbers are found together, and the one that changes nothing is left as it is.

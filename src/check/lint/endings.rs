@@ -51,7 +51,12 @@ impl Checker<'_> {
                     .note(format!("it has {clause}"))
             } else if run.as_ref().is_some_and(|run| !run.contains(&behavior)) {
                 let message = format!("no task chooses `{name}`, and no tree runs it");
-                let help = format!("add `{name}` to `choose`, or ask another behaviour");
+                let help = match name.robot() {
+                    Some(robot) => {
+                        format!("let the tree that `{robot}` runs do it, or ask another behaviour")
+                    }
+                    None => format!("add `{name}` to `choose`, or ask another behaviour"),
+                };
                 self.error(Code::E0611, first, message).help(help)
             } else {
                 continue;

@@ -125,9 +125,16 @@ impl<'a> Checker<'a> {
                 .label("one is needed here")
                 .help(help);
         }
-        let hint = match likely {
-            Some(_) => None,
-            None => hint(&name.name, what),
+        let place = self.names.value(&name.name, false);
+        let place = place.filter(|(decl, _)| matches!(decl, Decl::Place(..) | Decl::Wall(..)));
+        let hint = match (likely, place) {
+            (Some(_), _) => None,
+            (None, Some((decl, _))) if what == "type" => Some(format!(
+                "`{0}` is {1}; members are of a kind, which stands behind their names: `{0}: KIND = …`",
+                name.name,
+                decl.what()
+            )),
+            (None, _) => hint(&name.name, what),
         };
         self.error(
             Code::E0202,
@@ -217,7 +224,11 @@ fn hint(name: &str, what: &str) -> Option<String> {
                 "hour" => "h",
                 unit => unit,
             };
-            format!("a unit follows a number: `1 {unit}`")
+            format!("a unit follows a number, in one piece: `1 {unit}`, `1 m/s`")
+        }
+        "s2" | "m2" | "cm2" => {
+            let unit = name.trim_end_matches('2');
+            format!("a square has a `^`: `1 {unit}^2`, `1 m/s^2`")
         }
         "step" | "decision" => {
             "decisions are counted by `per decision`, time by `per 1 s`".to_owned()

@@ -10,6 +10,9 @@ use std::ops::Range;
 /// How the column is called that says what is done.
 pub(in crate::policy) const BEHAVIOR: [&str; 3] = ["behavior", "behaviour", "action"];
 
+/// What parts columns in files of other tools.
+const SEPARATORS: [char; 2] = [';', '\t'];
+
 /// What a column says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Role {
@@ -32,6 +35,15 @@ impl Reading {
         columns: Vec<(String, Range<usize>)>,
         header: Range<usize>,
     ) -> Vec<Role> {
+        if let [(name, _)] = columns.as_slice()
+            && let Some(separator) = name.chars().find(|c| SEPARATORS.contains(c))
+        {
+            self.stop(TableError {
+                span: header,
+                kind: TableErrorKind::Separator(separator),
+            });
+            return Vec::new();
+        }
         let mut known: BTreeSet<String> = BTreeSet::new();
         let mut decides: Option<String> = None;
         let mut roles = Vec::with_capacity(columns.len());
