@@ -1,26 +1,9 @@
 //! `btc diff` and `btc test`: which decisions have changed, in words and for tools.
 
+use crate::command::{btc, err, out};
 use crate::snapshot;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
-
-fn btc(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_btc"))
-        .args(arguments)
-        .current_dir(folder)
-        .stdin(Stdio::null())
-        .output()
-        .unwrap()
-}
-
-fn out(output: &Output) -> &str {
-    std::str::from_utf8(&output.stdout).unwrap()
-}
-
-fn err(output: &Output) -> &str {
-    std::str::from_utf8(&output.stderr).unwrap()
-}
 
 fn cases() -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/diff")

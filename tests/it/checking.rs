@@ -1,9 +1,9 @@
 //! `btc check`: its forms, its folders and its fixes.
 
+use crate::command::{btc, err, out};
 use crate::snapshot;
 use std::fs;
-use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Stdio};
 
 const WRONG: &str = "use std\n\nlet half: ratio = 3 m\nlet whole: number = 1,\n";
 
@@ -17,23 +17,6 @@ fn folder() -> tempfile::TempDir {
     fs::write(path.join("more/.hidden/x.bt"), "no program").unwrap();
     fs::write(path.join("more/notes.txt"), "no program").unwrap();
     folder
-}
-
-fn btc(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_btc"))
-        .args(arguments)
-        .current_dir(folder)
-        .stdin(Stdio::null())
-        .output()
-        .unwrap()
-}
-
-fn out(output: &Output) -> &str {
-    std::str::from_utf8(&output.stdout).unwrap()
-}
-
-fn err(output: &Output) -> &str {
-    std::str::from_utf8(&output.stderr).unwrap()
 }
 
 #[test]

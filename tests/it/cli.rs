@@ -1,5 +1,6 @@
 //! The command line: what it writes where, and its exit codes.
 
+use crate::command::{err, out};
 use std::fs;
 use std::io::Write;
 use std::path::Path;
@@ -27,14 +28,6 @@ fn piped(arguments: &[&str], input: &[u8]) -> Output {
     pipe.write_all(input).unwrap();
     drop(pipe);
     child.wait_with_output().unwrap()
-}
-
-fn out(output: &Output) -> &str {
-    std::str::from_utf8(&output.stdout).unwrap()
-}
-
-fn err(output: &Output) -> &str {
-    std::str::from_utf8(&output.stderr).unwrap()
 }
 
 #[test]

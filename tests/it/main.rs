@@ -12,6 +12,7 @@ mod check;
 mod checking;
 mod claims;
 mod cli;
+mod command;
 mod dependencies;
 mod edits;
 mod environment;

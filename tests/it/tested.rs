@@ -1,26 +1,9 @@
 //! `btc test` on the tests that stand in programs: a program in each file of `tests/cases/tested`, and what it says of them.
 
+use crate::command::{btc, err, out};
 use crate::snapshot;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
-
-fn btc(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_btc"))
-        .args(arguments)
-        .current_dir(folder)
-        .stdin(Stdio::null())
-        .output()
-        .unwrap()
-}
-
-fn out(output: &Output) -> &str {
-    std::str::from_utf8(&output.stdout).unwrap()
-}
-
-fn err(output: &Output) -> &str {
-    std::str::from_utf8(&output.stderr).unwrap()
-}
 
 #[test]
 fn tests_of_programs_run() {
