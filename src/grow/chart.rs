@@ -38,6 +38,13 @@ pub struct Followed {
     pub value: f64,
 }
 
+impl Followed {
+    /// Whether it does something in more than half of the minterms.
+    pub fn acts(&self) -> bool {
+        self.policy.iter().flatten().count() * 2 > self.policy.len()
+    }
+}
+
 /// How often what is not known is valued by what is.
 const VALUED: usize = 3;
 

@@ -1,5 +1,6 @@
 //! The search: from the exact tree to smaller ones that cover it, then one change after another.
 
+mod attempts;
 mod climb;
 mod covers;
 mod sprouts;
@@ -7,7 +8,7 @@ mod sprouts;
 use super::evidence::{Evidence, Visits};
 use super::ground::Ground;
 use super::race::{Entrant, Judge, Terms};
-use super::step::{Halted, Step};
+use super::step::{Attempts, Halted, Step};
 use super::{Progress, Settings, Starts};
 use crate::checkpoint::Part;
 use crate::ir::tree::{Atom, Node};
@@ -65,6 +66,7 @@ pub struct Grower<'g, 'w, 'a, W> {
     visited: Vec<Visited>,
     /// The best single behaviour.
     single: Option<Node>,
+    attempts: Attempts,
 }
 
 impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
@@ -86,6 +88,7 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
             scale: 0.0,
             visited: Vec::new(),
             single: None,
+            attempts: Attempts::default(),
         }
     }
 
@@ -96,7 +99,10 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
     pub fn run(mut self, starts: &Starts, part: &Part) -> Result<Found<'g, 'w, W>, Atom> {
         let (mut base, mut step) = match part.resume::<Halted>() {
             Some(halted) => self.go_on(halted),
-            None => (self.begin(starts)?, Step::Begun),
+            None => {
+                let first = self.begin(starts)?;
+                self.attempt(first)
+            }
         };
         while !matches!(step, Step::Done) {
             (base, step) = match step {
@@ -104,6 +110,7 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
                 Step::Cover(cover) => self.cover(base, cover),
                 Step::Sprout(round) => self.sprout(base, round, starts),
                 Step::Climb(stage) => self.climb(base, stage),
+                Step::Attempted => self.again(base),
                 Step::Refine(stage) => self.refine(base, stage),
                 Step::Done => (base, Step::Done),
             };
@@ -127,6 +134,7 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
             scale: self.scale,
             visited: self.visited.clone(),
             single: self.single.clone(),
+            attempts: self.attempts.clone(),
             seen: self.judge.seen,
             base: base.clone(),
             step: step.clone(),
@@ -141,10 +149,12 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
         self.scale = halted.scale;
         self.visited = halted.visited;
         self.single = halted.single;
+        self.attempts = halted.attempts;
         self.judge.seen = halted.seen;
         (halted.base, halted.step)
     }
 
+    /// Whether so much of the effort is spent.
     fn spent(&self, part: f64) -> bool {
         self.judge.seen.ticks as f64 >= part * self.settings.effort as f64
     }
@@ -217,7 +227,7 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
 
     /// Counts what decisions lead to under a tree.
     fn collect(&mut self, root: &Node, explore: f64) -> Visits {
-        let ticks = (COLLECTED * self.settings.effort as f64) as u64;
+        let ticks = (COLLECTED * self.share()) as u64;
         self.collected += 1;
         let at = if explore >= 0.5 {
             self.ground.exploring

@@ -19,6 +19,7 @@ pub(super) struct Halted {
     pub(super) scale: f64,
     pub(super) visited: Vec<Visited>,
     pub(super) single: Option<Node>,
+    pub(super) attempts: Attempts,
     pub(super) seen: Seen,
     /// The best tree so far.
     pub(super) base: Node,
@@ -34,12 +35,25 @@ pub(super) enum Step {
     Cover(Cover),
     /// It grows trees by the counts alone, in this round.
     Sprout(usize),
+    /// It has ended an attempt with the base.
+    Attempted,
     /// It changes the base.
     Climb(Stage),
     /// It looks for smaller trees that cost something.
     Refine(Stage),
     /// Nothing.
     Done,
+}
+
+/// The attempts to find a tree.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(super) struct Attempts {
+    /// The tree that each begins with; none if no more are made.
+    pub(super) first: Option<Node>,
+    /// The ticks that had been simulated when the one at hand began.
+    pub(super) begun: u64,
+    /// What came of those before: the best trees of their time, the best one last.
+    pub(super) found: Vec<Vec<Visited>>,
 }
 
 /// The trees that cover the base so far.

@@ -27,6 +27,9 @@ const DEARER: [f64; 4] = [3.0, 10.0, 30.0, 100.0];
 impl<W: World> Grower<'_, '_, '_, W> {
     /// One change, proposed by the counts and by chance, kept if a race says so.
     pub(super) fn climb(&mut self, base: Node, mut stage: Stage) -> (Node, Step) {
+        if self.is_attempting() && (stage.failures >= FAILURES || self.has_spent(1.0)) {
+            return (base, Step::Attempted);
+        }
         let Some((factor, only)) = CLIMBS.get(stage.number) else {
             return (base, Step::Refine(Stage::default()));
         };

@@ -10,9 +10,9 @@ use crate::learn::process::World;
 use crate::tree::Size;
 use rustc_hash::FxHashMap;
 
-/// The fewest nodes of a tree that is covered by smaller ones, and the part of the effort after which no more are made.
+/// The fewest nodes of a tree that is covered by smaller ones, and the part of an attempt after which no more are made.
 const COVERED: usize = 20;
-const COVERS: f64 = 0.15;
+const COVERS: f64 = 0.2;
 /// The races of the trees that cover another.
 const RUNS: usize = 2;
 
@@ -36,7 +36,7 @@ impl<W: World> Grower<'_, '_, '_, W> {
 
     /// One more tree that decides as the base does where it matters, from few of its decisions to all; then a race.
     pub(super) fn cover(&mut self, base: Node, mut cover: Cover) -> (Node, Step) {
-        if !self.spent(COVERS) && self.covers_more(&base, &mut cover) {
+        if !self.has_spent(COVERS) && self.covers_more(&base, &mut cover) {
             return (base, Step::Cover(cover));
         }
         (self.best_of(base, cover.trees, RUNS), Step::Sprout(0))

@@ -3,7 +3,7 @@
 use super::{Grower, add};
 use crate::grow::Starts;
 use crate::grow::bodies;
-use crate::grow::chart::Chart;
+use crate::grow::chart::{Chart, Followed};
 use crate::grow::evidence::{Sight, Visits};
 use crate::grow::field::{Aim, Field};
 use crate::grow::propose::Proposer;
@@ -18,8 +18,8 @@ use rustc_hash::FxHashSet;
 const STEM: usize = 70;
 /// The most changes of a tree that the counts alone are asked for.
 const STEPS: usize = 40;
-/// The part of the effort after which no more is grown from the start.
-const SPROUTS: f64 = 0.5;
+/// The part of an attempt after which no more is grown from the start.
+const SPROUTS: f64 = 0.7;
 /// Rounds of growing from the start.
 const ROUNDS: usize = 4;
 /// The decisions by which counts are doubted, in turn.
@@ -38,7 +38,7 @@ const PRICES: [f64; 3] = [1.0, 3.0, 1.0 / 3.0];
 impl<'w, W: World> Grower<'_, 'w, '_, W> {
     /// Trees grown in the counted process, from a single behaviour and from the best tree, raced; several times.
     pub(super) fn sprout(&mut self, base: Node, round: usize, starts: &Starts) -> (Node, Step) {
-        if round >= ROUNDS || self.spent(SPROUTS) {
+        if round >= ROUNDS || self.has_spent(SPROUTS) {
             return (base, Step::Climb(Stage::default()));
         }
         self.report(&base);
@@ -225,7 +225,9 @@ fn single(field: &Field, bodies: &[Node]) -> Option<Node> {
 
 /// The body in this place, the one that is worth most by itself first.
 fn stem(chart: &Chart, bodies: &[Node], place: usize) -> Option<Node> {
-    let worths = bodies.iter().map(|body| chart.follow(body));
+    let worths = bodies
+        .iter()
+        .map(|body| chart.follow(body).filter(Followed::acts));
     let mut worths: Vec<(f64, &Node)> = worths
         .zip(bodies)
         .filter_map(|(followed, body)| Some((followed?.value, body)))
