@@ -19,7 +19,6 @@
   // `tick` is a word as well as a unit.
   const factor = `(?:%|(?:${all(units).split(" ").join("|")}|tick)\\b)(?:\\^\\d+)?`;
   hljs.registerLanguage("bt", () => ({
-    name: "Behaviour tree",
     keywords: { $pattern: /[A-Za-z_]\w*/, keyword: all(words), literal: all(values) },
     contains: [
       { className: "comment", begin: "//", end: "$" },
