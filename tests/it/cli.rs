@@ -222,8 +222,8 @@ fn completions_and_manual_pages_have_every_command() {
     let commands = commands.split("\n\n").next().unwrap();
     let commands: Vec<&str> = commands
         .lines()
-        .filter_map(|line| line.split_whitespace().next())
-        .filter(|name| *name != "help")
+        .filter_map(|line| line.strip_prefix("  ")?.split(' ').next())
+        .filter(|name| !name.is_empty() && *name != "help")
         .collect();
     assert!(commands.contains(&"man"), "{commands:?}");
 

@@ -146,7 +146,7 @@ fn the_commands() {
     let help = |arguments: &[&str]| {
         let output = std::process::Command::new(env!("CARGO_BIN_EXE_btc"))
             .args(arguments)
-            .env("COLUMNS", "100")
+            .env("COLUMNS", "84")
             .output()
             .unwrap();
         String::from_utf8(output.stdout).unwrap()
