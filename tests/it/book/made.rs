@@ -140,7 +140,6 @@ fn the_diagnostics() {
     );
 }
 
-#[cfg(feature = "cli")]
 #[test]
 fn the_commands() {
     let help = |arguments: &[&str]| {
