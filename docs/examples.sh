@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Makes docs/examples.md and its pictures: what is learned of each example, on five seeds, beside its tree by hand.
+# Makes docs/book/src/examples.md and its pictures: what is learned of each example, on five seeds, beside its tree by hand.
 #
-#   cargo build --release && docs/examples.sh > docs/examples.md
+#   cargo build --release && docs/examples.sh > docs/book/src/examples.md
 #
 # To be run from the root of the repository; BTC names another binary. Results in the folder that RUNS names are used again.
 set -euo pipefail
@@ -57,12 +57,12 @@ for name in $EXAMPLES; do
         sizes=$(awk '$1 == "tree" { exact = $2; if (match($0, /proved, has [0-9]+/)) { exact = substr($0, RSTART + 12, RLENGTH - 12) } print exact " | " $2; exit }' "$runs/$name.$seed.txt")
         exact=$(exact "$runs/$name.$seed/metrics.json")
         share=$(awk -v a="$learned" -v b="$by_hand" 'BEGIN { printf "%.0f %%", 100 * a / b }')
-        echo "| [$name](../examples/$name.bt) | $seed | $nodes | $sizes | $by_hand | $exact | $learned | $share |"
+        echo "| [$name](../../../examples/$name.bt) | $seed | $nodes | $sizes | $by_hand | $exact | $learned | $share |"
     done
 done
 
 for name in $EXAMPLES; do
-    "$BTC" run "examples/$name.bt" --tree hand --episodes 1 --svg "docs/example.$name.svg" --svg-ticks 600 > "$runs/part.txt"
+    "$BTC" run "examples/$name.bt" --tree hand --episodes 1 --svg "docs/book/src/example.$name.svg" --svg-ticks 600 > "$runs/part.txt"
     echo
     echo "## $(title "$name")"
     echo

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Makes docs/paper.md: section VIII of the paper beside what btc does today, from real runs, in a few minutes.
+# Makes docs/book/src/paper.md: section VIII of the paper beside what btc does today, from real runs, in a few minutes.
 #
-#   cargo build --release && docs/paper.sh > docs/paper.md
+#   cargo build --release && docs/paper.sh > docs/book/src/paper.md
 #
 # To be run from the root of the repository; BTC names another binary. The figures of the paper are written here, ours never.
 set -euo pipefail
@@ -101,10 +101,10 @@ simple="$runs/large_1.bt"
 echo "# The paper, beside what btc does
 
 Section VIII of Bikramjit Banerjee, *Autonomous Acquisition of Behavior Trees for Robot Control*, IROS 2018, item by item, beside
-real runs of $("$BTC" --version). The page is made by \`cargo build --release && docs/paper.sh > docs/paper.md\` in a few minutes
+real runs of $("$BTC" --version). The page is made by \`cargo build --release && docs/paper.sh > docs/book/src/paper.md\` in a few minutes
 and not edited by hand: every figure of ours comes out of a command that is named beside it.
-The worlds are not the same. The paper's robot runs in Gazebo, ours in [\`$SMALL\`](../$SMALL)
-and [\`$LARGE\`](../$LARGE), with measures and control laws of their own. The paper gives no
+The worlds are not the same. The paper's robot runs in Gazebo, ours in [\`$SMALL\`](../../../$SMALL)
+and [\`$LARGE\`](../../../$LARGE), with measures and control laws of their own. The paper gives no
 rate of deliveries or deaths, and nothing over several seeds, so these columns are ours alone.
 
 ## Minterms seen

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Neovim as a client of `btc lsp`, set up by the very lines of docs/editors.md, without a screen. It needs `nvim` (or what `NVIM`
+# Neovim as a client of `btc lsp`, set up by the very lines of docs/book/src/editors.md, without a screen. It needs `nvim` (or what `NVIM`
 # names), a C compiler, and `btc` in `PATH`.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -11,7 +11,7 @@ trap 'rm -rf "$scratch"' EXIT
 lines_of() {
     awk -v heading="## $1" -v fence="\`\`\`$2" '
         /^## / { here = ($0 == heading) } here && $0 == fence { inside = 1; next } /^```$/ { inside = 0 } inside
-    ' docs/editors.md | grep . || { echo "docs/editors.md: no $2 under $1" >&2; exit 1; }
+    ' docs/book/src/editors.md | grep . || { echo "docs/book/src/editors.md: no $2 under $1" >&2; exit 1; }
 }
 
 export HOME="$scratch" XDG_CONFIG_HOME="$scratch/.config" XDG_DATA_HOME="$scratch/data" XDG_STATE_HOME="$scratch/state"

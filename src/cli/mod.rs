@@ -7,6 +7,7 @@
 mod canonicalize;
 mod check;
 mod compile;
+mod completions;
 mod decanonicalize;
 mod diff;
 mod explain;
@@ -15,6 +16,7 @@ mod fmt;
 mod interrupt;
 mod learn;
 mod lsp;
+mod man;
 mod minimize;
 mod new;
 mod paths;
@@ -29,7 +31,7 @@ mod test;
 mod tune;
 mod verify;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use std::process::ExitCode;
 
 /// The most episodes of one run: the figures of each are kept until the last has ended.
@@ -88,6 +90,10 @@ enum Command {
     Explain(explain::Arguments),
     /// Answer an editor, by the Language Server Protocol over standard input and output.
     Lsp(lsp::Arguments),
+    /// Print what makes a shell complete the words of a command.
+    Completions(completions::Arguments),
+    /// Write manual pages, one a command.
+    Man(man::Arguments),
 }
 
 /// Why a command stops without its result. The reason stands on standard error already.
@@ -140,6 +146,8 @@ pub fn main() -> ExitCode {
         Command::Fmt(arguments) => fmt::run(&arguments, &say),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Lsp(arguments) => lsp::run(&arguments),
+        Command::Completions(arguments) => completions::run(&arguments, Arguments::command()),
+        Command::Man(arguments) => man::run(&arguments, Arguments::command()),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -1,8 +1,25 @@
-//! The tables of the language reference, by the words that they explain: what an editor says of what is built in.
+//! The tables of the book's chapters on the language, by the words that they explain: what an editor says of what is built in.
 
 use std::sync::OnceLock;
 
-const PAGE: &str = include_str!("../../docs/language.md");
+/// A chapter of the book.
+macro_rules! chapters {
+    ($($name:literal),*) => {
+        [$(include_str!(concat!("../../docs/book/src/language/", $name, ".md"))),*]
+    };
+}
+
+/// The chapters that have tables of words.
+const PAGES: [&str; 8] = chapters![
+    "worlds",
+    "state",
+    "predicates",
+    "behaviours",
+    "tasks",
+    "trees",
+    "tests",
+    "expressions"
+];
 
 /// A form of a word, from the first column of a table.
 #[derive(Clone, Debug)]
@@ -42,7 +59,7 @@ impl Form {
     }
 }
 
-/// Every form, in the order of the page.
+/// Every form, in the order of the chapters.
 pub fn forms() -> &'static [Form] {
     static FORMS: OnceLock<Vec<Form>> = OnceLock::new();
     FORMS.get_or_init(read)
@@ -61,7 +78,7 @@ pub fn under(section: &str) -> impl Iterator<Item = &'static Form> {
 fn read() -> Vec<Form> {
     let mut forms = Vec::new();
     let mut section = "";
-    for line in PAGE.lines() {
+    for line in PAGES.iter().flat_map(|page| page.lines()) {
         if line.starts_with('#') {
             section = line.trim_start_matches('#').trim();
         }
@@ -92,11 +109,11 @@ fn read() -> Vec<Form> {
     forms
 }
 
-/// A text without the addresses of its links, which lead nowhere outside of the page.
+/// A text without the addresses of its links, which lead nowhere outside of the book.
 fn unlinked(text: &str) -> String {
     let mut plain = String::new();
     let mut rest = text;
-    while let Some((before, after)) = rest.split_once("](#") {
+    while let Some((before, after)) = rest.split_once("](") {
         match before.rsplit_once('[') {
             Some((start, label)) => {
                 plain.push_str(start);

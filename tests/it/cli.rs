@@ -216,6 +216,44 @@ fn every_code_is_explained() {
 }
 
 #[test]
+fn completions_and_manual_pages_have_every_command() {
+    let help = btc(&["help"]);
+    let commands = out(&help).split("Commands:\n").nth(1).unwrap();
+    let commands = commands.split("\n\n").next().unwrap();
+    let commands: Vec<&str> = commands
+        .lines()
+        .filter_map(|line| line.strip_prefix("  ")?.split(' ').next())
+        .filter(|name| !name.is_empty() && *name != "help")
+        .collect();
+    assert!(commands.contains(&"man"), "{commands:?}");
+
+    for shell in ["bash", "elvish", "fish", "powershell", "zsh"] {
+        let script = btc(&["completions", shell]);
+        for name in &commands {
+            assert!(out(&script).contains(name), "{shell}: {name}");
+        }
+    }
+    assert_eq!(btc(&["completions", "cmd"]).status.code(), Some(2));
+
+    let folder = tempfile::tempdir().unwrap();
+    let pages = folder.path().join("share/man1");
+    let written = btc(&["man", "-o", pages.to_str().unwrap()]);
+    assert_eq!(written.status.code(), Some(0), "{}", err(&written));
+    assert_eq!(fs::read_dir(&pages).unwrap().count(), commands.len() + 1);
+    for name in &commands {
+        let page = fs::read_to_string(pages.join(format!("btc-{name}.1"))).unwrap();
+        assert!(page.contains(".SH SYNOPSIS"), "{page}");
+    }
+    let overview = fs::read_to_string(pages.join("btc.1")).unwrap();
+    assert!(overview.contains("learn"), "{overview}");
+
+    let file = folder.path().join("file");
+    fs::write(&file, "").unwrap();
+    let refused = btc(&["man", "-o", file.to_str().unwrap()]);
+    assert_eq!(refused.status.code(), Some(1));
+}
+
+#[test]
 fn nobody_need_read_standard_error() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("wrong.bt");

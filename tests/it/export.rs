@@ -82,7 +82,7 @@ fn what_has_no_counterpart_has_a_place() {
 fn the_documentation_quotes_the_programs() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let read = |path: &str| std::fs::read_to_string(root.join(path)).unwrap();
-    let text = read("docs/export.md");
+    let text = read("docs/book/src/export.md");
     for (language, path) in [
         ("cpp", "examples/robots/cpp/courier.cpp"),
         ("python", "examples/robots/py_trees/courier.py"),

@@ -1,4 +1,4 @@
-//! The limits of `docs/limits.md`, each with what is said one step beyond it.
+//! The limits of `docs/book/src/limits.md`, each with what is said one step beyond it.
 
 use std::fs;
 use std::io::Write;

@@ -7,6 +7,7 @@
     reason = "a test that meets the unexpected has failed"
 )]
 
+mod book;
 mod changes;
 mod check;
 mod checking;

@@ -1,41 +1,51 @@
-//! The examples of the language reference, `docs/language.md`.
+//! The examples of the book's chapters on the language, `docs/book/src/language.md` and `language/`.
 //!
-//! The words after `bt` say what a block is: nothing, a whole program; `items`, added to the first whole program of the
-//! page, as everything below; `wrong CODE`, items with that one mistake; else what it is a part of, or `expressions`,
+//! The words after `bt` say what a block is: nothing, a whole program; `items`, added to the program of the first
+//! chapter, as everything below; `wrong CODE`, items with that one mistake; else what it is a part of, or `expressions`,
 //! one a line.
 
+use crate::book::pages::{blocks, pages};
 use crate::program::{NoFiles, shown};
 use btc::diagnostic::{Code, Diagnostic};
 use btc::driver::Text;
 use btc::driver::format::format;
 use btc::driver::load::{Loaded, load};
 
-/// A block of the page.
+/// A block of a chapter.
 struct Example {
-    /// The line of the page that it begins after.
-    line: usize,
+    /// The chapter, and the line that it begins after.
+    place: String,
     /// The words after `bt`.
-    kind: &'static str,
+    kind: String,
     text: String,
 }
 
-const PAGE: &str = include_str!("../../docs/language.md");
+/// The chapters, the first one first.
+fn chapters() -> Vec<(String, String)> {
+    let chapters = pages().into_iter().map(|page| (page.name, page.text));
+    let chapters: Vec<_> = chapters
+        .filter(|(name, _)| name.starts_with("language"))
+        .collect();
+    assert_eq!(chapters[0].0, "language.md");
+    chapters
+}
+
+/// All that they say.
+fn text() -> String {
+    chapters().into_iter().map(|(_, text)| text).collect()
+}
 
 fn examples() -> Vec<Example> {
     let mut examples = Vec::new();
-    let mut lines = PAGE.lines().enumerate();
-    while let Some((number, line)) = lines.next() {
-        let Some(fence) = line.strip_prefix("```") else {
-            continue;
-        };
-        let body = lines.by_ref().map(|(_, line)| line);
-        let text: Vec<&str> = body.take_while(|line| *line != "```").collect();
-        if let Some(kind) = fence.strip_prefix("bt") {
-            examples.push(Example {
-                line: number + 1,
-                kind: kind.trim(),
-                text: text.join("\n") + "\n",
-            });
+    for (name, text) in chapters() {
+        for block in blocks(&text) {
+            if let Some(kind) = block.info.strip_prefix("bt") {
+                examples.push(Example {
+                    place: format!("{name}:{}", block.line),
+                    kind: kind.trim().to_owned(),
+                    text: block.text.to_owned(),
+                });
+            }
         }
     }
     examples
@@ -72,7 +82,7 @@ fn program(example: &Example, world: &str) -> String {
             let items = lines.map(|(i, line)| format!("let example_{i} = {line}\n"));
             format!("{world}\n{}", items.collect::<String>())
         }
-        kind => panic!("line {}: no block is `bt {kind}`", example.line),
+        kind => panic!("{}: no block is `bt {kind}`", example.place),
     }
 }
 
@@ -84,7 +94,7 @@ fn world() -> String {
     let first = examples()
         .into_iter()
         .find(|example| example.kind.is_empty());
-    first.expect("the page has a whole program").text
+    first.expect("the first chapter has a program").text
 }
 
 #[test]
@@ -100,16 +110,11 @@ fn the_examples_are_right() {
         let found = loaded.diagnostics.iter().filter(counts);
         let found: Vec<Code> = found.map(|found| found.code).collect();
         match example.kind.strip_prefix("wrong ") {
-            None => assert!(
-                found.is_empty(),
-                "line {}:\n{}",
-                example.line,
-                shown(&loaded)
-            ),
+            None => assert!(found.is_empty(), "{}:\n{}", example.place, shown(&loaded)),
             Some(code) => {
                 let expected = Code::parse(code).expect("a code");
                 let said = shown(&loaded);
-                assert_eq!(found, [expected], "line {}:\n{said}", example.line);
+                assert_eq!(found, [expected], "{}:\n{said}", example.place);
             }
         }
     }
@@ -124,35 +129,37 @@ fn the_examples_are_laid_out() {
                 bytes: example.text.as_bytes(),
             })
             .expect("it parses");
-            assert_eq!(example.text, text, "line {}", example.line);
+            assert_eq!(example.text, text, "{}", example.place);
         }
     }
 }
 
-/// Every built-in name and every setting that the checker offers is on the page.
+/// Every built-in name and every setting that the checker offers is in them.
 #[test]
-fn the_page_names_everything() {
+fn the_chapters_name_everything() {
     let settings = "method episodes rate initial objective discount explore unseen dwell seed";
     let words = "selector sequence parallel invert succeed fail retry repeat timeout memory";
+    let page = text();
     for word in settings.split(' ').chain(words.split(' ')) {
-        assert!(PAGE.contains(&format!("`{word}")), "{word}");
+        assert!(page.contains(&format!("`{word}")), "{word}");
     }
     let names: Vec<&str> = btc::check::built_in_names().collect();
     assert!(names.len() > 50, "{names:?}");
     for name in names {
-        assert!(PAGE.contains(name), "{name}");
+        assert!(page.contains(name), "{name}");
     }
 }
 
 /// The table of library behaviours holds what the library declares.
 #[test]
-fn the_page_lists_the_library() {
+fn the_chapters_list_the_library() {
     let library = include_str!("../../src/library/std.bt");
+    let page = text();
     let heads = library
         .lines()
         .filter_map(|line| line.strip_prefix("behavior "));
     for head in heads {
         let head = head.trim_end_matches('{').trim();
-        assert!(PAGE.contains(&format!("| `{head}` |")), "{head}");
+        assert!(page.contains(&format!("| `{head}` |")), "{head}");
     }
 }

@@ -53,7 +53,7 @@ fn examples_do_the_same() {
     on_examples(compare_itself);
 }
 
-/// What `docs/export.md` says of the library, tried with it.
+/// What `docs/book/src/export.md` says of the library, tried with it.
 #[test]
 #[ignore = "needs the programs of BehaviorTree.CPP, in the folder that BTC_BTCPP names"]
 fn it_does_what_the_documentation_says() {

@@ -228,7 +228,7 @@ fn the_kind_of_a_file_may_be_told() {
     assert_eq!(refused.diagnostics[0].code, Code::E0826);
 }
 
-/// Beyond these there is a mistake to tell; see `docs/limits.md`.
+/// Beyond these there is a mistake to tell; see `docs/book/src/limits.md`.
 #[test]
 fn what_is_too_much_is_refused() {
     let digits = |count: usize| format!("x:number,action\n{},go\n3,wait\n", "1".repeat(count));

@@ -115,7 +115,12 @@ fn programs() -> Vec<(String, String)> {
         )
     };
     let mut programs: Vec<(String, String)> = paths.into_iter().map(read).collect();
-    let reference = fs::read_to_string(root.join("docs/language.md")).unwrap();
+    let mut chapters = files(&root.join("docs/book/src/language"), "md");
+    chapters.push(root.join("docs/book/src/language.md"));
+    let chapters = chapters
+        .iter()
+        .map(|path| fs::read_to_string(path).unwrap());
+    let reference: String = chapters.collect();
     for (n, block) in reference.split("\n```bt").skip(1).enumerate() {
         let (kind, text) = block.split_once('\n').unwrap();
         if matches!(kind.trim().split(' ').next(), Some("" | "items" | "wrong")) {
