@@ -7,7 +7,7 @@ use super::decl::event::EventId;
 use super::decl::input::InputSlot;
 use super::decl::predicate::PredicateId;
 use super::decl::state::StateSlot;
-use super::lint::Asked;
+use super::lint::{Again, Asked};
 use super::meaning::Meanings;
 use super::members::{Kinds, Member};
 use super::names::Names;
@@ -16,6 +16,7 @@ use super::tune::Tunes;
 use super::{Checked, Input};
 use crate::diagnostic::{self, Diagnostic};
 use crate::geometry::Point;
+use crate::ir::expr::ExprId;
 use crate::ir::task::History;
 use crate::ir::world::{Robot, World};
 use crate::ir::{Id, Name, Program};
@@ -48,6 +49,10 @@ pub struct Checker<'a> {
     pub asked: Vec<(Span, Outcome)>,
     /// Where the program asks whether a behaviour has ended.
     pub endings: BTreeSet<Asked>,
+    /// The conditions of events, effects, doors and prices, by where they stand.
+    pub conditions: Vec<(Span, ExprId)>,
+    /// What stands a second time where once is enough.
+    pub again: BTreeMap<Span, Again>,
     /// Where episodes start, as far as that is constant.
     pub positions: Vec<(Span, Point)>,
     /// The parameter that the expression at hand is given to, with what it is a parameter of.
@@ -104,6 +109,8 @@ impl<'a> Checker<'a> {
             kept: None,
             asked: Vec::new(),
             endings: BTreeSet::new(),
+            conditions: Vec::new(),
+            again: BTreeMap::new(),
             positions: Vec::new(),
             given: None,
             tunes: Tunes::default(),
@@ -128,12 +135,16 @@ impl<'a> Checker<'a> {
     pub fn program(&mut self, files: &[Input<'a>]) {
         let own = files.iter().filter(|input| !input.library);
         let items = || own.clone().flat_map(|input| &input.ast.items);
+        for item in items() {
+            if let ItemKind::Enum(decl) = &item.kind {
+                self.enumeration(decl);
+            }
+        }
         self.worlds(items());
         for item in items() {
             match &item.kind {
                 ItemKind::Input(input) if self.names.counts(&input.name) => self.input(input),
                 ItemKind::State(state) if self.names.counts(&state.name) => self.state(state),
-                ItemKind::Enum(decl) => self.enumeration(decl),
                 _ => {}
             }
         }

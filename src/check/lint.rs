@@ -3,12 +3,18 @@
 //! They err on the side of silence: what they report does not depend on how the program runs.
 
 mod cases;
+mod choices;
+mod conditions;
 mod endings;
 mod geometry;
+mod idle;
+mod interval;
 mod mentions;
 mod predicates;
+mod ranges;
 mod regions;
 mod rewards;
+mod same;
 mod tree;
 mod unused;
 mod world;
@@ -16,6 +22,7 @@ mod world;
 use super::{Checker, Input};
 use crate::diagnostic::Diagnostic;
 pub use endings::Asked;
+pub use same::Again;
 
 impl<'a> Checker<'a> {
     /// The passes over the whole program, the main file being the last of the files.
@@ -32,6 +39,9 @@ impl<'a> Checker<'a> {
         }
         self.unread_names();
         self.unused_declarations(files);
+        self.same_on_both_sides();
+        self.conditions_without_effect();
+        self.choices_alike(items());
         self.regions_without_effect(items());
         self.predicates_without_effect(items());
         self.rewards_without_effect(items());

@@ -238,7 +238,11 @@ impl<'a> Checker<'a> {
     ) -> Option<Price> {
         let what = "what has to hold while time is paid";
         let during = match during {
-            Some(during) => self.expect(during, &Type::Bool, what).scalar(),
+            Some(during) => {
+                let holds = self.expect(during, &Type::Bool, what).scalar();
+                self.asks(during.span, holds);
+                holds
+            }
             None => Some(self.program.pool.bool(true)),
         };
         let seconds = self.constant(time, &Type::TIME, "the time that is paid");

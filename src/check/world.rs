@@ -180,6 +180,7 @@ impl<'a> Checker<'a> {
             {
                 self.context = Context::new(Region::Predicate);
                 let stands = self.expect(when, &Type::Bool, "the condition of a wall");
+                self.asks(when.span, stands.scalar());
                 let name = Name::word(&name.name);
                 if let (Some(when), Some(world)) = (stands.scalar(), &mut self.program.world)
                     && let Some(wall) = world.walls.find(|wall| wall.name == name)

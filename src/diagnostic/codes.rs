@@ -164,8 +164,10 @@ codes! {
     W0202 "a state that is set and never read",
     W0203 "a program that has changed since",
     W0204 "a value that hides a state",
+    W0205 "a state that never changes",
     W0301 "a plain number for a ratio",
     W0302 "a region that is never reached",
+    W0303 "one thing said twice",
 
     W0401 "a part of the world that does nothing",
 
@@ -185,10 +187,16 @@ codes! {
     W0514 "a requirement that is not observed",
     W0515 "a cost per decision and a behaviour without duration",
     W0516 "a sum without an end",
+    W0517 "a rate of 0",
+    W0518 "two choices that do the same",
 
     W0601 "a condition that always or never holds",
     W0602 "a node that is never reached",
     W0603 "a predicate that the tree does not ask",
+    W0604 "a condition that is asked already",
+    W0605 "a decorator that changes nothing",
+    W0606 "a child that is there already",
+    W0607 "a tree that runs nothing",
 }
 
 impl Code {

@@ -218,6 +218,6 @@ fn nothing(loaded: &Loaded, evidence: u64) -> Refused {
 
 fn nothing_learned(loaded: &Loaded, why: &str, help: &str) -> Refused {
     let message = format!("nothing was learned: {why}");
-    let diagnostic = Diagnostic::new(Code::E0505, target::end_of_file(loaded), message);
+    let diagnostic = Diagnostic::new(Code::E0505, target::place_of(loaded, "learn"), message);
     Refused::program(loaded, [diagnostic.help(help)])
 }

@@ -28,6 +28,24 @@ pub fn world_span(loaded: &Loaded) -> Span {
     found.unwrap_or_else(|| end_of_file(loaded))
 }
 
+/// The last item of that sort in the program, by its name; without one its last task, or else the end of the main file.
+pub fn place_of(loaded: &Loaded, word: &str) -> Span {
+    let of = |word: &str, item: &Item| match (word, &item.kind) {
+        ("tree", ItemKind::Tree(tree)) => Some(tree.name.span),
+        ("learner" | "learn", ItemKind::Learn(learn)) => {
+            Some(learn.name.as_ref().unwrap_or(&learn.task).span)
+        }
+        ("task", ItemKind::Task(task)) => Some(task.name.span),
+        _ => None,
+    };
+    let last = |word: &str| {
+        let items = loaded.asts().flat_map(|ast| &ast.items);
+        items.filter_map(|item| of(word, item)).last()
+    };
+    let found = last(word).or_else(|| last("task"));
+    found.unwrap_or_else(|| end_of_file(loaded))
+}
+
 /// Where the program says at which position episodes start.
 pub fn positions(loaded: &Loaded) -> Vec<Span> {
     let mut found = Vec::new();
@@ -134,7 +152,7 @@ fn only<'n, T>(
             .to_owned(),
         ),
     };
-    let diagnostic = Diagnostic::new(Code::E0504, end_of_file(loaded), message).label(label);
+    let diagnostic = Diagnostic::new(Code::E0504, place_of(loaded, word), message).label(label);
     Err(Refused::program(loaded, [diagnostic]))
 }
 
@@ -146,11 +164,15 @@ fn missing<'n>(
 ) -> Refused {
     let diagnostic = Diagnostic::new(
         Code::E0504,
-        end_of_file(loaded),
+        place_of(loaded, what),
         format!("the program has no {what} `{name}`"),
-    )
-    .label("not in this file, nor in those that it uses");
+    );
     let names: Vec<String> = names.map(Name::to_string).collect();
+    let label = match names.as_slice() {
+        [] => format!("no {what} is declared in this file, nor in those that it uses"),
+        _ => "this one has another name".to_owned(),
+    };
+    let diagnostic = diagnostic.label(label);
     let diagnostic = match suggest::nearest(name, names.iter().map(String::as_str)) {
         Some(likely) => diagnostic.help(format!("did you mean `{likely}`?")),
         None if names.is_empty() => diagnostic,

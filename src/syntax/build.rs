@@ -36,6 +36,10 @@ pub(super) struct Builder<'i> {
     lost: Lost,
     /// Where a `{` is missing, so that a `}` may be missing around it.
     unopened: Vec<usize>,
+    /// Whether the arguments at hand are of what ranges over a kind.
+    ranging: bool,
+    /// Whether the call at hand ranges over a kind and binds nothing, which is reported.
+    unbound: bool,
     /// How many words stand where units should, as statements of their own.
     units_missed: usize,
 }
@@ -56,6 +60,8 @@ impl<'i> Builder<'i> {
             failed_at: None,
             lost: Lost::default(),
             unopened: Vec::new(),
+            ranging: false,
+            unbound: false,
             units_missed: 0,
         }
     }

@@ -4,6 +4,7 @@ mod advice;
 mod characters;
 mod ends;
 mod foreign;
+mod forms;
 mod words;
 
 pub(super) use characters::unclosed_quote;
@@ -174,6 +175,12 @@ impl Place<'_> {
             }
         };
         let diagnostic = self.advised(diagnostic);
+        let plain = diagnostic.help.is_empty() && diagnostic.fixes.is_empty();
+        let form = self.wanted().filter(|_| plain);
+        let diagnostic = match form.and_then(|wanted| self.form(&wanted)) {
+            Some(form) => diagnostic.help(form),
+            None => diagnostic,
+        };
         match self.open_paren() {
             Some(open) => diagnostic.also(self.span_of(open), "to close this one"),
             None => diagnostic,

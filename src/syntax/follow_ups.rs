@@ -49,6 +49,7 @@ pub(super) fn left_out(text: &str, tree: &mut File, sorted: Vec<Diagnostic>) -> 
 
 /// The mistakes of one place that do not follow from others there.
 fn causes(text: &str, together: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    let together = before_its_block(together);
     let bracket = together.iter().position(|found| is_bracket(found.code));
     // A bracket that is never closed is told at its beginning: what is not understood after it shows the slip itself,
     // unless the layout shows which bracket it is.
@@ -84,6 +85,28 @@ fn causes(text: &str, together: Vec<Diagnostic>) -> Vec<Diagnostic> {
     }
     told.append(&mut in_line(of_line));
     told
+}
+
+/// Without what follows from an entry that stands behind the `}` of its block: those behind it do so, too, and the `}` of
+/// the block around it is left over.
+fn before_its_block(mut together: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    let is_lost = |found: &Diagnostic| {
+        let advised = found
+            .help
+            .iter()
+            .any(|help| help.starts_with("put it there"));
+        advised && matches!(found.code, Code::E0105 | Code::E0123)
+    };
+    let Some(at) = together.iter().position(is_lost) else {
+        return together;
+    };
+    let behind = together.split_off(at + 1);
+    let help = together.last().map(|found| found.help.clone());
+    let follows = |found: &Diagnostic| {
+        found.code == Code::E0103 || is_lost(found) && Some(&found.help) == help.as_ref()
+    };
+    together.extend(behind.into_iter().filter(|found| !follows(found)));
+    together
 }
 
 /// Of the mistakes of one line those up to the first text that was not understood. A mark that could be dropped is told

@@ -50,7 +50,7 @@ pub(super) const CALLED: [&str; 18] = [
 ];
 
 /// What other languages call what begins an item, a clause, an aspect or a line.
-pub(super) const FOREIGN: [(&str, &str); 97] = [
+pub(super) const FOREIGN: [(&str, &str); 108] = [
     ("function", "let"),
     ("fn", "let"),
     ("func", "let"),
@@ -148,6 +148,17 @@ pub(super) const FOREIGN: [(&str, &str); 97] = [
     ("else", "otherwise"),
     ("when", "on"),
     ("each", "per"),
+    ("every", "per"),
+    ("whenever", "on"),
+    ("if", "on"),
+    ("always", "otherwise"),
+    ("during", "while"),
+    ("pred", "predicate"),
+    ("expect", "tick"),
+    ("assert", "tick"),
+    ("then", "tick"),
+    ("step", "tick"),
+    ("when", "given"),
 ];
 
 /// What other languages declare, and this one does not.

@@ -6,11 +6,11 @@ use crate::check::expr::plain_ref;
 use crate::check::members::Member;
 use crate::check::names::Decl;
 use crate::check::types::{Type, Typed, Value};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::ir::expr::ExprId;
 use crate::ir::program::{Effect, Event};
 use crate::ir::{self, Id};
-use crate::syntax::ast::{self, Ident, Params, Ref, Trigger};
+use crate::syntax::ast::{self, Arg, ArgKind, Ident, Params, Ref, Trigger};
 
 /// The id of an event.
 pub type EventId = Id<Event>;
@@ -49,7 +49,9 @@ impl<'a> Checker<'a> {
 
     fn event_condition(&mut self, event: &'a ast::Event) -> Option<ExprId> {
         let role = format!("the event `{}`", event.name.name);
-        self.expect(&event.value, &Type::Bool, &role).scalar()
+        let when = self.expect(&event.value, &Type::Bool, &role).scalar();
+        self.asks(event.value.span, when);
+        when
     }
 
     /// Whether an event happens in this tick.
@@ -125,6 +127,7 @@ impl<'a> Checker<'a> {
     pub fn on(&mut self, on: &'a ast::On) {
         self.context = Context::new(Region::Event);
         match &on.trigger {
+            Trigger::Expr(event) if self.unbound_members(event).is_some() => {}
             Trigger::Expr(event) => {
                 let scopes = match plain_ref(event) {
                     Some(reference) => self.ranges(reference),
@@ -133,6 +136,7 @@ impl<'a> Checker<'a> {
                 let effects = self.for_each_member(scopes.unwrap_or_default(), |checker, _| {
                     checker.context.region = Region::Event;
                     let when = checker.waited_for(event);
+                    checker.asks(event.span, when.scalar());
                     checker.effect(when.scalar(), &on.block)
                 });
                 self.program.effects.extend(effects.into_iter().flatten());
@@ -157,6 +161,54 @@ impl<'a> Checker<'a> {
                 .typed();
         }
         self.coerce(typed, event, &Type::Bool, role)
+    }
+
+    /// Reports `on picked` and `on picked(b)` where `picked` is a family and nothing is called `b`: what binds a member has
+    /// a type.
+    fn unbound_members(&mut self, waited_for: &'a ast::Expr) -> Option<()> {
+        let reference = plain_ref(waited_for)?;
+        let (Decl::Event(event), _) = self.names.value(&reference.name.name, false)? else {
+            return None;
+        };
+        let params = &event.params.as_ref()?.params;
+        let args = reference.args.as_deref().unwrap_or_default();
+        let unbound = |arg: &Arg| match &arg.kind {
+            ArgKind::Positional(value) => {
+                let name = plain_ref(value).filter(|name| name.args.is_none());
+                name.filter(|name| self.names.value(&name.name.name, false).is_none())
+                    .is_some()
+            }
+            _ => false,
+        };
+        let given: Vec<&str> = args
+            .iter()
+            .filter(|arg| unbound(arg))
+            .filter_map(|arg| match &arg.kind {
+                ArgKind::Positional(value) => Some(plain_ref(value)?.name.name.as_str()),
+                _ => None,
+            })
+            .collect();
+        if given.len() != args.len() || !args.is_empty() && args.len() != params.len() {
+            return None;
+        }
+        let typed = params.iter().enumerate().map(|(at, param)| {
+            let name = given.get(at).copied().unwrap_or(&param.name.name);
+            let factors = param.ty.factors.iter().map(|(name, _)| name.name.as_str());
+            format!("{name}: {}", factors.collect::<String>())
+        });
+        let name = &reference.name.name;
+        let right = format!("{name}({})", typed.collect::<Vec<_>>().join(", "));
+        let message = format!("`{name}` is an event for each member of a kind");
+        self.error(Code::E0128, reference.span, message)
+            .label("nothing says which of them is meant")
+            .also(event.name.span, "the family is declared here")
+            .fix(
+                format!("write `{right}`"),
+                reference.span,
+                right,
+                Applicability::Unsafe,
+            );
+        Some(())
     }
 
     /// What is done where a condition holds, in the scope at hand.

@@ -6,8 +6,10 @@ use crate::check::expr::expect::is_literal;
 use crate::check::names::Decl;
 use crate::check::signature::{Signature, Takes};
 use crate::check::types::Type;
-use crate::diagnostic::Code;
-use crate::syntax::ast::{ArgKind, Param, Params, Ref};
+use crate::diagnostic::{Applicability, Code, Diagnostic};
+use crate::source::Span;
+use crate::syntax::ast::{Arg, ArgKind, Expr, Param, Params, Ref};
+use crate::syntax::print;
 
 impl<'a> Checker<'a> {
     /// Parameters that are known by their type only.
@@ -73,6 +75,7 @@ impl<'a> Checker<'a> {
                 self.stands_for(given, param.name.span);
             }
         }
+        let told = self.diagnostics.len();
         let matched = self.matched(&signature, args);
         let called = self.names.value(name, self.context.library);
         let makes_instance = !matches!(called, Some((Decl::Let(_), _)));
@@ -126,7 +129,55 @@ impl<'a> Checker<'a> {
                 ..Binding::new(&param.name, ty, value.value)
             });
         }
+        if !fine {
+            self.swapped(params, library, args, told);
+        }
         fine.then_some(bindings)
+    }
+
+    /// Makes one mistake of two arguments of which each is of the type of the other's parameter. What has been told of
+    /// the call begins at `told`.
+    fn swapped(&mut self, params: &'a [Param], library: bool, args: &'a [Arg], told: usize) {
+        let ([first, second], [one, other]) = (params, args) else {
+            return;
+        };
+        let (ArgKind::Positional(a), ArgKind::Positional(b)) = (&one.kind, &other.kind) else {
+            return;
+        };
+        let of_both = self.diagnostics.get(told..).is_some_and(|found| {
+            let places: Vec<Span> = found.iter().map(Diagnostic::span).collect();
+            places == [a.span, b.span]
+        });
+        if !of_both {
+            return;
+        }
+        let mut fits = |value: &'a Expr, param: &'a Param| {
+            let wanted = self.in_library(library, |checker| checker.type_expr(&param.ty));
+            let (typed, _) = self.captured(|checker| checker.expr(value));
+            typed.ty != Type::Error && typed.ty.fits(&wanted)
+        };
+        if fits(a, second) && fits(b, first) {
+            self.diagnostics.truncate(told);
+            self.the_other_way_around(a, b);
+        }
+    }
+
+    /// Reports two arguments that stand in each other's place.
+    pub fn the_other_way_around(&mut self, first: &Expr, second: &Expr) {
+        let right = format!("{}, {}", print::expr(second), print::expr(first));
+        let span = first.span.to(second.span);
+        self.error(
+            Code::E0305,
+            span,
+            "two arguments stand the other way around",
+        )
+        .label(format!("write `{right}`"))
+        .fix(
+            format!("write `{right}`"),
+            span,
+            right,
+            Applicability::Unsafe,
+        );
     }
 
     fn in_library<T>(&mut self, library: bool, pass: impl FnOnce(&mut Self) -> T) -> T {

@@ -133,12 +133,18 @@ impl<'a> Checker<'a> {
     /// `enum name { … }`: names are collected already; an empty one is a mistake.
     pub fn enumeration(&mut self, decl: &'a ast::Enum) {
         if decl.variants.is_empty() {
+            // What is not declared may be one of them.
+            self.names.lost_values = true;
             self.error(
                 Code::E0312,
                 decl.name.span,
                 format!("the enum `{}` has no variants", decl.name.name),
             )
-            .label("no value could be of this type");
+            .label("no value could be of this type")
+            .help(format!(
+                "name them: `enum {} {{ a, b, c }}`",
+                decl.name.name
+            ));
         }
     }
 

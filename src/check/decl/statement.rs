@@ -2,7 +2,7 @@
 
 use crate::check::Checker;
 use crate::check::context::{Binding, Region};
-use crate::check::names::{Decl, is_built_in};
+use crate::check::names::{Decl, START_WORDS, is_built_in};
 use crate::check::types::units::Dim;
 use crate::check::types::{Type, Value};
 use crate::diagnostic::{Code, Diagnostic};
@@ -103,6 +103,9 @@ impl<'a> Checker<'a> {
 
     fn branch(&mut self, branch: &'a ast::Branch) -> Option<Stmt> {
         let condition = self.expect(&branch.cond, &Type::Bool, "a condition");
+        if matches!(self.context.region, Region::Effect | Region::EachTick) {
+            self.asks(branch.cond.span, condition.scalar());
+        }
         let then = self.block(&branch.then);
         let otherwise = match branch.otherwise.as_deref() {
             None => Some(Block::default()),
@@ -122,6 +125,9 @@ impl<'a> Checker<'a> {
             self.expr(value);
             return None;
         };
+        if op.node == AssignOp::Set {
+            self.set_to_itself(target, value);
+        }
         let role = format!("`{}`", target.name.name);
         if op.node != AssignOp::Set && ty.dim().is_none() && ty != Type::Error {
             self.error(
@@ -281,9 +287,18 @@ impl<'a> Checker<'a> {
                 }
                 Some((ty, meant, bound))
             }
-            Some((decl, _)) => self
+            Some((decl, _)) => {
+                let depends = matches!(decl, Decl::Predicate(_) | Decl::Event(_) | Decl::Let(_));
+                let help = "it follows from what it reads: set a state";
+                self.error(Code::E0310, target.span, cannot)
+                    .this_is(decl.what())
+                    .help_if(depends.then(|| help.to_owned()))
+                    .none()
+            }
+            None if START_WORDS.contains(&name) => self
                 .error(Code::E0310, target.span, cannot)
-                .this_is(decl.what())
+                .label("said where an episode starts, in `start { … }`")
+                .help("what moves a robot meanwhile is its behaviour")
                 .none(),
             None if is_built_in(name) => self
                 .error(Code::E0310, target.span, cannot)
@@ -309,14 +324,18 @@ impl<'a> Checker<'a> {
             self.stray_argument(arg);
         }
         match self.value_of(name) {
-            Some((decl, _)) => self
-                .error(
+            Some((decl, _)) => {
+                let help = matches!(decl, Decl::Behavior(_))
+                    .then(|| "a task chooses it, or a tree runs it".to_owned());
+                self.error(
                     Code::E0203,
                     call.span,
                     format!("`{}` does nothing as a statement", name.name),
                 )
                 .this_is(decl.what())
-                .none(),
+                .help_if(help)
+                .none()
+            }
             None => {
                 let likely = self.likely(&name.name, ["drive"].into_iter());
                 self.undeclared(name, "statement", likely).none()

@@ -12,6 +12,12 @@ impl<'a> Checker<'a> {
     pub fn choice(&mut self, choice: &'a ast::Choice, span: Span) -> Option<Typed> {
         let condition = self.expect(&choice.cond, &Type::Bool, "a condition");
         let then = self.yielded(&choice.then);
+        if let Otherwise::Yield(other) = &choice.otherwise
+            && choice.then.bindings.is_empty()
+            && other.bindings.is_empty()
+        {
+            self.same_branches(&choice.then.value, &other.value);
+        }
         let (otherwise, last) = match &choice.otherwise {
             Otherwise::If(inner, span) => (self.choice(inner, *span), None),
             Otherwise::Yield(other) => (Some(self.yielded(other)), Some(&*other.value)),

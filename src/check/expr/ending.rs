@@ -44,7 +44,20 @@ impl<'a> Checker<'a> {
         self.kept_in_history(function, reference);
         let robot = robot.unwrap_or(self.subject);
         let behavior = self.as_robot(robot, |checker| {
-            checker.expect(value, &Type::Behavior, "what ends")
+            let typed = checker.expr(value);
+            if matches!(typed.ty, Type::Place(_)) {
+                let name = &reference.name.name;
+                let message = format!("what ends is {}, not {}", Type::Behavior, typed.ty);
+                let place = crate::syntax::print::expr(value);
+                return checker
+                    .unlike(&typed, &Type::Behavior, message)
+                    .this_is(&typed.ty)
+                    .help(format!(
+                        "say what the robot does there: `{name}(goto({place}))`"
+                    ))
+                    .typed();
+            }
+            checker.coerce(typed, value, &Type::Behavior, "what ends")
         });
         let status = match function {
             Function::Failure => Status::Failure,

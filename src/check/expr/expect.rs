@@ -8,6 +8,7 @@ use crate::diagnostic::{Applicability, Code};
 use crate::ir::expr::ExprId;
 use crate::source::Span;
 use crate::syntax::ast::{ArgKind, Expr, ExprKind, Ref};
+use crate::syntax::print;
 
 impl<'a> Checker<'a> {
     /// Checks an expression that has to be of a type.
@@ -39,8 +40,10 @@ impl<'a> Checker<'a> {
 
     fn mismatch(&mut self, typed: &Typed, expr: &Expr, wanted: &Type, role: &str) -> Draft<'_> {
         let message = format!("{role} is {wanted}, not {}", typed.ty);
+        let help = conversion(typed, expr, wanted);
         self.unlike(typed, wanted, message)
             .this_is(&typed.ty)
+            .help_if(help)
             .unit_for(expr, wanted.dim().filter(|_| typed.ty.dim().is_some()))
     }
 
@@ -149,6 +152,40 @@ impl<'a> Checker<'a> {
                 );
         }
     }
+}
+
+/// How a number of one unit becomes one of another that people take for it, and a place one of a kind.
+fn conversion(typed: &Typed, expr: &Expr, wanted: &Type) -> Option<String> {
+    if let (Type::Place(None), Type::Place(Some(kind))) = (&typed.ty, wanted) {
+        let place = print::expr(expr);
+        return Some(format!(
+            "a kind stands behind the name: `place {place}: {kind} = …`"
+        ));
+    }
+    let (is, wanted) = (typed.ty.dim()?, wanted.dim()?);
+    let literal = match &expr.kind {
+        ExprKind::Number(literal) => Some(literal),
+        _ => None,
+    };
+    if is == wanted || is == Dim::NONE {
+        return None;
+    }
+    if is.times(wanted, 1) == Dim::NONE {
+        let asked = print::expr(expr);
+        return Some(format!("it is one divided by that: `1 / ({asked})`"));
+    }
+    if is != Dim::TIME && is.times(Dim::TIME, -1) == wanted {
+        let literal = literal?;
+        let unit = &literal.unit.as_ref()?.text;
+        return Some(format!("per second: `{} {unit}/s`", literal.digits));
+    }
+    if wanted == Dim::NONE {
+        let unit = is.unit()?;
+        return Some(format!(
+            "divided by a unit it is a plain number: `… / (1 {unit})`"
+        ));
+    }
+    None
 }
 
 /// The functions whose value is of the type of their arguments.

@@ -52,6 +52,7 @@ impl<'a> Checker<'a> {
         right: &'a Expr,
         span: Span,
     ) -> Option<Typed> {
+        self.same_operands(op, left, right);
         let both = |checker: &mut Self, word: &str, op: Binary| {
             let role = format!("each side of `{word}`");
             let a = checker.expect(left, &Type::Bool, &role);
@@ -87,6 +88,7 @@ impl<'a> Checker<'a> {
         }
         let mut a = self.expr(first);
         while let Some((whole, op, left, right)) = steps.pop() {
+            self.same_operands(op, left, right);
             let typed = self.step(op, (left, a), right, whole.span);
             if steps.is_empty() {
                 return typed;

@@ -93,7 +93,8 @@ impl<'a> Checker<'a> {
 
     fn unknown_reference(&mut self, reference: &Ref) -> Option<Typed> {
         let name = &reference.name;
-        if self.names.is_lost(&name.name) || self.names.is_nearly_lost(&name.name) {
+        let is_lost = self.names.is_lost(&name.name) || self.names.is_nearly_lost(&name.name);
+        if is_lost || self.names.lost_values && reference.args.is_none() {
             return None;
         }
         // Only a sensor of the acting robot can be missing from a body of the library.

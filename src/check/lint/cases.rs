@@ -3,6 +3,8 @@
 //! A case is a conjunction of literals, a condition a disjunction of cases. Whatever grows too large is taken to be
 //! possible. What is not a number is left out of account.
 
+use super::interval::Interval;
+use super::ranges::{range, values};
 use crate::ir::expr::{Binary, Expr, ExprId, Unary};
 use crate::ir::tree::{Atom, Guard};
 use crate::ir::{Pool, Program};
@@ -33,67 +35,8 @@ pub enum About {
 pub enum Says {
     Is(bool),
     Within(Interval),
-}
-
-/// An interval of numbers; an end that is open does not belong to it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Interval {
-    low: f64,
-    low_open: bool,
-    high: f64,
-    high_open: bool,
-}
-
-impl Interval {
-    fn below(high: f64, high_open: bool) -> Self {
-        Self {
-            low: f64::NEG_INFINITY,
-            low_open: true,
-            high,
-            high_open,
-        }
-    }
-
-    fn above(low: f64, low_open: bool) -> Self {
-        Self {
-            low,
-            low_open,
-            high: f64::INFINITY,
-            high_open: true,
-        }
-    }
-
-    fn just(value: f64) -> Self {
-        Self {
-            low: value,
-            low_open: false,
-            high: value,
-            high_open: false,
-        }
-    }
-
-    fn is_empty(self) -> bool {
-        self.low > self.high || self.low == self.high && (self.low_open || self.high_open)
-    }
-
-    fn and(self, other: Self) -> Self {
-        let (low, low_open) = if (other.low, other.low_open) > (self.low, self.low_open) {
-            (other.low, other.low_open)
-        } else {
-            (self.low, self.low_open)
-        };
-        let (high, high_open) = if (other.high, self.high_open) < (self.high, other.high_open) {
-            (other.high, other.high_open)
-        } else {
-            (self.high, self.high_open)
-        };
-        Self {
-            low,
-            low_open,
-            high,
-            high_open,
-        }
-    }
+    /// It is one of those values of an enum whose bits are set.
+    Among(u64),
 }
 
 /// A conjunction of literals, none of which contradicts another.
@@ -157,10 +100,7 @@ impl Cases {
     }
 
     fn one(about: About, says: Says) -> Self {
-        match says {
-            Says::Within(interval) if interval.is_empty() => Self::constant(false),
-            _ => Self::Some(vec![Case::from([(about, says)])]),
-        }
+        Self::Some(vec![Case::from([(about, says)])])
     }
 }
 
@@ -174,6 +114,9 @@ fn joined(a: &Case, b: &Case) -> Option<Case> {
             (Some(Says::Within(a)), Says::Within(b)) => {
                 Says::Within(Some(a.and(*b)).filter(|both| !both.is_empty())?)
             }
+            (Some(Says::Among(a)), Says::Among(b)) => {
+                Says::Among(Some(a & b).filter(|both| *both != 0)?)
+            }
             (Some(a), b) => Some(*a).filter(|a| a == b)?,
         };
         case.insert(*about, says);
@@ -186,7 +129,8 @@ fn covers(wider: &Case, narrower: &Case) -> bool {
     wider
         .iter()
         .all(|(about, wide)| match (wide, narrower.get(about)) {
-            (Says::Within(wide), Some(Says::Within(narrow))) => wide.and(*narrow) == *narrow,
+            (Says::Within(wide), Some(Says::Within(narrow))) => wide.covers(*narrow),
+            (Says::Among(wide), Some(Says::Among(narrow))) => narrow & !wide == 0,
             (wide, narrow) => narrow == Some(wide),
         })
 }
@@ -236,38 +180,93 @@ fn expr(program: &Program, id: ExprId, wanted: bool, depth: usize) -> Cases {
             }
         }
         Expr::Event(event) => of(program.events[event].when, wanted),
-        Expr::Binary(op, a, b) => match comparison(pool, op, a, b, wanted) {
-            Some((about, interval)) => Cases::one(About::Number(about), Says::Within(interval)),
-            None => Cases::one(About::Truth(id), Says::Is(wanted)),
-        },
+        Expr::Binary(op @ (Binary::Eq | Binary::Ne), a, b) if truth(pool, b).is_some() => {
+            let is = truth(pool, b) == Some(op == Binary::Eq);
+            of(a, wanted == is)
+        }
+        Expr::Binary(op, a, b) => {
+            let compared = compared(program, op, a, b, wanted);
+            compared.unwrap_or_else(|| Cases::one(About::Truth(id), Says::Is(wanted)))
+        }
         _ => Cases::one(About::Truth(id), Says::Is(wanted)),
     }
 }
 
-/// A comparison with a constant: what is compared, and where it has to be.
+/// The truth value of a constant.
+fn truth(pool: &Pool, id: ExprId) -> Option<bool> {
+    match pool.get(id) {
+        Expr::Bool(value) => Some(value),
+        _ => None,
+    }
+}
+
+/// When a comparison holds, or does not, as far as that is known.
+fn compared(program: &Program, op: Binary, a: ExprId, b: ExprId, wanted: bool) -> Option<Cases> {
+    let of_itself = match op {
+        _ if a != b => None,
+        Binary::Eq | Binary::Le => Some(true),
+        Binary::Ne | Binary::Lt => Some(false),
+        _ => None,
+    };
+    if let Some(holds) = of_itself {
+        return Some(Cases::constant(holds == wanted));
+    }
+    let (of, within) = comparison(&program.pool, op, a, b, wanted)?;
+    let holds = |value: f64| within.iter().flatten().any(|part| part.contains(value));
+    if let Some(count) = values(program, of) {
+        let among = (0..count).filter(|index| holds(*index as f64));
+        return match among.clone().count() {
+            0 => Some(Cases::constant(false)),
+            all if all == count => Some(Cases::constant(true)),
+            _ if count > u64::BITS as usize => None,
+            _ => {
+                let bits = among.fold(0, |bits, index| bits | 1 << index);
+                Some(Cases::one(About::Number(of), Says::Among(bits)))
+            }
+        };
+    }
+    let may = range(program, of);
+    let within: Vec<Interval> = within.into_iter().flatten().collect();
+    if within.iter().any(|part| part.covers(may)) {
+        return Some(Cases::constant(true));
+    }
+    let possible = within.into_iter().filter(|part| !part.and(may).is_empty());
+    let case = |part| Case::from([(About::Number(of), Says::Within(part))]);
+    Some(Cases::Some(possible.map(case).collect()))
+}
+
+/// A comparison with a constant: what is compared, and in which intervals it has to be.
 fn comparison(
     pool: &Pool,
     op: Binary,
     a: ExprId,
     b: ExprId,
     wanted: bool,
-) -> Option<(ExprId, Interval)> {
+) -> Option<(ExprId, [Option<Interval>; 2])> {
+    let (of, value, turned) = match (pool.constant(a), pool.constant(b)) {
+        (None, Some(value)) => (a, value, false),
+        (Some(value), None) => (b, value, true),
+        _ => return None,
+    };
     let open = op == Binary::Lt;
-    match (pool.constant(a), pool.constant(b), op) {
-        (None, Some(b), Binary::Lt | Binary::Le) => Some(if wanted {
-            (a, Interval::below(b, open))
-        } else {
-            (a, Interval::above(b, !open))
-        }),
-        (Some(a), None, Binary::Lt | Binary::Le) => Some(if wanted {
-            (b, Interval::above(a, open))
-        } else {
-            (b, Interval::below(a, !open))
-        }),
-        (None, Some(value), Binary::Eq) if wanted => Some((a, Interval::just(value))),
-        (Some(value), None, Binary::Eq) if wanted => Some((b, Interval::just(value))),
-        (None, Some(value), Binary::Ne) if !wanted => Some((a, Interval::just(value))),
-        (Some(value), None, Binary::Ne) if !wanted => Some((b, Interval::just(value))),
-        _ => None,
-    }
+    let within = match op {
+        Binary::Lt | Binary::Le => {
+            let one = match (turned, wanted) {
+                (false, true) => Interval::below(value, open),
+                (false, false) => Interval::above(value, !open),
+                (true, true) => Interval::above(value, open),
+                (true, false) => Interval::below(value, !open),
+            };
+            [Some(one), None]
+        }
+        Binary::Eq | Binary::Ne if (op == Binary::Eq) == wanted => {
+            [Some(Interval::just(value)), None]
+        }
+        Binary::Eq | Binary::Ne => [
+            Some(Interval::below(value, true)),
+            Some(Interval::above(value, true)),
+        ],
+        _ => return None,
+    };
+    Some((of, within))
 }

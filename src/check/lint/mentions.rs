@@ -237,7 +237,8 @@ impl<'a> Mentions<'a> {
         exprs.into_iter().for_each(|expr| self.expr(expr));
     }
 
-    fn expr(&mut self, expr: &'a Expr) {
+    /// Takes in what an expression mentions.
+    pub fn expr(&mut self, expr: &'a Expr) {
         match &expr.kind {
             ExprKind::Number(_) | ExprKind::Bool(_) | ExprKind::Error => {}
             ExprKind::Ref(reference) => self.reference(reference),

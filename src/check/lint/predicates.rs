@@ -41,6 +41,9 @@ impl<'a> Checker<'a> {
     fn constant_predicate(&mut self, id: Id<Predicate>, value: &Expr) {
         let predicate = &self.program.predicates[id];
         let Some(when) = predicate.when else { return };
+        if self.says_one_thing_twice(value.span) {
+            return;
+        }
         let says = match [true, false].map(|wanted| of_expr(&self.program, when, wanted).is_never())
         {
             [true, _] => "never",

@@ -3,11 +3,11 @@
 use super::cases::{Cases, of_expr};
 use crate::check::Checker;
 use crate::diagnostic::Code;
-use crate::ir::expr::ExprId;
+use crate::ir::expr::{Expr, ExprId};
 use crate::ir::task::{Discount, Learner, Objective, Task};
 use crate::ir::{Id, Name};
 use crate::source::Span;
-use crate::syntax::ast::{self, AspectKind, Expr, Item, ItemKind, LearnEntry, RewardLine};
+use crate::syntax::ast::{self, AspectKind, Item, ItemKind, LearnEntry, RewardLine};
 
 impl<'a> Checker<'a> {
     /// Warns of what a task says about rewards, ends and times without any effect.
@@ -23,6 +23,7 @@ impl<'a> Checker<'a> {
                 ItemKind::Learn(learn) => {
                     self.dwells_too_long(learn);
                     self.sums_without_end(learn);
+                    self.learns_nothing(learn);
                 }
                 _ => {}
             }
@@ -82,6 +83,9 @@ impl<'a> Checker<'a> {
             let earlier = before.iter().find(|(_, earlier)| first.implies(earlier));
             let covered = |cases: &Cases| before.iter().any(|(_, earlier)| cases.implies(earlier));
             if cases.iter().all(Cases::is_never) {
+                if self.waits_for_an_event(checked, place) {
+                    continue;
+                }
                 self.warning(Code::W0509, here, "this reward is never paid")
                     .label("this never happens");
             } else if let Some((earlier, _)) = earlier.filter(|_| cases.iter().all(covered)) {
@@ -94,8 +98,23 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Whether what a line of `reward` waits for is an event, whose own condition is told.
+    fn waits_for_an_event(&self, checked: &Task, place: usize) -> bool {
+        let lines = checked.written.reward.iter().zip(&checked.reward);
+        let mut own = lines.filter(|(of, _)| **of == place);
+        own.all(|(_, line)| self.is_single_event(line.event))
+    }
+
+    /// Whether an expression asks for an event that is not one of a family.
+    fn is_single_event(&self, id: ExprId) -> bool {
+        match self.program.pool.get(id) {
+            Expr::Event(event) => self.program.events[event].name.arguments.is_empty(),
+            _ => false,
+        }
+    }
+
     /// A line of `end on`, by its place among them.
-    fn end_without_value(&mut self, event: &'a Expr, place: usize, checked: &Task) {
+    fn end_without_value(&mut self, event: &'a ast::Expr, place: usize, checked: &Task) {
         let members = checked.written.end_on.iter().zip(&checked.end_on);
         let members = members.filter(|(of, _)| **of == place);
         let ends: Vec<Cases> = members
@@ -105,6 +124,11 @@ impl<'a> Checker<'a> {
             return;
         }
         if ends.iter().all(Cases::is_never) {
+            let all = checked.end_on.iter().zip(&checked.written.end_on);
+            let mut own = all.filter(|(_, of)| **of == place).map(|(end, _)| *end);
+            if own.all(|end| self.is_single_event(end)) {
+                return;
+            }
             self.warning(Code::W0509, event.span, "no episode ends on this")
                 .label("this never happens");
             return;
@@ -144,6 +168,21 @@ impl<'a> Checker<'a> {
                 .label("nothing counts less for being late")
                 .note("no event ends an episode, and the learner does not know of the limit of its ticks")
                 .help("let it be less than 1, such as `0.95 per decision`, or say `objective = average per 1 s` with `method = model`");
+        }
+    }
+
+    /// A rate of 0: no update changes anything.
+    fn learns_nothing(&mut self, learn: &'a ast::Learn) {
+        let rate = self.learner(learn).map(|learner| learner.rate);
+        let rate = rate.and_then(|rate| self.program.pool.constant(rate));
+        if let Some(setting) = setting(learn, "rate").filter(|_| rate == Some(0.0)) {
+            self.warning(
+                Code::W0517,
+                setting.value.span,
+                "at this rate nothing is learned",
+            )
+            .label("no update changes what was known before")
+            .help("write a rate above 0, such as `0.1` or `visits^-0.7`");
         }
     }
 

@@ -5,6 +5,7 @@
 
 use super::cases::{Cases, of_guard};
 use super::endings::may_end;
+use super::idle::is_switch;
 use crate::check::Checker;
 use crate::diagnostic::Code;
 use crate::ir::tree::{Composite, Decorator, Guard, Node, Status};
@@ -14,21 +15,23 @@ use crate::syntax::ast::{self, ExprKind, Item, ItemKind, NodeKind};
 
 impl<'a> Checker<'a> {
     /// Warns of nodes that are never reached and of guards that always or never hold.
-    pub fn nodes_without_effect(&mut self, items: impl Iterator<Item = &'a Item>) {
-        for item in items {
+    pub fn nodes_without_effect(&mut self, items: impl Iterator<Item = &'a Item> + Clone) {
+        for item in items.clone() {
             let ItemKind::Tree(tree) = &item.kind else {
                 continue;
             };
             let name = Name::word(&tree.name.name);
             let built = self.program.trees.values().find(|tree| tree.name == name);
             if let Some(root) = built.map(|built| built.root.clone()) {
-                self.nodes_of(&tree.root, &root, &Cases::constant(true));
+                let always = Cases::constant(true);
+                self.drives_nothing(tree, &root, items.clone());
+                self.nodes_of(&tree.root, &root, &always, &always);
             }
         }
     }
 
-    /// `reached` says when the node may be reached.
-    fn nodes_of(&mut self, written: &'a ast::Node, node: &Node, reached: &Cases) {
+    /// `reached` says when the node may be reached, `held` what has been asked by then.
+    fn nodes_of(&mut self, written: &'a ast::Node, node: &Node, reached: &Cases, held: &Cases) {
         match (&written.kind, node) {
             (NodeKind::Guarded { guard, node: inner }, Node::Composite { children, .. }) => {
                 let [Node::Condition(asked), node] = children.as_slice() else {
@@ -43,17 +46,20 @@ impl<'a> Checker<'a> {
                         .label("what comes before it takes every case in which this holds");
                     return;
                 }
-                self.nodes_of(inner, node, &within);
+                self.asked_already(guard, asked, held);
+                let held = held.and(&of_guard(&self.program, asked, true));
+                self.nodes_of(inner, node, &within, &held);
             }
             (NodeKind::Leaf(expr), Node::Condition(asked)) => {
                 let literal = matches!(expr.kind, ExprKind::Bool(_));
-                if !literal {
-                    self.asks_nothing(expr, asked);
+                if !literal && !self.asks_nothing(expr, asked) {
+                    self.asked_already(expr, asked, held);
                 }
             }
-            (NodeKind::Composite { children, .. }, Node::Decorator { child, .. }) => {
+            (NodeKind::Composite { word, children, .. }, Node::Decorator { kind, child }) => {
                 if let [only] = children.as_slice() {
-                    self.nodes_of(only, child, reached);
+                    self.decorates_nothing(word.span, *kind, child);
+                    self.nodes_of(only, child, reached, held);
                 }
             }
             (
@@ -63,7 +69,7 @@ impl<'a> Checker<'a> {
                 },
             ) => {
                 for (written, node) in children.iter().zip(nodes) {
-                    self.nodes_of(written, node, reached);
+                    self.nodes_of(written, node, reached, held);
                 }
             }
             (
@@ -73,22 +79,21 @@ impl<'a> Checker<'a> {
                     memory,
                     children: nodes,
                 },
-            ) => self.children_of(children, nodes, *kind, *memory, reached),
+            ) => self.children_of((children, nodes), *kind, *memory, (reached, held)),
             _ => {}
         }
     }
 
     fn children_of(
         &mut self,
-        written: &'a [ast::Node],
-        nodes: &[Node],
+        (written, nodes): (&'a [ast::Node], &[Node]),
         kind: Composite,
         memory: bool,
-        reached: &Cases,
+        (reached, held): (&Cases, &Cases),
     ) {
-        let mut open = reached.clone();
+        let (mut open, mut held) = (reached.clone(), held.clone());
         let mut shut: Option<Span> = None;
-        for (child, node) in written.iter().zip(nodes) {
+        for (at, (child, node)) in written.iter().zip(nodes).enumerate() {
             if open.is_never() {
                 let (message, label) = match kind {
                     Composite::Selector => ("this is never reached", "this never fails"),
@@ -104,16 +109,20 @@ impl<'a> Checker<'a> {
                 return;
             }
             // Whoever writes `false` has the rest switched off on purpose.
-            if matches!(&child.kind, NodeKind::Leaf(leaf) if matches!(leaf.kind, ExprKind::Bool(_)))
-            {
+            if is_switch(child) {
                 return;
             }
-            self.nodes_of(child, node, &open);
+            if memory || !self.stands_twice(written, nodes, at) {
+                self.nodes_of(child, node, &open, &held);
+            }
             let status = match kind {
                 Composite::Selector => Status::Failure,
                 Composite::Sequence => Status::Success,
             };
             let passes = when(&self.program, node, status);
+            if kind == Composite::Sequence && !memory {
+                held = held.and(&passes);
+            }
             let next = match (memory, passes.is_never()) {
                 (false, _) => open.and(&passes),
                 // A child of a memory node may have ended in an earlier tick.
@@ -137,7 +146,7 @@ impl<'a> Checker<'a> {
         };
         // A predicate that is constant by its definition has its warning there.
         let plain = matches!(&written.kind, ExprKind::Ref(_));
-        if !plain {
+        if !plain && !self.says_one_thing_twice(written.span) {
             self.warning(
                 Code::W0601,
                 written.span,
@@ -150,7 +159,7 @@ impl<'a> Checker<'a> {
 }
 
 /// When a node may answer with success, or with failure.
-fn when(program: &Program, node: &Node, status: Status) -> Cases {
+pub fn when(program: &Program, node: &Node, status: Status) -> Cases {
     let fails = status == Status::Failure;
     let possible = |possible| match possible {
         true => Cases::Unknown,

@@ -5,7 +5,7 @@ use crate::check::{Checker, Input};
 use crate::diagnostic::Code;
 use crate::spelling::spelled;
 use crate::syntax::ast::{
-    BehaviorBody, Ident, Item, ItemKind, RobotEntryKind, World, WorldEntryKind,
+    BehaviorBody, Ident, Item, ItemKind, RobotEntryKind, State, World, WorldEntryKind,
 };
 
 impl<'a> Checker<'a> {
@@ -26,17 +26,25 @@ impl<'a> Checker<'a> {
             mentions
         };
         let (own, library) = (mentions(false), mentions(true));
+        let is_task = |item: &Item| matches!(item.kind, ItemKind::Task(_));
+        let tasked = main.ast.items.iter().any(is_task);
         for item in &main.ast.items {
             match &item.kind {
                 ItemKind::World(world) => self.unused_in_world(world, &own, &library),
-                _ => self.unused_item(item, &own),
+                _ => self.unused_item(item, &own, tasked),
             }
         }
     }
 
-    fn unused_item(&mut self, item: &'a Item, mentions: &Mentions) {
+    /// `tasked` says whether the file sets a task: without one nothing happens that could set a state.
+    fn unused_item(&mut self, item: &'a Item, mentions: &Mentions, tasked: bool) {
         match &item.kind {
-            ItemKind::State(state) => self.unused_state(&state.name, mentions),
+            ItemKind::State(state) => {
+                self.unused_state(&state.name, mentions);
+                if tasked {
+                    self.unset_state(state, mentions);
+                }
+            }
             ItemKind::Event(event) => {
                 let help = "reward it, end the episode on it or let it have an effect";
                 self.unused(&event.name, "event", help, mentions);
@@ -116,6 +124,34 @@ impl<'a> Checker<'a> {
         } else {
             self.unused(name, "state", "read it", mentions);
         }
+    }
+
+    /// A state that something reads and nothing sets. A family may be a table of what its members are.
+    fn unset_state(&mut self, state: &'a State, mentions: &Mentions) {
+        let name = &state.name;
+        let set = mentions.set.contains(name.name.as_str());
+        let params = state.params.iter().flat_map(|params| &params.params);
+        let is_table = params.clone().any(|param| {
+            let mut of = Mentions::default();
+            of.expr(&state.value);
+            mentioned(&param.name, &of)
+        });
+        if set || is_table || !mentioned(name, mentions) || name.name.starts_with('_') {
+            return;
+        }
+        let shown = quoted(&spelled(&name.name));
+        let draft = self
+            .warning(
+                Code::W0205,
+                name.span,
+                format!("nothing ever sets the state {shown}"),
+            )
+            .label("it stays as it is declared here");
+        match params.count() {
+            0 => draft.help("set it in an effect, or name a constant by `let`"),
+            _ => draft.help("set it in an effect or in `start`"),
+        }
+        .emit();
     }
 }
 

@@ -196,7 +196,18 @@ impl<'a> Collector<'_, 'a> {
             | (Some(TypeDecl::WallKind(first)), TypeDecl::WallKind(name)) => {
                 self.meanings.mean(name, Meaning::Declared(first.span));
             }
-            _ => self.type_name(decl),
+            (Some(first), _) => {
+                let (first, what) = (first.ident().span, first.what());
+                let name = decl.ident();
+                let message = format!("`{}` is {what}, not {}", name.name, decl.what());
+                self.meanings.declare(name, Entity::Kind);
+                self.error(Code::E0201, name, message)
+                    .label("a kind is of places, or of walls, and is no enum")
+                    .also(first, format!("{what}, from here on"))
+                    .help("give one of them a kind of its own");
+                self.names.lose(&name.name);
+            }
+            (None, _) => self.type_name(decl),
         }
     }
 

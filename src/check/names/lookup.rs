@@ -127,6 +127,8 @@ impl<'a> Checker<'a> {
         }
         let place = self.names.value(&name.name, false);
         let place = place.filter(|(decl, _)| matches!(decl, Decl::Place(..) | Decl::Wall(..)));
+        // A kind of targets is no misspelt name.
+        let likely = likely.filter(|_| !matches!(name.name.as_str(), "place" | "wall"));
         let hint = match (likely, place) {
             (Some(_), _) => None,
             (None, Some((decl, _))) if what == "type" => Some(format!(
@@ -211,6 +213,21 @@ fn hint(name: &str, what: &str) -> Option<String> {
     Some(match name {
         "self" | "this" | "me" | "robot" => {
             "the robot at hand is never named: `distance(p)` is read from where it is".to_owned()
+        }
+        "place" | "wall" if what.starts_with("state") => {
+            format!("one of them is called by its name, and all of them are `x in {name}`")
+        }
+        "at" | "reached" | "arrived" if what.starts_with("function") => {
+            "whether the robot is in a place: `inside(PLACE)`".to_owned()
+        }
+        "near" | "close" | "close_to" | "is_near" if what.starts_with("function") => {
+            "how far something is: `distance(PLACE) < 50 cm`".to_owned()
+        }
+        "see" | "can_see" | "detect" | "detected" if what.starts_with("function") => {
+            "whether something is in sight: `visible(PLACE)`".to_owned()
+        }
+        "sum" | "average" | "mean" if what.starts_with("function") => {
+            "members are counted, `count(x in KIND: …)`; a sum is written out".to_owned()
         }
         "pi" | "PI" => "half a turn is `180 deg`".to_owned(),
         "speed" | "turn" | "velocity" if what == "variable" => {

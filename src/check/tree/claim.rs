@@ -18,6 +18,10 @@ impl<'a> Checker<'a> {
         let tree = self.tree_ref(&claim.tree);
         let kind = match &claim.what {
             ClaimWhat::Equals(other) => {
+                if other.name == claim.tree.name {
+                    self.warning(Code::W0303, other.span, "a tree is equal to itself")
+                        .label("the same as on the left");
+                }
                 let other = self.tree_ref(other);
                 self.no_terms(claim);
                 other.map(ClaimKind::Equals)

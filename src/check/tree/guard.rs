@@ -5,7 +5,7 @@ use crate::check::expr::plain_ref;
 use crate::check::lint::Asked;
 use crate::check::names::{Decl, is_built_in};
 use crate::check::types::Type;
-use crate::diagnostic::Code;
+use crate::diagnostic::{Applicability, Code};
 use crate::ir::tree::{Atom, Guard};
 use crate::source::Span;
 use crate::spelling::spelled;
@@ -24,11 +24,36 @@ impl<'a> Checker<'a> {
             ExprKind::Binary { op, left, right }
                 if matches!(op.node, BinaryOp::And | BinaryOp::Or) =>
             {
+                self.same_operands(*op, left, right);
                 let (left, right) = (self.guard(left), self.guard(right));
                 Some(joined(op.node == BinaryOp::And, left?, right?))
             }
             ExprKind::Ref(reference) => self.atom(reference).map(Guard::Atom),
             ExprKind::Error => None,
+            ExprKind::Binary { op, left, right }
+                if matches!(op.node, BinaryOp::Eq | BinaryOp::Ne)
+                    && let ExprKind::Bool(value) = right.kind
+                    && let ExprKind::Ref(asked) = &left.kind
+                    && matches!(
+                        self.names.value(&asked.name.name, false),
+                        Some((Decl::Predicate(_), _))
+                    ) =>
+            {
+                let asked = print::expr(left);
+                let right = match value == (op.node == BinaryOp::Eq) {
+                    true => asked,
+                    false => format!("not {asked}"),
+                };
+                self.error(Code::E0601, expr.span, "a guard asks predicates by name")
+                    .label("a predicate holds or does not, without a comparison")
+                    .fix(
+                        format!("write `{right}`"),
+                        expr.span,
+                        right,
+                        Applicability::Unsafe,
+                    )
+                    .none()
+            }
             ExprKind::Binary { op, .. } if op.node <= BinaryOp::Ge => {
                 let help = format!("give it one: {}", declaration(expr));
                 self.no_predicate(expr.span, "this comparison has none", Some(help))
@@ -107,6 +132,18 @@ impl<'a> Checker<'a> {
                 let (called, of) = (spelled(name), &of.name.name);
                 format!("ask a state of the enum `{of}`: `predicate NAME = STATE is {called}`")
             }
+            None if matches!(name, "success" | "failure") => {
+                let history = match name {
+                    "success" => "done",
+                    _ => "failed",
+                };
+                format!(
+                    "the history says what has ended: `{history}(…)`, with `history last 1 {name}` in the task"
+                )
+            }
+            None if name == "running" => {
+                "what runs goes on when it is reached again: no guard asks for it".to_owned()
+            }
             None if matches!(name, "done" | "failed") => {
                 "what has ended is observed by `history last 1 success, failure`".to_owned()
             }
@@ -160,9 +197,7 @@ impl<'a> Checker<'a> {
 }
 
 /// What is built in and holds or does not.
-const TRUTHS: [&str; 8] = [
-    "visible", "inside", "touching", "any", "all", "success", "failure", "running",
-];
+const TRUTHS: [&str; 5] = ["visible", "inside", "touching", "any", "all"];
 
 /// A reference as an expression.
 fn called(reference: &Ref) -> Expr {

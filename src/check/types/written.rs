@@ -90,6 +90,10 @@ impl<'a> Checker<'a> {
             self.is_built_in(name);
             return ty.clone();
         }
+        // Of two kinds of one name nobody knows which is meant.
+        if self.names.is_lost(&name.name) {
+            return Type::Error;
+        }
         let found = self.names.types.get(name.name.as_str()).copied();
         if let Some(decl) = found {
             self.stands_for(name, decl.ident().span);

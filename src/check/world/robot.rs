@@ -15,6 +15,8 @@ impl<'a> Checker<'a> {
     /// The robot that learns, and those that run trees of their own.
     pub fn robots(&mut self, world: &'a ast::World) {
         let mut acting: Option<&'a ast::Ident> = None;
+        // Whether one of its entries is not understood: it may say what that robot runs.
+        let mut unsure = false;
         for entry in &world.entries {
             let WorldEntryKind::Robot { name, entries } = &entry.kind else {
                 continue;
@@ -44,12 +46,16 @@ impl<'a> Checker<'a> {
                 continue;
             }
             if let Some(first) = acting {
+                if unsure {
+                    continue;
+                }
                 self.error(Code::E0408, name.span, "one robot learns")
                     .label("a second robot without `runs`")
                     .also(first.span, "the first is declared here");
                 continue;
             }
             acting = Some(name);
+            unsure = odd;
             if let Some(robot) = self.robot(name, entries)
                 && let Some(world) = &mut self.program.world
             {

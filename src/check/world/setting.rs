@@ -99,6 +99,9 @@ impl<'a> Checker<'a> {
                         _ => None,
                     };
                     self.names.lose(called);
+                    // What it was to be called, nobody knows.
+                    self.names.lost_values |=
+                        matches!(called.as_str(), "wall" | "place" | "robot" | "sensor");
                     self.unknown_to(owner, Code::E0403, name, "field", &known)
                         .help_if(form);
                 }

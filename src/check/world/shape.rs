@@ -26,6 +26,11 @@ impl<'a> Checker<'a> {
                 let [center, radius] = values.as_slice() else {
                     return None;
                 };
+                let length = matches!(center.kind, ExprKind::Number(_));
+                if length && matches!(radius.kind, ExprKind::Point(..)) {
+                    self.the_other_way_around(center, radius);
+                    return None;
+                }
                 let center = self.constant_point(center);
                 let radius = self.radius(radius)?;
                 Some(Shape::Disc {

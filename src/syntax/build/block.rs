@@ -241,6 +241,44 @@ impl<'i> Builder<'i> {
             self.report(diagnostic);
             return;
         }
+        let mark = Span::new(self.file, at.range().start, at.range().start + 2);
+        let written = self.slice(mark);
+        if let Some(right) = step_by_one(name, written).filter(|_| same_line) {
+            let message = format!("`{written}` is no operator here");
+            let whole = span.to(mark);
+            self.failed_at = Some(mark.range().end);
+            self.report(
+                Diagnostic::new(Code::E0110, mark, message)
+                    .label(format!("write `{right}`"))
+                    .fix(
+                        format!("write `{right}`"),
+                        whole,
+                        right,
+                        Applicability::Unsafe,
+                    ),
+            );
+            return;
+        }
+        let spare = [
+            "set", "return", "then", "do", "call", "run", "assign", "begin",
+        ];
+        let word = found.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+        if same_line && spare.contains(&name) && word && !found.is_empty() {
+            let diagnostic = Diagnostic::new(
+                Code::E0123,
+                span,
+                format!("`{name}` does not begin a statement"),
+            )
+            .label("this is not said here")
+            .fix(
+                format!("drop `{name}`"),
+                span.to(at.before()),
+                "",
+                Applicability::Unsafe,
+            );
+            self.report(diagnostic);
+            return;
+        }
         let diagnostic = if same_line && !matches!(found, "}" | "") {
             Diagnostic::new(
                 Code::E0101,
@@ -259,5 +297,14 @@ impl<'i> Builder<'i> {
         self.report(diagnostic.help(format!(
             "a call is written `{name}(…)`, an assignment `{name} = …`"
         )));
+    }
+}
+
+/// The assignment for `x++`, `x--`.
+fn step_by_one(name: &str, mark: &str) -> Option<String> {
+    match mark {
+        "++" => Some(format!("{name} += 1")),
+        "--" => Some(format!("{name} -= 1")),
+        _ => None,
     }
 }

@@ -8,9 +8,22 @@ use crate::syntax::diagnose::no_such_unit;
 use crate::syntax::grammar::{Node, Parts, Rule};
 use crate::syntax::tokens::Kind;
 
+/// The functions that range over a kind.
+const RANGING: [&str; 4] = ["any", "all", "count", "nearest"];
+
+/// What comes next of a range whose `..` is another word.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Range {
+    Word,
+    End,
+}
+
 impl<'i> Builder<'i> {
     pub(super) fn name_or_call(&mut self, node: Node<'i>) -> ExprKind {
         let call = self.reference(node);
+        if std::mem::take(&mut self.unbound) {
+            return ExprKind::Error;
+        }
         let right = match call.name.name.as_str() {
             "True" | "TRUE" => "true",
             "False" | "FALSE" => "false",
@@ -42,7 +55,11 @@ impl<'i> Builder<'i> {
             if let Some(written) = written.as_ref() {
                 self.touching(written, &args);
             }
-            self.args(args)
+            let ranges = RANGING.contains(&name.name.as_str());
+            let outer = std::mem::replace(&mut self.ranging, ranges);
+            let args = self.args(args);
+            self.ranging = outer;
+            args
         });
         Ref { name, args, span }
     }
@@ -68,7 +85,32 @@ impl<'i> Builder<'i> {
     pub(super) fn args(&mut self, node: Node<'i>) -> Vec<Arg> {
         let mut args: Vec<Arg> = Vec::new();
         let mut is_unit = false;
+        let mut range = None;
         for part in Parts::of(node) {
+            match (part.as_rule(), range) {
+                // The word that was to be `..`, then the end of the range.
+                (Rule::arg, Some(Range::Word)) => range = Some(Range::End),
+                (Rule::arg, Some(Range::End)) => {
+                    range = None;
+                    let end = self.arg(part);
+                    if let (Some(Arg { kind, .. }), ArgKind::Positional(high)) =
+                        (args.last_mut(), end.kind)
+                        && let ArgKind::Positional(low) = kind
+                    {
+                        *kind = ArgKind::Range(low.clone(), high);
+                    }
+                    continue;
+                }
+                (Rule::missing_arg_comma, Some(_)) => continue,
+                (Rule::missing_arg_comma, None) if self.range_is_meant(&part) => {
+                    range = Some(Range::Word);
+                    continue;
+                }
+                _ => {}
+            }
+            if range == Some(Range::End) {
+                continue;
+            }
             match part.as_rule() {
                 // What was to be a unit is no argument.
                 Rule::arg if std::mem::take(&mut is_unit) => {
@@ -90,6 +132,20 @@ impl<'i> Builder<'i> {
             }
         }
         args
+    }
+
+    /// Reports `to` between the ends of a range.
+    fn range_is_meant(&mut self, node: &Node<'i>) -> bool {
+        let Some(word) = self.token_at(node.as_span().start()) else {
+            return false;
+        };
+        let is_to = word.of(self.text) == "to";
+        if is_to {
+            let span = Span::new(self.file, word.start, word.end);
+            let message = "a range is written with `..`, not with `to`".to_owned();
+            self.respell(Code::E0127, span, message, "..");
+        }
+        is_to
     }
 
     /// Reports a word that follows a number as no unit, rather than as an argument of its own.
@@ -158,9 +214,25 @@ impl<'i> Builder<'i> {
     fn named(&mut self, node: Node<'i>) -> ArgKind {
         let mut parts = Parts::of(node);
         let name = self.take_name(&mut parts);
-        if let Some(sign) = parts.maybe(Rule::named_is)
-            && sign.as_str() == ":"
-        {
+        let sign = parts.maybe(Rule::named_is);
+        let colon = sign.filter(|sign| sign.as_str() == ":");
+        if let (Some(sign), true) = (&colon, self.ranging) {
+            self.unbound = true;
+            let mark = self.span(sign);
+            let right = format!("x in {}", name.name);
+            let message = "what ranges over a kind binds a name: `x in KIND: …`";
+            self.report(
+                Diagnostic::new(Code::E0127, name.span.to(mark), message)
+                    .label(format!("write `{right}:`"))
+                    .help(format!("each `{}` behind it is called `x` then", name.name))
+                    .fix(
+                        format!("write `{right}`"),
+                        name.span,
+                        right,
+                        Applicability::Unsafe,
+                    ),
+            );
+        } else if let Some(sign) = colon {
             let span = self.span(&sign);
             let diagnostic = Diagnostic::new(
                 Code::E0127,

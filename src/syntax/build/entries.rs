@@ -293,6 +293,10 @@ impl<'i> Builder<'i> {
         let comma = before.map_or(place.before(), Span::after);
         let message = format!("a comma is missing before `{}`", self.slice(place));
         let name = before.map(|before| self.slice(before));
+        // What a quote that is not closed has taken is reported there.
+        if name.is_some_and(|name| name.starts_with('`') && !name.ends_with('`')) {
+            return;
+        }
         if let (Some(name), Some(before)) = (name, before)
             && what != HISTORY
             && self.missing_brackets(name, before, place)

@@ -295,6 +295,9 @@ impl<'i> Builder<'i> {
     pub(super) fn wrong_field(&mut self, of: Expr, node: Node<'i>) -> Expr {
         let place = self.span(&node);
         let span = of.span.to(place);
+        if matches!(of.kind, ExprKind::Error) {
+            return self.error_expr(span);
+        }
         let mark = if node.as_str().starts_with("::") {
             "::"
         } else {
@@ -324,7 +327,8 @@ impl<'i> Builder<'i> {
             "facing",
         ];
         let ends = ["success", "failure", "running"];
-        let right = if reads.contains(&name) || ends.contains(&name) || is_call {
+        let called = reads.contains(&name) || ends.contains(&name) || is_call;
+        let right = if called || self.declares_family(name) {
             format!("{name}({owner})")
         } else if matches!(name, "position" | "pose") && !matches!(owner, "robot" | "self" | "this")
         {

@@ -114,7 +114,10 @@ impl Builder<'_> {
             names.extend(code.iter().filter(is_name));
         }
         // However it is said, what brings the library brings names.
-        let mut unnamed = first == Some("use") || code.iter().any(|token| word(token) == "std");
+        let mut unnamed = first == Some("use")
+            || code
+                .iter()
+                .any(|token| word(token).trim_matches('"') == "std");
         for pair in code.windows(2) {
             if let [declares, name] = pair
                 && DECLARING.contains(&word(declares))
@@ -124,6 +127,15 @@ impl Builder<'_> {
             }
         }
         let world = code.iter().any(|token| IN_WORLDS.contains(&word(token)));
+        // The kinds of places and walls stand behind their names.
+        for pair in code.windows(2).filter(|_| world) {
+            if let [colon, kind] = pair
+                && word(colon) == ":"
+                && self.is_name(kind)
+            {
+                names.push(kind);
+            }
+        }
         let names: Vec<String> = names.into_iter().map(|token| self.bare(token)).collect();
         self.lost.names.extend(names);
         self.lost.unnamed |= unnamed;

@@ -246,6 +246,19 @@ impl<'i> Builder<'i> {
                         && matches!(spelling(index + 1), "}" | ","))
         })
     }
+
+    /// Whether the file declares a family of that name.
+    pub(super) fn declares_family(&self, name: &str) -> bool {
+        let families = ["state", "event", "predicate", "let"];
+        self.tokens.windows(3).any(|three| match three {
+            [word, of, open] => {
+                families.contains(&word.of(self.text))
+                    && of.of(self.text) == name
+                    && open.of(self.text) == "("
+            }
+            _ => false,
+        })
+    }
 }
 
 /// The unit in a text that is not of a program, such as `m/s`; `None` if it cannot be one.

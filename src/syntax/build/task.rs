@@ -86,6 +86,10 @@ impl<'i> Builder<'i> {
                     let before = exprs.last().map(|expr| expr.span);
                     self.missing_comma(&part, before, "the entries of a list");
                 }
+                Rule::stray_mark => {
+                    let span = self.span(&part);
+                    self.stray_mark(span);
+                }
                 Rule::list_item => exprs.push(self.take_expr(&mut Parts::of(part))),
                 _ => {}
             }

@@ -6,7 +6,7 @@ use crate::diagnostic::{Applicability, Diagnostic};
 use crate::spelling::RESERVED;
 use crate::syntax::grammar::Rule;
 use crate::syntax::tokens::{Kind, Token};
-use crate::syntax::words::CALLED;
+use crate::syntax::words::{CALLED, NODES};
 
 impl Place<'_> {
     /// Advice on a token that does not fit.
@@ -49,7 +49,47 @@ impl Place<'_> {
                 Applicability::Safe,
             );
         }
+        if let Some((title, right)) = self.respelled() {
+            return diagnostic.fix(title, self.span(), right, Applicability::Unsafe);
+        }
         let help = match (self.failure.strict, found) {
+            _ if self.is_node_without_braces() => {
+                "the children of a node stand in braces: `selector { …, … }`"
+            }
+            (Rule::strict_item, "{") if self.before() == "=" && self.expects(Rule::node) => {
+                "braces belong to the word of a node: `selector { … }`, `sequence { … }`"
+            }
+            (_, "{") if self.before() == "*" => {
+                "a node that goes on where it was is a `memory sequence { … }`"
+            }
+            (_, "else") if self.after_found() == "=>" => {
+                "what is done else is the last child of a `selector`, without a guard"
+            }
+            (_, "by") => "the robot stands among the arguments: `success(BEHAVIOR, by = ROBOT)`",
+            (Rule::strict_world_entry, "runs") => {
+                "what a robot runs is one of its entries: `runs = TREE`"
+            }
+            (_, ",") if self.is_third_coordinate() => {
+                "a point has two coordinates; where a robot looks is said by `heading = …`"
+            }
+            (_, "<" | "<=" | ">" | ">=" | "==" | "!=") if matches!(self.before(), "and" | "or") => {
+                "each comparison says what it compares: `x > 1 and x < 2`"
+            }
+            (Rule::strict_aspect, "when" | "if") if self.before() == "end" => {
+                "an episode ends on an event: `event NAME = CONDITION`, then `end on NAME`"
+            }
+            (Rule::strict_test_entry, "=" | "==") => {
+                "a predicate is said to hold by its name: `given low`, `given not low`"
+            }
+            (Rule::strict_reward, "-=" | "+=" | "*=") => {
+                "a line of `reward` says a number, which is added: `on EVENT: -5`"
+            }
+            (_, "[") if wants_value && self.failure.strict != Rule::strict_aspect => {
+                "there are no lists: a point is written `(1 m, 2 m)`"
+            }
+            (_, _) if self.is_binder_without_parentheses() => {
+                "what ranges over a kind stands in parentheses: `any(x in KIND: …)`"
+            }
             (_, "[") if self.expects(Rule::children) => "the children of a node stand in braces",
             (_, "[") if self.expects(Rule::open_paren) => "arguments stand in parentheses",
             (_, "..") => "a value from a range is drawn by `uniform(low, high)`",
@@ -82,6 +122,47 @@ impl Place<'_> {
         diagnostic.help(help)
     }
 
+    /// What is written in place of the token.
+    fn respelled(&self) -> Option<(&'static str, &'static str)> {
+        match (self.failure.strict, self.found()) {
+            (Rule::strict_child | Rule::strict_item, ":") if self.expects(Rule::guards) => {
+                Some(("a guard is followed by `=>`", "=>"))
+            }
+            (Rule::strict_child | Rule::strict_item, ";") if self.expects(Rule::comma) => {
+                Some(("the children of a node are parted by commas", ","))
+            }
+            _ => None,
+        }
+    }
+
+    /// Whether the token stands in parentheses or brackets that the word of a node opens.
+    fn is_node_without_braces(&self) -> bool {
+        let of_node = |at: usize| {
+            let index = self.tokens.partition_point(|token| token.end <= at);
+            let word = index
+                .checked_sub(1)
+                .and_then(|index| self.tokens.get(index));
+            word.is_some_and(|word| NODES.iter().any(|(node, _)| *node == word.of(self.text)))
+        };
+        match self.found() {
+            "=>" => self.open_paren().is_some_and(|open| of_node(open.start)),
+            "[" => of_node(self.found.start),
+            _ => false,
+        }
+    }
+
+    /// Whether the token parts a third value from the two of a point.
+    fn is_third_coordinate(&self) -> bool {
+        let is_point = !self.expects(Rule::comma);
+        is_point && self.open_paren().is_some()
+    }
+
+    /// Whether the token follows `any` or one of its relatives.
+    fn is_binder_without_parentheses(&self) -> bool {
+        let ranges = ["any", "all", "count", "nearest"];
+        ranges.contains(&self.before()) && is_word(self.found) && self.same_line_as_before()
+    }
+
     /// Advice on names with marks in them, and on calls without parentheses.
     fn advised_on_names(&self, diagnostic: Diagnostic) -> Diagnostic {
         let (Some(before), Some(next)) = (self.before.filter(|token| is_word(*token)), self.next())
@@ -92,6 +173,9 @@ impl Place<'_> {
         let touching = before.end == self.found.start && self.found.end == next.start;
         if matches!(found, "-" | "." | "/" | "'") && touching && is_word(next) {
             let (left, right) = (self.before(), next.of(self.text));
+            if left == "std" {
+                return diagnostic.help("the library is used as a whole: `use std`");
+            }
             return diagnostic.help(format!(
                 "a name is made of letters, digits and `_`: `{left}_{right}`; or it stands in backquotes"
             ));

@@ -48,7 +48,11 @@ impl Place<'_> {
             return Some((last, self.unclosed_by(open)));
         }
         let wanted = self.wanted()?;
-        Some((last, self.after(last, &wanted)))
+        let diagnostic = self.after(last, &wanted);
+        Some(match self.form(&wanted) {
+            Some(form) => (last, diagnostic.help(form)),
+            None => (last, diagnostic),
+        })
     }
 
     /// A line that ends where a value must come, so that the first word of the next entry was read as that value.

@@ -2,6 +2,7 @@
 //! that need none.
 
 use super::Place;
+use super::words::of_kind;
 use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::source::Span;
 use crate::spelling::quoted;
@@ -23,6 +24,20 @@ impl Place<'_> {
             let begins = COMMENTS.into_iter().find(|mark| rest.starts_with(mark))?;
             Some((at, begins))
         })?;
+        let rest = self.text.get(at..).unwrap_or_default();
+        if let Some(word) = ["#include", "#import"]
+            .iter()
+            .find(|word| rest.starts_with(**word))
+        {
+            let span = Span::new(self.file, at, at + word.len());
+            let message = format!("`{word}` does not begin an item");
+            return Some(
+                Diagnostic::new(Code::E0105, span, message)
+                    .label("did you mean `use`?")
+                    .fix("write `use`", span, "use", Applicability::Unsafe)
+                    .note("a program uses `std`, its library, and files: `use \"other.bt\"`"),
+            );
+        }
         let span = Span::new(self.file, at, at + begins.len());
         let diagnostic = Diagnostic::new(
             Code::E0129,
@@ -90,9 +105,7 @@ impl Place<'_> {
             return Some(
                 diagnostic
                     .label("a kind needs no declaration")
-                    .help(format!(
-                        "say it where a place or a wall is of this kind: `place NAME: {kind} = …`"
-                    )),
+                    .help(of_kind(kind)),
             );
         }
         let mut inner = INNER.iter();

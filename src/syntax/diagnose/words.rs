@@ -7,7 +7,7 @@ use crate::spelling::RESERVED;
 use crate::syntax::expected;
 use crate::syntax::grammar::Rule;
 use crate::syntax::tokens::{Kind, Token};
-use crate::syntax::words::{FOREIGN, ITEMS, UNITS};
+use crate::syntax::words::{FOREIGN, ITEMS, KINDS, UNITS};
 
 impl Place<'_> {
     pub(super) fn unit(&self) -> Option<Diagnostic> {
@@ -82,6 +82,23 @@ impl Place<'_> {
         let name = word.of(self.text);
         if !first || !declares || known.contains(&name) || !self.same_line_as_before() {
             return None;
+        }
+        if KINDS.contains(&name) {
+            let kind = self.found();
+            let message = format!("`{name}` does not begin {what}");
+            return Some(
+                Diagnostic::new(Code::E0123, self.span_of(word), message)
+                    .label("a kind needs no declaration")
+                    .help(of_kind(kind)),
+            );
+        }
+        if name == "sensor" {
+            let message = format!("`{name}` does not begin {what}");
+            return Some(
+                Diagnostic::new(Code::E0123, self.span_of(word), message)
+                    .label("this stands in a robot")
+                    .help("put it there: `robot NAME { sensor … }`"),
+            );
         }
         let meant = match name {
             "obstacle" | "block" | "box" | "barrier" | "fence" | "door" | "gate" => Some("wall"),
@@ -204,10 +221,10 @@ impl Place<'_> {
             return None;
         }
         let word = self.found();
-        let mut candidates = if at_item {
-            ITEMS.to_vec()
-        } else {
-            expected::words(&self.failure.expected)
+        let mut candidates = match self.failure.strict {
+            Rule::strict_item => ITEMS.to_vec(),
+            Rule::strict_reward => vec!["on", "otherwise", "per", "while"],
+            _ => expected::words(&self.failure.expected),
         };
         candidates.sort_unstable();
         candidates.dedup();
@@ -219,6 +236,7 @@ impl Place<'_> {
             Rule::strict_clause => (Code::E0123, "a clause of a behaviour"),
             Rule::strict_aspect => (Code::E0123, "an aspect of a task"),
             Rule::strict_reward => (Code::E0123, "a line of `reward`"),
+            Rule::strict_test_entry => (Code::E0123, "a line of a test"),
             _ => return None,
         };
         let after = self.after_found();
@@ -286,6 +304,14 @@ impl Place<'_> {
             format!("`{word}` does not begin {begins}"),
         );
         let listed: Vec<String> = candidates.iter().map(|word| format!("`{word}`")).collect();
+        let control = ["drive", "if", "for"];
+        if self.failure.strict == Rule::strict_clause && control.contains(&word) {
+            return Some(
+                diagnostic
+                    .label("a statement of `control`")
+                    .help(format!("put it there: `control {{ {word} … }}`")),
+            );
+        }
         let diagnostic = match near {
             Some(near) => diagnostic.label(format!("did you mean `{near}`?")).fix(
                 format!("write `{near}`"),
@@ -297,6 +323,11 @@ impl Place<'_> {
         };
         Some(diagnostic.note(format!("{begins} begins with {}", either(&listed))))
     }
+}
+
+/// How a place or a wall is made one of a kind.
+pub(super) fn of_kind(kind: &str) -> String {
+    format!("say it where a place or a wall is of this kind: `place NAME: {kind} = …`")
 }
 
 /// "a, b or c"

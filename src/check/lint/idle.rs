@@ -1,0 +1,139 @@
+//! Nodes that change nothing: decorators around what they do not touch, children that are there already, guards that hold
+//! where they are asked, trees that drive nothing.
+
+use super::cases::{Cases, of_guard};
+use super::mentions::Mentions;
+use super::tree::when;
+use crate::check::Checker;
+use crate::diagnostic::Code;
+use crate::ir::tree::{Decorator, Guard, Node, Status};
+use crate::source::Span;
+use crate::syntax::ast::{self, BinaryOp, Expr, ExprKind, Item, ItemKind, NodeKind, Tree};
+
+impl<'a> Checker<'a> {
+    /// Warns of a decorator that its child gives nothing to do.
+    pub fn decorates_nothing(&mut self, at: Span, kind: Decorator, child: &Node) {
+        let never = |status| when(&self.program, child, status).is_never();
+        let (fails, succeeds) = (!never(Status::Failure), !never(Status::Success));
+        let why = match kind {
+            Decorator::Retry(1) | Decorator::Repeat(1) => "its child is ticked once anyway",
+            Decorator::Invert if !fails && !succeeds => "its child never ends",
+            Decorator::Retry(_) | Decorator::Succeed if !fails => "its child never fails",
+            Decorator::Repeat(_) | Decorator::Fail if !succeeds => "its child never succeeds",
+            Decorator::Timeout(_) if is_instant(child) => "its child answers at once",
+            _ => return,
+        };
+        let message = format!("`{}` changes nothing here", kind.word());
+        self.warning(Code::W0605, at, message).label(why);
+    }
+
+    /// Warns of a child of a node without memory that stands before it already: what has answered once in a tick answers
+    /// the same again.
+    pub fn stands_twice(&mut self, written: &'a [ast::Node], nodes: &[Node], at: usize) -> bool {
+        let Some(node) = nodes.get(at).filter(|node| answers_again(node)) else {
+            return false;
+        };
+        let first = nodes.iter().take(at).position(|other| other == node);
+        let (Some(first), Some(here)) = (first.and_then(|at| written.get(at)), written.get(at))
+        else {
+            return false;
+        };
+        self.warning(Code::W0606, here.span, "this child is there already")
+            .label("it answers as it did before in this tick")
+            .also(first.span, "the same as this one");
+        true
+    }
+
+    /// Warns of a guard, or of a part of one, that what stands around it has asked already.
+    pub fn asked_already(&mut self, written: &'a Expr, guard: &Guard, held: &Cases) {
+        let asked = |guard: &Guard| held.implies(&of_guard(&self.program, guard, true));
+        let mut places = Vec::new();
+        if asked(guard) {
+            places.push(written.span);
+        } else if let Guard::And(parts) = guard {
+            let mut conjuncts = Vec::new();
+            operands(written, &mut conjuncts);
+            if conjuncts.len() == parts.len() {
+                let of = conjuncts.iter().zip(parts);
+                places.extend(of.filter(|(_, part)| asked(part)).map(|(at, _)| at.span));
+            }
+        }
+        for at in places {
+            self.warning(Code::W0604, at, "this holds wherever it is asked")
+                .label("what stands around it, or before it, has asked it already");
+        }
+    }
+
+    /// Warns of a tree that runs no behaviour and is no part of another.
+    pub fn drives_nothing(
+        &mut self,
+        tree: &'a Tree,
+        root: &Node,
+        mut items: impl Iterator<Item = &'a Item>,
+    ) {
+        let uses = |item: &'a Item| {
+            let mut mentions = Mentions::default();
+            if matches!(item.kind, ItemKind::Tree(_)) {
+                mentions.item(item);
+            }
+            mentions.read.contains(tree.name.name.as_str())
+        };
+        if runs_something(root) || items.any(uses) {
+            return;
+        }
+        let message = format!("the tree `{}` runs no behaviour", tree.name.name);
+        self.warning(Code::W0607, tree.name.span, message)
+            .label("it asks, and the robot stands")
+            .help("say what is to be done: `GUARD => BEHAVIOR`");
+    }
+}
+
+fn runs_something(node: &Node) -> bool {
+    let mut runs = false;
+    node.visit_behaviors(&mut |_| runs = true);
+    runs
+}
+
+/// Whether a node never runs.
+fn is_instant(node: &Node) -> bool {
+    let waits = matches!(
+        node,
+        Node::Decorator {
+            kind: Decorator::Retry(_) | Decorator::Repeat(_),
+            ..
+        }
+    );
+    let runs = matches!(node, Node::Behavior(_));
+    !waits && !runs && node.children().iter().all(is_instant)
+}
+
+/// Whether a node that has answered gives the same answer when it is ticked again in the same tick.
+fn answers_again(node: &Node) -> bool {
+    let keeps = match node {
+        Node::Condition(Guard::Const(_)) | Node::Parallel { .. } => true,
+        Node::Composite { memory, .. } => *memory,
+        Node::Decorator { kind, .. } => matches!(
+            kind,
+            Decorator::Retry(_) | Decorator::Repeat(_) | Decorator::Timeout(_)
+        ),
+        Node::Condition(_) | Node::Behavior(_) => false,
+    };
+    !keeps && node.children().iter().all(answers_again)
+}
+
+/// The operands of a conjunction.
+fn operands<'a>(expr: &'a Expr, found: &mut Vec<&'a Expr>) {
+    match &expr.kind {
+        ExprKind::Paren(inner) => operands(inner, found),
+        ExprKind::Binary { op, left, right } if op.node == BinaryOp::And => {
+            operands(left, found);
+            operands(right, found);
+        }
+        _ => found.push(expr),
+    }
+}
+
+/// Whether a node is written as a mere `true` or `false`: whoever writes that has switched something off on purpose.
+pub fn is_switch(node: &ast::Node) -> bool {
+    matches!(&node.kind, NodeKind::Leaf(leaf) if matches!(leaf.kind, ExprKind::Bool(_)))
+}

@@ -1,0 +1,173 @@
+//! Between which numbers an expression is, whatever happens: what its operators and the world leave possible.
+
+use super::interval::Interval;
+use crate::ir::expr::{Binary, Echo, Expr, ExprId, Pose, Unary};
+use crate::ir::input::InputKind;
+use crate::ir::program::ValueKind;
+use crate::ir::world::{Sensor, SensorKind};
+use crate::ir::{Id, Name, Program};
+use crate::math::hypot;
+use std::f64::consts::PI;
+
+/// How many nodes of an expression are looked at.
+const MOST: u32 = 400;
+
+/// An angle in the plane.
+const ANGLE: Interval = Interval::between(-PI, PI);
+
+/// A length.
+const LENGTH: Interval = Interval::between(0.0, f64::INFINITY);
+
+/// How many values an expression can have, if it is a state of an enum or an input that has one of a few.
+pub fn values(program: &Program, id: ExprId) -> Option<usize> {
+    match program.pool.get(id) {
+        Expr::State(state) => match &program.states[state].kind {
+            // A target may be `nowhere` as well.
+            ValueKind::Enum(variants) if is_target(program, variants) => None,
+            ValueKind::Enum(variants) => Some(variants.len()),
+            ValueKind::Bool | ValueKind::Quantity => None,
+        },
+        Expr::Input(input) => match &program.inputs[input].kind {
+            InputKind::Category(values) => Some(values.len()),
+            InputKind::Number { .. } => None,
+        },
+        _ => None,
+    }
+}
+
+/// Whether these are places, walls or robots.
+fn is_target(program: &Program, variants: &[Name]) -> bool {
+    let (Some(world), Some(first)) = (&program.world, variants.first()) else {
+        return false;
+    };
+    let mut places = world.places.values().map(|place| &place.name);
+    let mut walls = world.walls.values().map(|wall| &wall.name);
+    let others = world.others.values().map(|other| &other.robot.name);
+    let mut robots = others.chain([&world.robot.name]);
+    places.any(|name| name == first)
+        || walls.any(|name| name == first)
+        || robots.any(|name| name == first)
+}
+
+/// Between which numbers an expression is.
+pub fn range(program: &Program, id: ExprId) -> Interval {
+    Ranges {
+        program,
+        left: MOST,
+    }
+    .of(id)
+}
+
+struct Ranges<'p> {
+    program: &'p Program,
+    /// How many nodes may still be looked at.
+    left: u32,
+}
+
+impl Ranges<'_> {
+    fn of(&mut self, id: ExprId) -> Interval {
+        let Some(left) = self.left.checked_sub(1) else {
+            return Interval::ALL;
+        };
+        self.left = left;
+        match self.program.pool.get(id) {
+            Expr::Num(value) => hull([value]),
+            Expr::Pose(pose) | Expr::Robot(_, pose) => self.pose(pose),
+            Expr::Elapsed | Expr::Visits => LENGTH,
+            Expr::Progress => Interval::between(0.0, 1.0),
+            Expr::NearestWall(Echo::Distance) | Expr::Wall(_, Echo::Distance) => LENGTH,
+            Expr::Sensor(sensor, Echo::Distance) => self.sensor(sensor),
+            Expr::NearestWall(Echo::Direction)
+            | Expr::Wall(_, Echo::Direction)
+            | Expr::Sensor(_, Echo::Direction) => ANGLE,
+            Expr::Unary(op, a) => self.unary(op, a),
+            Expr::Binary(op, a, b) => self.binary(op, a, b),
+            Expr::Select(_, a, b) => {
+                let ((a, b), (c, d)) = (self.of(a).ends(), self.of(b).ends());
+                hull([a, b, c, d])
+            }
+            _ => Interval::ALL,
+        }
+    }
+
+    /// A robot is within the bounds of the arena.
+    fn pose(&self, pose: Pose) -> Interval {
+        let Some(world) = &self.program.world else {
+            return Interval::ALL;
+        };
+        let ([left, bottom], [right, top]) = world.arena.bounds();
+        match pose {
+            Pose::X => Interval::between(left, right),
+            Pose::Y => Interval::between(bottom, top),
+            Pose::Heading => ANGLE,
+        }
+    }
+
+    /// What a sensor without noise reads.
+    fn sensor(&self, id: Id<Sensor>) -> Interval {
+        let world = self.program.world.as_ref();
+        let sensor = world.map(|world| &world.robot.sensors[id]);
+        match sensor
+            .filter(|sensor| sensor.noise == 0.0)
+            .map(|it| &it.kind)
+        {
+            Some(
+                SensorKind::Scanner { range, .. }
+                | SensorKind::RangeFinder { range, .. }
+                | SensorKind::Beacon { range, .. },
+            ) => Interval::between(0.0, *range),
+            None => Interval::ALL,
+        }
+    }
+
+    fn unary(&mut self, op: Unary, a: ExprId) -> Interval {
+        match op {
+            Unary::Neg => {
+                let (low, high) = self.of(a).ends();
+                hull([-low, -high])
+            }
+            Unary::Abs => {
+                let of = self.of(a);
+                let (low, high) = of.ends();
+                let least = if of.contains(0.0) { 0.0 } else { low.abs() };
+                hull([least, low.abs(), high.abs()])
+            }
+            Unary::Sqrt | Unary::Exp => LENGTH,
+            Unary::Sin | Unary::Cos | Unary::Sign => Interval::between(-1.0, 1.0),
+            Unary::Wrap | Unary::Asin | Unary::Acos | Unary::Atan => ANGLE,
+            _ => Interval::ALL,
+        }
+    }
+
+    fn binary(&mut self, op: Binary, a: ExprId, b: ExprId) -> Interval {
+        if op == Binary::Sub && a == b {
+            return Interval::just(0.0);
+        }
+        if op == Binary::Atan2 {
+            return ANGLE;
+        }
+        let ((a, b), (c, d)) = (self.of(a).ends(), self.of(b).ends());
+        match op {
+            Binary::Add => hull([a + c, b + d]),
+            Binary::Sub => hull([a - d, b - c]),
+            Binary::Mul => hull([a * c, a * d, b * c, b * d]),
+            Binary::Min => hull([a.min(c), b.min(d)]),
+            Binary::Max => hull([a.max(c), b.max(d)]),
+            Binary::Hypot => {
+                let far = |low: f64, high: f64| low.abs().max(high.abs());
+                Interval::between(0.0, hypot(far(a, b), far(c, d)))
+            }
+            _ => Interval::ALL,
+        }
+    }
+}
+
+/// The interval from the least to the greatest of some numbers; every number if one of them is none.
+fn hull<const N: usize>(ends: [f64; N]) -> Interval {
+    if ends.iter().any(|end| end.is_nan()) {
+        return Interval::ALL;
+    }
+    let least = ends.iter().copied().fold(f64::INFINITY, f64::min);
+    let greatest = ends.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    Interval::between(least, greatest)
+}

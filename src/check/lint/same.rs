@@ -1,0 +1,164 @@
+//! Expressions that say one thing twice: `b < b`, `a or b or a`, `x = x`.
+
+use crate::check::Checker;
+use crate::diagnostic::Code;
+use crate::source::Span;
+use crate::syntax::ast::{Arg, ArgKind, BinaryOp, Expr, ExprKind, Literal, Ref, Spanned};
+
+/// The functions whose value is another one each time.
+const DRAWS: [&str; 4] = ["uniform", "normal", "chance", "one_of"];
+
+/// An expression that stands a second time: where it stands first, and what that makes of the whole.
+#[derive(Clone, Debug)]
+pub struct Again {
+    first: Span,
+    message: String,
+    label: &'static str,
+}
+
+impl<'a> Checker<'a> {
+    /// Notes it where the operands of an operator are the same.
+    pub fn same_operands(&mut self, op: Spanned<BinaryOp>, left: &'a Expr, right: &'a Expr) {
+        if self.context.library {
+            return;
+        }
+        if matches!(op.node, BinaryOp::And | BinaryOp::Or) {
+            if let Some(first) = operand_like(op.node, left, right) {
+                let message = format!("one side of `{}` stands on both", op.node.spelling());
+                self.again(right.span, first, message, "asked a second time");
+            }
+            return;
+        }
+        let tells = op.node >= BinaryOp::Eq && op.node <= BinaryOp::Ge
+            || matches!(op.node, BinaryOp::Sub | BinaryOp::Div);
+        if tells && !is_literal(left) && is_like(left, right) {
+            let message = format!("both sides of `{}` are the same", op.node.spelling());
+            self.again(right.span, left.span, message, "the same as on the left");
+        }
+    }
+
+    /// Notes it where both branches of a choice are the same.
+    pub fn same_branches(&mut self, then: &'a Expr, otherwise: &'a Expr) {
+        if !self.context.library && is_like(then, otherwise) {
+            let message = "both branches of this choice are the same".to_owned();
+            self.again(otherwise.span, then.span, message, "whatever holds");
+        }
+    }
+
+    /// Notes it where something is set to itself.
+    pub fn set_to_itself(&mut self, target: &'a Ref, value: &'a Expr) {
+        if let ExprKind::Ref(reference) = &value.kind
+            && !self.context.library
+            && is_same(target, reference)
+        {
+            let message = format!("`{}` is set to itself", target.name.name);
+            self.again(value.span, target.span, message, "it is this already");
+        }
+    }
+
+    fn again(&mut self, second: Span, first: Span, message: String, label: &'static str) {
+        let again = Again {
+            first,
+            message,
+            label,
+        };
+        self.again.insert(second, again);
+    }
+
+    /// Warns of what has been noted.
+    pub fn same_on_both_sides(&mut self) {
+        for (second, again) in std::mem::take(&mut self.again) {
+            self.warning(Code::W0303, second, again.message)
+                .label(again.label)
+                .also(again.first, "the first time");
+        }
+    }
+
+    /// Whether there was a warning of this within a span.
+    pub fn says_one_thing_twice(&self, span: Span) -> bool {
+        let mut found = self.diagnostics.iter();
+        found.any(|found| {
+            let at = found.span();
+            found.code == Code::W0303
+                && at.file == span.file
+                && span.start <= at.start
+                && at.end <= span.end
+        })
+    }
+}
+
+/// The operand of a chain of `and` or of `or` that is like another expression.
+fn operand_like(op: BinaryOp, chain: &Expr, other: &Expr) -> Option<Span> {
+    match &chain.kind {
+        ExprKind::Binary {
+            op: joins,
+            left,
+            right,
+        } if joins.node == op => {
+            operand_like(op, right, other).or_else(|| operand_like(op, left, other))
+        }
+        _ => is_like(chain, other).then_some(chain.span),
+    }
+}
+
+/// Whether two expressions are written alike and have one value.
+fn is_like(a: &Expr, b: &Expr) -> bool {
+    match (&a.kind, &b.kind) {
+        (ExprKind::Paren(a), _) => is_like(a, b),
+        (_, ExprKind::Paren(b)) => is_like(a, b),
+        (ExprKind::Number(a), ExprKind::Number(b)) => {
+            let unit = |of: &Literal| of.unit.as_ref().map(|unit| unit.text.clone());
+            a.value == b.value && unit(a) == unit(b)
+        }
+        (ExprKind::Bool(a), ExprKind::Bool(b)) => a == b,
+        (ExprKind::Ref(a), ExprKind::Ref(b)) => is_same(a, b),
+        (ExprKind::Point(a, b), ExprKind::Point(c, d)) => is_like(a, c) && is_like(b, d),
+        (ExprKind::Coordinate(a, x), ExprKind::Coordinate(b, y)) => x == y && is_like(a, b),
+        (ExprKind::Unary { op: x, operand: a }, ExprKind::Unary { op: y, operand: b }) => {
+            x.node == y.node && is_like(a, b)
+        }
+        (
+            ExprKind::Binary {
+                op: x,
+                left: a,
+                right: b,
+            },
+            ExprKind::Binary {
+                op: y,
+                left: c,
+                right: d,
+            },
+        ) => x.node == y.node && is_like(a, c) && is_like(b, d),
+        _ => false,
+    }
+}
+
+/// Whether two references are written alike and have one value.
+fn is_same(a: &Ref, b: &Ref) -> bool {
+    let draws = DRAWS.contains(&a.name.name.as_str());
+    if draws || a.name.name != b.name.name || a.args.is_some() != b.args.is_some() {
+        return false;
+    }
+    let (a, b) = (
+        a.args.as_deref().unwrap_or_default(),
+        b.args.as_deref().unwrap_or_default(),
+    );
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| is_given(a, b))
+}
+
+fn is_given(a: &Arg, b: &Arg) -> bool {
+    match (&a.kind, &b.kind) {
+        (ArgKind::Positional(a), ArgKind::Positional(b)) => is_like(a, b),
+        (ArgKind::Named(x, a), ArgKind::Named(y, b)) => x.name == y.name && is_like(a, b),
+        _ => false,
+    }
+}
+
+/// Whether an expression is a number, perhaps with a sign.
+fn is_literal(expr: &Expr) -> bool {
+    match &expr.kind {
+        ExprKind::Number(_) | ExprKind::Bool(_) => true,
+        ExprKind::Paren(inner) | ExprKind::Unary { operand: inner, .. } => is_literal(inner),
+        _ => false,
+    }
+}
