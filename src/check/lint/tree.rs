@@ -4,7 +4,6 @@
 //! fails gives way, too, so only what can never fail shuts off what follows it in a selector.
 
 use super::cases::{Cases, of_guard};
-use super::endings::may_end;
 use crate::check::Checker;
 use crate::diagnostic::Code;
 use crate::ir::tree::{Composite, Decorator, Guard, Node, Status};
@@ -158,7 +157,7 @@ fn when(program: &Program, node: &Node, status: Status) -> Cases {
     };
     match node {
         Node::Condition(guard) => of_guard(program, guard, !fails),
-        Node::Behavior(id) => possible(may_end(program, *id, status)),
+        Node::Behavior(id) => possible(program.may_end(*id, status)),
         Node::Composite {
             kind,
             memory,
