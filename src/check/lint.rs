@@ -3,6 +3,7 @@
 //! They err on the side of silence: what they report does not depend on how the program runs.
 
 mod cases;
+mod claims;
 mod endings;
 mod geometry;
 mod mentions;
@@ -36,6 +37,7 @@ impl<'a> Checker<'a> {
         self.predicates_without_effect(items());
         self.rewards_without_effect(items());
         self.nodes_without_effect(items());
+        self.claims_beyond_episodes(items());
         self.world_without_effect(items());
     }
 
