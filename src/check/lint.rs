@@ -4,6 +4,7 @@
 
 mod cases;
 mod choices;
+mod claims;
 mod conditions;
 mod endings;
 mod geometry;
@@ -46,6 +47,7 @@ impl<'a> Checker<'a> {
         self.predicates_without_effect(items());
         self.rewards_without_effect(items());
         self.nodes_without_effect(items());
+        self.claims_beyond_episodes(items());
         self.world_without_effect(items());
     }
 

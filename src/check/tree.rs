@@ -5,6 +5,8 @@ mod guard;
 mod node;
 mod test;
 
+pub use claim::written;
+
 use super::Checker;
 use super::context::Region;
 use super::expr::plain_ref;

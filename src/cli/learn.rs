@@ -237,8 +237,9 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
         tell(line);
     }
     say.all(&loaded.sources, &learned.warnings);
-    let claims =
-        verify::claims_of_learned(&loaded, &learned).map_err(|refused| say.refused(&refused))?;
+    let tree = place.join("learned.bt");
+    let claims = verify::claims_of_learned(&loaded, &learned, &tree.to_string_lossy())
+        .map_err(|refused| say.refused(&refused))?;
     for claim in &claims {
         tell(&claim.text);
     }

@@ -12,11 +12,11 @@ use super::refused::Refused;
 use super::{table as tables, target};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::task::History;
-use crate::ir::tree::{Atom, Node, Tree};
+use crate::ir::tree::{Atom, Node, Status, Tree};
 use crate::ir::{Id, Name};
 use crate::report::verdict::{self, Answer};
 use crate::tree::atoms::atoms;
-use crate::tree::equivalence::{Environment, Side, compare};
+use crate::tree::equivalence::{Environment, Side, compare_onward};
 
 /// The outcome of a proof or a test.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -98,7 +98,9 @@ impl Pair<'_> {
     ) -> Result<Proved, Refused> {
         let program = &self.loaded.program;
         let (left_side, right_side) = (Side::Tree(a), Side::Tree(b));
-        let verdict = compare(left_side, right_side, self.environment).map_err(|unknown| {
+        let may_fail = |behavior| program.may_end(behavior, Status::Failure);
+        let compared = compare_onward(left_side, right_side, self.environment, &may_fail);
+        let (verdict, onward) = compared.map_err(|unknown| {
             let tables = self.loaded.tables.first();
             let end = target::end_of_file(self.loaded);
             let diagnostic = Diagnostic::new(
@@ -112,10 +114,13 @@ impl Pair<'_> {
             .label("named here");
             Refused::program(self.loaded, [diagnostic])
         })?;
-        Ok(Proved {
-            answer: verdict::answer(&self.environment, &verdict),
-            text: verdict::text(program, (left, right), &self.environment, &verdict),
-        })
+        let names = (left, right);
+        let mut text = verdict::text(program, names, &self.environment, &verdict);
+        let answer = verdict::answer(&self.environment, &verdict);
+        if answer == Answer::Holds {
+            text.push_str(&verdict::onward(program, names, &onward));
+        }
+        Ok(Proved { answer, text })
     }
 }
 

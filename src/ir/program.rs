@@ -107,6 +107,20 @@ impl Program {
         }
     }
 
+    /// Whether a behaviour may end so; one that is declared only may.
+    pub fn may_end(&self, behavior: Id<Behavior>, status: Status) -> bool {
+        let Some(law) = &self.behaviors[behavior].law else {
+            return true;
+        };
+        let constant = |id| self.pool.constant(id);
+        match status {
+            Status::Failure => {
+                constant(law.requires) != Some(1.0) || constant(law.fail) != Some(0.0)
+            }
+            _ => constant(law.succeed) != Some(0.0) && constant(law.requires) != Some(0.0),
+        }
+    }
+
     /// The atoms of a task's minterms: its predicates, then `done` and `failed` of its behaviours as its history
     /// window keeps them.
     pub fn atoms(&self, task: Id<Task>) -> Vec<Atom> {

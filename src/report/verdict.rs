@@ -4,7 +4,7 @@ use super::words;
 use crate::ir::law::Behavior;
 use crate::ir::task::History;
 use crate::ir::{Id, Name, Program};
-use crate::tree::equivalence::{Environment, Means, Trace, Verdict};
+use crate::tree::equivalence::{Environment, Means, Onward, Parted, Trace, Verdict};
 use std::fmt::Display;
 
 /// What a proof or a test says.
@@ -98,6 +98,33 @@ pub fn text(
     }
 }
 
+/// How two trees that are equal go on in a tick in which what they select fails; nothing where that is alike.
+pub fn onward(program: &Program, (left, right): (&Name, &Name), onward: &Onward) -> String {
+    let Parted { behavior, trace } = match onward {
+        Onward::Alike => return String::new(),
+        Onward::Undecided => {
+            return "\n  the proof is of what they select first: whether they go on alike in a tick in which that fails is \
+                    too much to explore"
+                .to_owned();
+        }
+        Onward::Differ(parted) => parted,
+    };
+    let name = name(program);
+    let mut lines = steps(program, trace);
+    lines.push(format!(
+        "  tick {:<3} {}: both select {}; if it fails, `{left}` goes on to {} and `{right}` to {}",
+        trace.steps.len() + 1,
+        words::minterm(program, &trace.atoms, &trace.valuation),
+        name(&Some(*behavior)),
+        name(&trace.left),
+        name(&trace.right)
+    ));
+    format!(
+        "\n  the proof is of what they select first: they go on differently in a tick in which that fails\n{}",
+        lines.join("\n")
+    )
+}
+
 /// The history window in words.
 fn window(program: &Program, history: History) -> String {
     if program.tasks.is_empty() {
@@ -113,17 +140,34 @@ pub fn difference(
     along: &str,
     trace: &Trace,
 ) -> String {
-    let name = |behavior: &Option<Id<Behavior>>| {
-        behavior.map_or_else(
-            || "nothing".to_owned(),
-            |id| program.behaviors[id].name.to_string(),
-        )
-    };
-    let held = |minterm| words::minterm(program, &trace.atoms, minterm);
+    let name = name(program);
     let mut lines = vec![format!(
         "different: `{left}` and `{right}` part after {} ticks {along}",
         trace.steps.len()
     )];
+    lines.extend(steps(program, trace));
+    lines.push(format!(
+        "  tick {:<3} {}: `{left}` selects {}, `{right}` selects {}",
+        trace.steps.len() + 1,
+        words::minterm(program, &trace.atoms, &trace.valuation),
+        name(&trace.left),
+        name(&trace.right)
+    ));
+    lines.join("\n")
+}
+
+/// What a side ticks, by name.
+fn name(program: &Program) -> impl Fn(&Option<Id<Behavior>>) -> String {
+    |behavior| match behavior {
+        Some(id) => program.behaviors[*id].name.to_string(),
+        None => "nothing".to_owned(),
+    }
+}
+
+/// The ticks in which two sides agree, a line for those that follow each other and are alike.
+fn steps(program: &Program, trace: &Trace) -> Vec<String> {
+    let name = name(program);
+    let mut lines = Vec::new();
     let mut first = 1;
     for alike in trace.steps.chunk_by(|a, b| a == b) {
         let Some(step) = alike.first() else { continue };
@@ -135,18 +179,11 @@ pub fn difference(
         };
         lines.push(format!(
             "  {ticks} {}: both select {}, which answers {}",
-            held(&step.valuation),
+            words::minterm(program, &trace.atoms, &step.valuation),
             name(&step.behavior),
             step.status.name()
         ));
         first = last + 1;
     }
-    lines.push(format!(
-        "  tick {:<3} {}: `{left}` selects {}, `{right}` selects {}",
-        trace.steps.len() + 1,
-        held(&trace.valuation),
-        name(&trace.left),
-        name(&trace.right)
-    ));
-    lines.join("\n")
+    lines
 }

@@ -119,6 +119,29 @@ pub struct TraceTick {
     pub status: Status,
 }
 
+/// Which behaviours may fail.
+pub type MayFail<'a> = &'a dyn Fn(Id<Behavior>) -> bool;
+
+/// How two sides that select the same go on in the same tick, where what they select fails.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Onward {
+    /// They tick the same behaviour next, or none.
+    Alike,
+    /// They tick different ones.
+    Differ(Parted),
+    /// That is too much to explore, or they do not select the same.
+    Undecided,
+}
+
+/// A shortest way to a tick in which both sides select the same, and go on differently where it fails.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Parted {
+    /// What both select in the last tick.
+    pub behavior: Id<Behavior>,
+    /// The way there; [`left`](Trace::left) and [`right`](Trace::right) are what each side ticks next.
+    pub trace: Trace,
+}
+
 /// A guard asks an atom that the environment's table does not have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unknown(pub Atom);
@@ -144,24 +167,40 @@ impl std::error::Error for Unknown {}
 /// # Errors
 /// An atom that a tree asks and the environment's table does not have.
 pub fn compare(left: Side, right: Side, environment: Environment) -> Result<Verdict, Unknown> {
+    compare_onward(left, right, environment, &|_| false).map(|(verdict, _)| verdict)
+}
+
+/// As [`compare`]; where two trees select the same in every tick, also whether they go on alike in a tick in which a
+/// behaviour that may fail does.
+///
+/// # Errors
+/// As [`compare`].
+pub fn compare_onward(
+    left: Side,
+    right: Side,
+    environment: Environment,
+    may_fail: MayFail,
+) -> Result<(Verdict, Onward), Unknown> {
+    let sides = [left, right];
     match (left, right, environment) {
         (Side::Tree(left), Side::Tree(right), Environment::Any(_)) if left == right => {
-            Ok(Verdict::Equal(Explored {
+            let explored = Explored {
                 means: Means::Identity,
                 ..Explored::default()
-            }))
+            };
+            Ok((Verdict::Equal(explored), Onward::Alike))
         }
         (Side::Tree(left), Side::Tree(right), Environment::Any(history)) => {
-            symbolic::explore(left, right, history)
+            symbolic::explore((left, right), history, may_fail)
         }
         (_, _, Environment::Greedy(table)) => {
-            product::explore(left, right, table, Follow::Recorded)
+            product::explore(sides, table, Follow::Recorded, may_fail)
         }
         // A table decides on its own minterms only.
         (_, _, Environment::Observed(table))
         | (Side::Policy(table), _, Environment::Any(_))
         | (_, Side::Policy(table), Environment::Any(_)) => {
-            product::explore(left, right, table, Follow::Consistent)
+            product::explore(sides, table, Follow::Consistent, may_fail)
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Claims on events: bounds that hold whenever one stops, and what is said of a claim.
 
+use crate::command::{btc, err, out};
 use crate::program::{NoFiles, shown};
 use btc::driver::load::load;
 use btc::driver::verify;
@@ -50,8 +51,8 @@ fn intervals_shrink_around_the_rate() {
 }
 
 /// A coin falls when the robot has waited for a second: heads with the given chance.
-fn coin(chance: &str, claim: &str) -> (Answer, String) {
-    let text = format!(
+fn toss(chance: &str, claim: &str) -> String {
+    format!(
         "use std
 world table {{
     tick = 100 ms
@@ -82,9 +83,15 @@ task toss {{
         on tails: -1
     }}
 }}
+learn toss {{ episodes = 40 }}
 tree hand for toss = wait
-claim hand {claim}"
-    );
+claim {claim}"
+    )
+}
+
+/// What is said of a claim on the tree by hand.
+fn coin(chance: &str, claim: &str) -> (Answer, String) {
+    let text = toss(chance, &format!("hand {claim}"));
     let loaded = load("coin.bt", text.into_bytes(), &mut NoFiles);
     assert!(!loaded.has_errors(), "{}", shown(&loaded));
     let [proved] = verify::claims(&loaded).unwrap().try_into().unwrap();
@@ -126,4 +133,22 @@ fn claims_are_decided_as_soon_as_the_episodes_say_so() {
         told.push_str(&format!("{chance} heads\n{text}\n\n"));
     }
     crate::snapshot::check("claims", told.trim_end());
+}
+
+/// A learned tree that breaks a claim shows how, and the command that shows the whole of it plays that very episode.
+#[test]
+fn a_claim_on_a_learned_tree_shows_the_run_in_which_it_fails() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = toss("50%", "learned never tails");
+    std::fs::write(folder.path().join("coin.bt"), text).unwrap();
+    let learned = btc(folder.path(), &["learn", "coin.bt", "-o", "out"]);
+    assert_eq!(learned.status.code(), Some(1), "{}", err(&learned));
+    let told = err(&learned);
+    let (_, shown) = told.split_once("shown by `btc ").unwrap();
+    let (command, lines) = shown.split_once("`:\n").unwrap();
+    assert!(command.starts_with("run out/learned.bt --tree learned --episode "));
+    assert!(lines.contains("tails"), "{lines}");
+    let arguments: Vec<&str> = command.split(' ').collect();
+    let traced = btc(folder.path(), &arguments);
+    assert!(out(&traced).contains("tails"), "{}", out(&traced));
 }

@@ -1,18 +1,9 @@
 //! Programs as the driver loads them.
 
-use btc::diagnostic::render;
+pub(crate) use crate::laws::check::{NoFiles, shown};
 use btc::driver::load::{Loaded, Reader, beside, load};
 use btc::ir::name::{Argument, Given, Name};
 use std::path::Path;
-
-/// No file but the one that is asked for.
-pub(crate) struct NoFiles;
-
-impl Reader for NoFiles {
-    fn read(&mut self, _: &str) -> Result<Vec<u8>, String> {
-        Err("there are no files here".to_owned())
-    }
-}
 
 /// The files of a folder; paths are relative to it.
 struct Folder<'a>(&'a Path);
@@ -52,9 +43,4 @@ pub(crate) fn called(text: &str) -> Name {
         value: Some(Given::Name(called(value))),
     });
     Name::instance(family, arguments.collect())
-}
-
-/// What a person is shown of a program.
-pub(crate) fn shown(loaded: &Loaded) -> String {
-    render::human(&loaded.sources, &loaded.diagnostics, false)
 }

@@ -1,73 +1,8 @@
 //! Whatever the text, nothing panics, every message lies in its file, and a program without errors is whole.
 
+use crate::laws::check::{told, whole};
 use crate::program::{self, NoFiles};
-use btc::driver::compile;
-use btc::driver::compile::Form;
-use btc::driver::load::{Loaded, load};
-use btc::emit::form::TreeForm;
-use btc::syntax::ast::ItemKind;
-
-/// What has to hold of a text.
-fn holds(bytes: Vec<u8>) -> Loaded {
-    let loaded = told(bytes);
-    if !loaded.has_errors() {
-        whole(&loaded);
-        compile::summary(&loaded);
-        for form in [
-            Form::Ast,
-            Form::Ir,
-            Form::Tree(TreeForm::Bt),
-            Form::Tree(TreeForm::Dot),
-            Form::Tree(TreeForm::Json),
-        ] {
-            // Of several trees it has to be said which one is drawn.
-            let _ = compile::emit(&loaded, form, None);
-            for tree in loaded.program.trees.values() {
-                compile::emit(&loaded, form, Some(&tree.name.to_string())).unwrap();
-            }
-        }
-    }
-    loaded
-}
-
-/// What has to hold of a text, as far as a person is told.
-fn told(bytes: Vec<u8>) -> Loaded {
-    let loaded = load("mutant.bt", bytes, &mut NoFiles);
-    for found in &loaded.diagnostics {
-        let edits = found.fixes.iter().flat_map(|fix| &fix.edits);
-        let spans = found.labels.iter().map(|label| label.span);
-        for span in spans.chain(edits.map(|(span, _)| *span)) {
-            let source = loaded.sources.get(span.file).unwrap();
-            assert!(span.start <= span.end, "{found:?}");
-            assert!(source.text.get(span.range()).is_some(), "{found:?}");
-        }
-    }
-    program::shown(&loaded);
-    loaded
-}
-
-/// Nothing of a program without errors is left out.
-fn whole(loaded: &Loaded) {
-    let count = |wanted: fn(&ItemKind) -> bool| {
-        let items = loaded.ast.items.iter();
-        items.filter(|item| wanted(&item.kind)).count()
-    };
-    let program = &loaded.program;
-    let trees = count(|item| matches!(item, ItemKind::Tree(tree) if tree.params.is_none()));
-    assert_eq!(program.trees.len(), trees);
-    let tasks = count(|item| matches!(item, ItemKind::Task(_)));
-    assert_eq!(program.tasks.len(), tasks);
-    let learners = count(|item| matches!(item, ItemKind::Learn(_)));
-    assert_eq!(program.learners.len(), learners);
-    let claims = count(|item| matches!(item, ItemKind::Claim(_)));
-    assert_eq!(program.claims.len(), claims);
-    let events = count(|item| matches!(item, ItemKind::Event(_)));
-    assert_eq!(program.events.len(), events);
-    let effects = count(|item| matches!(item, ItemKind::On(_)));
-    assert_eq!(program.effects.len(), effects);
-    let states = count(|item| matches!(item, ItemKind::State(_)));
-    assert!(program.states.len() >= states);
-}
+use btc::driver::load::load;
 
 /// Small reproducible numbers.
 pub(crate) struct Dice(pub(crate) u64);
@@ -131,7 +66,7 @@ fn mutations_of_the_examples() {
                     _ => mutant[i] = original[j % original.len()],
                 }
             }
-            fine += usize::from(!holds(mutant.concat().into()).has_errors());
+            fine += usize::from(!whole(mutant.concat().into()).has_errors());
         }
     }
     assert!(fine > 0, "no mutant was without errors");
@@ -162,7 +97,7 @@ fn numbers_and_names_exchanged() {
             } else if mutant[i].starts_with(char::is_numeric) {
                 mutant[i] = strange[dice.roll(strange.len())];
             }
-            holds(mutant.concat().into());
+            whole(mutant.concat().into());
         }
     }
 }
@@ -172,7 +107,7 @@ fn truncations_and_bytes() {
     let mut dice = Dice(0xfeed_beef_dead_cafe);
     for text in examples() {
         for end in (0..text.len()).step_by(47) {
-            holds(text.as_bytes()[..end].to_vec());
+            whole(text.as_bytes()[..end].to_vec());
         }
         for _ in 0..60 {
             let mut bytes = text.as_bytes().to_vec();
@@ -180,11 +115,11 @@ fn truncations_and_bytes() {
                 let at = dice.roll(bytes.len());
                 bytes[at] = u8::try_from(dice.roll(256)).unwrap();
             }
-            holds(bytes);
+            whole(bytes);
         }
     }
     for length in 0..60 {
-        holds(
+        whole(
             (0..length)
                 .map(|_| u8::try_from(dice.roll(256)).unwrap())
                 .collect(),
@@ -200,13 +135,13 @@ fn many(n: usize, item: impl Fn(usize) -> String) -> String {
 #[test]
 fn thousands_of_items() {
     let text = many(3_000, |i| format!("state s{i}: number = {i}\n"));
-    assert!(!holds(text.into()).has_errors());
+    assert!(!whole(text.into()).has_errors());
     let text = many(2_000, |i| {
         format!("predicate p{i}\nbehavior b{i} {{ control {{}} }}\n")
     });
     let guards = many(2_000, |i| format!("    p{i} => b{i},\n"));
     let text = format!("{text}tree wide = selector {{\n{guards}}}\n");
-    assert!(!holds(text.into()).has_errors());
+    assert!(!whole(text.into()).has_errors());
 }
 
 /// What was likely meant by thousands of unknown names is looked for among thousands of known ones, in linear time.
@@ -234,7 +169,7 @@ fn long_ways_through_definitions() {
                     }
                 }
             };
-            let loaded = holds(many(2_000, item).into());
+            let loaded = whole(many(2_000, item).into());
             let told = loaded.diagnostics.iter().filter(|found| found.is_error());
             assert_eq!(told.count(), 1, "{uses}");
         }
@@ -243,17 +178,17 @@ fn long_ways_through_definitions() {
         0 => "behavior wait { control {} }\ntree t0 = wait\n".to_owned(),
         i => format!("tree t{i} = sequence {{ t{0}, t{0} }}\n", i - 1),
     });
-    assert!(holds(trees.into()).has_errors());
+    assert!(whole(trees.into()).has_errors());
     let aliases = many(2_000, |i| match i {
         0 => "behavior b0 { control {} }\n".to_owned(),
         i => format!("behavior b{i} = b{}\n", i - 1),
     });
-    holds(aliases.into());
+    whole(aliases.into());
     let predicates = many(2_000, |i| match i {
         0 => "predicate p0 = true\n".to_owned(),
         i => format!("predicate p{i} = p{0} and not p{0}\n", i - 1),
     });
-    assert!(holds(predicates.into()).has_errors());
+    assert!(whole(predicates.into()).has_errors());
 }
 
 #[test]
@@ -264,7 +199,7 @@ fn deep_and_long_expressions() {
     );
     told(sum.into());
     let sum = format!("let a: number = 1{}\n", " + 1".repeat(150));
-    assert!(!holds(sum.into()).has_errors());
+    assert!(!whole(sum.into()).has_errors());
     for (open, close) in [
         ("(", ")"),
         ("-", ""),
@@ -282,7 +217,7 @@ fn deep_and_long_expressions() {
         "sequence { ".repeat(60),
         " }".repeat(60)
     );
-    holds(deep.into());
+    whole(deep.into());
     let cascade = |i: usize| match i {
         0 => format!("let a0: number = 1{}\n", " + 1".repeat(900)),
         i => format!("let a{i}: number = a{}{}\n", i - 1, " + 1".repeat(900)),
@@ -318,11 +253,11 @@ world yard {{
 "
         )
     };
-    assert!(!holds(world("100 ms", "1 m", &task("1", "10 s", "-1")).into()).has_errors());
+    assert!(!whole(world("100 ms", "1 m", &task("1", "10 s", "-1")).into()).has_errors());
     for tick in [
         "0 s", "-1 s", "1e-320 s", "1e308 h", "0 s / 0", "1 s / 0", "1 tick",
     ] {
-        holds(world(tick, "1 m", &task("1", "10 s", "-1")).into());
+        whole(world(tick, "1 m", &task("1", "10 s", "-1")).into());
     }
     for x in [
         "0 m / 0",
@@ -332,17 +267,17 @@ world yard {{
         "0 m * ln(0)",
         "1 m * sqrt(-1)",
     ] {
-        assert!(holds(world("100 ms", x, "").into()).has_errors(), "{x}");
+        assert!(whole(world("100 ms", x, "").into()).has_errors(), "{x}");
     }
     for history in ["0", "65", "1e18", "1_000_000_000", "0 / 0", "-3", "1.5"] {
         let text = world("100 ms", "1 m", &task(history, "10 s", "-1"));
-        assert!(holds(text.into()).has_errors(), "{history}");
+        assert!(whole(text.into()).has_errors(), "{history}");
     }
     for end in ["0 s", "1e300 h", "1e-9 s", "0 s / 0", "1 s / 0"] {
         let text = world("100 ms", "1 m", &task("1", end, "-1"));
-        assert!(holds(text.into()).has_errors(), "{end}");
+        assert!(whole(text.into()).has_errors(), "{end}");
     }
     for reward in ["0 / 0", "1 / 0", "-1e308 * 10"] {
-        holds(world("100 ms", "1 m", &task("1", "10 s", reward)).into());
+        whole(world("100 ms", "1 m", &task("1", "10 s", reward)).into());
     }
 }

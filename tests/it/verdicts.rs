@@ -41,17 +41,18 @@ const TABLE: &str = "raining,behavior,status,next:raining,count\n\
                      0,goto(A),success,1,3\n\
                      1,goto(A),success,,3\n";
 
-struct Table;
+/// The transitions that the program uses.
+struct Recorded(String);
 
-impl Reader for Table {
+impl Reader for Recorded {
     fn read(&mut self, path: &str) -> Result<Vec<u8>, String> {
         assert_eq!(path, "transitions.csv");
-        Ok(TABLE.into())
+        Ok(self.0.clone().into())
     }
 }
 
 fn loaded() -> Loaded {
-    let loaded = load("yard.bt", PROGRAM.into(), &mut Table);
+    let loaded = load("yard.bt", PROGRAM.into(), &mut Recorded(TABLE.into()));
     assert_eq!(program::shown(&loaded), "");
     loaded
 }
@@ -75,6 +76,55 @@ fn trees_are_equal_on_evidence_only() {
         "undecided: `other` and `another` take none of 2 greedy transitions; they select the same behaviour on the 1 \
          minterm where episodes start, and the table does not say what follows"
     );
+}
+
+/// What is declared only may fail, and `stay` never does.
+const WATCH: &str = "predicate dark\npredicate wet\n\
+    behavior look\nbehavior call\nbehavior hide\nbehavior stay { control {} }\n\
+    tree plain    = selector { dark => look, stay }\n\
+    tree guarded  = selector { not dark => stay, look }\n\
+    tree also     = selector { dark => look, dark => hide, stay }\n\
+    tree twice    = selector { dark => look, dark => look, stay }\n\
+    tree careful  = selector { not dark => stay, wet => memory sequence { look, call }, look }\n\
+    tree trusting = selector { not dark => stay, wet => memory sequence { look, call }, look, hide }\n";
+
+/// Equal is what trees select; where they go on differently after a failure, such a tick is shown.
+#[test]
+fn trees_that_are_equal_may_go_on_differently() {
+    let loaded = load("watch.bt", WATCH.into(), &mut program::NoFiles);
+    assert_eq!(program::shown(&loaded), "");
+    let mut told = String::new();
+    for (left, right) in [
+        ("plain", "guarded"),
+        ("plain", "also"),
+        ("plain", "twice"),
+        ("careful", "trusting"),
+    ] {
+        let proved = verify::trees(&loaded, left, right).unwrap();
+        told.push_str(&format!("{}\n\n", proved.text));
+    }
+    crate::snapshot::check("verdicts.onward", told.trim_end());
+}
+
+/// Along recorded transitions, a failure is one that was recorded.
+#[test]
+fn failures_are_those_that_were_recorded() {
+    let text =
+        |status: &str| TABLE.replace("1,goto(A),success,,3", &format!("1,goto(A),{status},,3"));
+    for (status, differ) in [("success", false), ("failure", true)] {
+        let table = text(status);
+        let program = PROGRAM.replace(
+            "tree other",
+            "tree back for delivery     = selector { goto(A), goto(B) }\ntree other",
+        );
+        let loaded = load("yard.bt", program.into(), &mut Recorded(table));
+        let proved = verify::trees(&loaded, "recorded", "back").unwrap();
+        assert!(proved.holds(), "{}", proved.text);
+        let told = proved
+            .text
+            .contains("if it fails, `recorded` goes on to nothing and `back` to goto(B)");
+        assert_eq!(told, differ, "{}", proved.text);
+    }
 }
 
 #[test]

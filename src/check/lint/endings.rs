@@ -27,7 +27,7 @@ impl Checker<'_> {
         let asked = std::mem::take(&mut self.endings);
         let may = |asked: &&Asked| {
             let status = status(asked.failure);
-            may_end(&self.program, asked.behavior, status)
+            self.program.may_end(asked.behavior, status)
                 && run.as_ref().is_none_or(|run| run.contains(&asked.behavior))
         };
         let come: BTreeSet<Span> = asked.iter().filter(may).map(|asked| asked.span).collect();
@@ -41,7 +41,7 @@ impl Checker<'_> {
                 continue;
             };
             let name = self.program.behaviors[behavior].name.clone();
-            let draft = if !may_end(&self.program, behavior, status(failure)) {
+            let draft = if !self.program.may_end(behavior, status(failure)) {
                 let (verb, clause) = if failure {
                     ("fails", "neither `requires` nor `fail when`")
                 } else {
@@ -100,16 +100,4 @@ fn run(program: &Program) -> Option<BTreeSet<Id<Behavior>>> {
         });
     }
     Some(run)
-}
-
-/// Whether a behaviour may end so; one that is declared only may.
-pub fn may_end(program: &Program, behavior: Id<Behavior>, status: Status) -> bool {
-    let Some(law) = &program.behaviors[behavior].law else {
-        return true;
-    };
-    let constant = |id| program.pool.constant(id);
-    match status {
-        Status::Failure => constant(law.requires) != Some(1.0) || constant(law.fail) != Some(0.0),
-        _ => constant(law.succeed) != Some(0.0) && constant(law.requires) != Some(0.0),
-    }
 }

@@ -167,7 +167,7 @@ pub fn when(program: &Program, node: &Node, status: Status) -> Cases {
     };
     match node {
         Node::Condition(guard) => of_guard(program, guard, !fails),
-        Node::Behavior(id) => possible(may_end(program, *id, status)),
+        Node::Behavior(id) => possible(program.may_end(*id, status)),
         Node::Composite {
             kind,
             memory,

@@ -139,7 +139,7 @@ impl<'a> Checker<'a> {
 }
 
 /// A claim as the language writes it.
-fn written(claim: &ast::Claim) -> String {
+pub fn written(claim: &ast::Claim) -> String {
     let item = Item {
         docs: Vec::new(),
         kind: ItemKind::Claim(claim.clone()),

@@ -1,6 +1,7 @@
 //! The claims of a program.
 
 use super::{Pair, Proved, compared};
+use crate::diagnostic::render::visible;
 use crate::driver::learn::Learned;
 use crate::driver::load::Loaded;
 use crate::driver::run::Subject;
@@ -36,9 +37,10 @@ pub fn claims(loaded: &Loaded) -> Result<Vec<Proved>, Refused> {
                 let (mut proved, shortest) =
                     tested(loaded, &mut tests, (task, &tree.root), claim, occurrence)?;
                 if let Some(shortest) = shortest {
-                    proved
-                        .text
-                        .push_str(&failing(loaded, id, &claim.kind, shortest)?);
+                    let file = loaded.sources.get(loaded.main);
+                    let file = file.map_or("FILE", |file| &file.name);
+                    let told = failing(loaded, (id, file), &claim.kind, shortest)?;
+                    proved.text.push_str(&told);
                 }
                 proved
             }
@@ -61,10 +63,15 @@ fn not_learned(claim: &str) -> Proved {
 }
 
 /// Proves or tests the claims on the tree that was just learned; proofs go along the greedy transitions of its policy.
+/// `file` is where the tree is written.
 ///
 /// # Errors
 /// A claim asks what the policy does not observe, or the world cannot be built.
-pub fn claims_of_learned(loaded: &Loaded, learned: &Learned) -> Result<Vec<Proved>, Refused> {
+pub fn claims_of_learned(
+    loaded: &Loaded,
+    learned: &Learned,
+    file: &str,
+) -> Result<Vec<Proved>, Refused> {
     let program = &loaded.program;
     let task = program.learners[learned.learner].task;
     let pair = Pair {
@@ -86,7 +93,13 @@ pub fn claims_of_learned(loaded: &Loaded, learned: &Learned) -> Result<Vec<Prove
             (ClaimKind::Never(occurrence) | ClaimKind::Reaches(occurrence), Some((_, root)))
                 if own =>
             {
-                let (proved, _) = tested(loaded, &mut tests, (task, root), claim, occurrence)?;
+                let (mut proved, shortest) =
+                    tested(loaded, &mut tests, (task, root), claim, occurrence)?;
+                if let Some(shortest) = shortest {
+                    let (with, tree) = with_learned(loaded, learned);
+                    let told = failing(&with, (tree, file), &claim.kind, shortest)?;
+                    proved.text.push_str(&told);
+                }
                 results.push(proved);
             }
             _ => {}
@@ -135,7 +148,7 @@ const TOLD: usize = 6;
 /// it.
 fn failing(
     loaded: &Loaded,
-    tree: Id<Tree>,
+    (tree, file): (Id<Tree>, &str),
     kind: &ClaimKind,
     (episode, ticks): (u64, u64),
 ) -> Result<String, Refused> {
@@ -150,8 +163,7 @@ fn failing(
             .position(|line| line.events.contains(&never.event));
         lines.truncate(first.map_or(lines.len(), |at| at + 1));
     }
-    let file = loaded.sources.get(loaded.main);
-    let file = file.map_or("FILE", |file| &file.name);
+    let file = visible(file);
     let mut text = format!(
         "\n  the shortest run in which it fails, shown by `btc run {file} --tree {} --episode {episode} --trace -`:",
         loaded.program.trees[tree].name
@@ -164,6 +176,13 @@ fn failing(
         text.push_str(&format!("\n      {line}"));
     }
     Ok(text)
+}
+
+/// The program with the tree that was learned.
+fn with_learned(loaded: &Loaded, learned: &Learned) -> (Loaded, Id<Tree>) {
+    let mut with = loaded.clone();
+    let tree = with.program.trees.push(learned.tree.clone());
+    (with, tree)
 }
 
 /// Whether a claim is about the tree that was learned: through the learner, or through an earlier result of the same

@@ -4,7 +4,7 @@ use super::environment::{Follow, Place, TableEnvironment};
 use super::moment::Moment;
 use super::oracle::Oracle;
 use super::side::Automaton;
-use super::{Explored, Side, Trace, TraceTick, Unknown, Verdict};
+use super::{Explored, MayFail, Onward, Parted, Side, Trace, TraceTick, Unknown, Verdict};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::Status;
@@ -35,11 +35,11 @@ struct Reached {
 
 /// Compares two sides along what a table records, or wherever the history window lets it go.
 pub(super) fn explore(
-    left: Side,
-    right: Side,
+    [left, right]: [Side; 2],
     table: &Policy,
     follow: Follow,
-) -> Result<Verdict, Unknown> {
+    may_fail: MayFail,
+) -> Result<(Verdict, Onward), Unknown> {
     let environment = TableEnvironment::new(table, follow);
     let sides = [
         Automaton::new(left, &environment)?,
@@ -53,6 +53,8 @@ pub(super) fn explore(
         transitions: BTreeSet::new(),
         open: BTreeSet::new(),
         explored: Explored::default(),
+        may_fail,
+        onward: None,
         environment: &environment,
     };
     Ok(product.search())
@@ -68,10 +70,13 @@ struct Product<'a> {
     transitions: BTreeSet<usize>,
     open: BTreeSet<(usize, Option<Id<Behavior>>)>,
     explored: Explored,
+    may_fail: MayFail<'a>,
+    /// The first tick in which the sides go on differently after a failure.
+    onward: Option<Parted>,
 }
 
 impl Product<'_> {
-    fn search(mut self) -> Verdict {
+    fn search(mut self) -> (Verdict, Onward) {
         self.reach(None, None);
         let patience = PATIENCE + PATIENCE_PER_ROW * self.environment.minterms.len();
         let mut next = 0;
@@ -79,11 +84,11 @@ impl Product<'_> {
             let mut oracle = Oracle::default();
             loop {
                 if let Some(trace) = self.tick(next, &state, &mut oracle) {
-                    return Verdict::Differ(trace);
+                    return (Verdict::Differ(trace), Onward::Undecided);
                 }
                 self.explored.ticks += 1;
                 if self.explored.ticks > patience {
-                    return Verdict::Undecided(self.summary());
+                    return (Verdict::Undecided(self.summary()), Onward::Undecided);
                 }
                 if !oracle.advance() {
                     break;
@@ -91,7 +96,8 @@ impl Product<'_> {
             }
             next += 1;
         }
-        Verdict::Equal(self.summary())
+        let onward = self.onward.take().map_or(Onward::Alike, Onward::Differ);
+        (Verdict::Equal(self.summary()), onward)
     }
 
     fn summary(self) -> Explored {
@@ -137,6 +143,14 @@ impl Product<'_> {
             return Some(self.trace(at, valuation, [left.selected, right.selected]));
         }
         let behavior = left.selected;
+        if self.onward.is_none()
+            && left.then != right.then
+            && consequence.status == Status::Failure
+            && let Some(behavior) = behavior.filter(|behavior| (self.may_fail)(*behavior))
+        {
+            let trace = self.trace(at, valuation.clone(), [left.then, right.then]);
+            self.onward = Some(Parted { behavior, trace });
+        }
         if consequence.open {
             self.open.insert((minterm, behavior));
         }

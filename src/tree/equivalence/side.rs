@@ -17,7 +17,7 @@ pub(super) enum Automaton {
     Table(Vec<Option<Id<Behavior>>>),
 }
 
-/// The first two behaviours that a side ticks in a moment. The first is the one that it selects.
+/// The first two different behaviours that a side ticks in a moment. The first is the one that it selects.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Ticked {
     pub(super) selected: Option<Id<Behavior>>,
@@ -93,11 +93,16 @@ impl Surroundings for Watched<'_, '_> {
     }
 
     fn behavior(&mut self, behavior: Id<Behavior>) -> Status {
-        if self.ticked.selected.is_none() {
-            self.ticked.selected = Some(behavior);
-            return self.moment.status(behavior);
+        match self.ticked.selected {
+            None => {
+                self.ticked.selected = Some(behavior);
+                return self.moment.status(behavior);
+            }
+            Some(selected) if selected == behavior => {}
+            Some(_) => {
+                self.ticked.then.get_or_insert(behavior);
+            }
         }
-        self.ticked.then.get_or_insert(behavior);
         match self.remembers {
             true => self.moment.status(behavior),
             // Without memory, what comes of further behaviours leaves no trace.

@@ -4,18 +4,21 @@
 //! which the selections differ? With memory the same question is asked in every pair of memories and every window that
 //! can be reached, shortest paths first; valuations and statuses are never enumerated, only the states that they lead to.
 
+mod onward;
 mod pairs;
 
+use super::unfold::Unfolded;
 use super::window::{Termination, Window, enter};
-use super::{Explored, Means, Trace, Unknown, Verdict};
+use super::{Explored, MayFail, Means, Onward, Trace, Unknown, Verdict};
 use crate::ir::task::History;
 use crate::ir::tree::{Atom, Node};
-use crate::tree::atoms::atoms;
+use crate::tree::atoms::{atoms, behaviors};
 use crate::tree::circuit::sat::{Exhausted, Solver};
 use crate::tree::circuit::{Signal, truth};
 use crate::tree::compiled::CompiledTree;
 use pairs::{Memories, Pairs};
 use rustc_hash::FxHashSet;
+use std::rc::Rc;
 
 /// Up to this many atoms, a truth table is quicker than a solver.
 const TABLE: usize = 20;
@@ -26,7 +29,11 @@ const DECISIONS: u64 = 1_000_000;
 /// States after which the search gives up.
 const STATES: usize = 100_000;
 
-pub(super) fn explore(left: &Node, right: &Node, history: History) -> Result<Verdict, Unknown> {
+pub(super) fn explore(
+    (left, right): (&Node, &Node),
+    history: History,
+    may_fail: MayFail,
+) -> Result<(Verdict, Onward), Unknown> {
     let mut asked = atoms(left);
     asked.extend(atoms(right));
     let asked: Vec<Atom> = asked.into_iter().collect();
@@ -40,9 +47,19 @@ pub(super) fn explore(left: &Node, right: &Node, history: History) -> Result<Ver
         explored: Explored::default(),
     };
     Ok(match search.run() {
-        Ok(Some(trace)) => Verdict::Differ(trace),
-        Ok(None) => Verdict::Equal(search.explored),
-        Err(Exhausted) => Verdict::Undecided(search.explored),
+        Ok(Some(trace)) => (Verdict::Differ(trace), Onward::Undecided),
+        Ok(None) if !behaviors(left).into_iter().any(may_fail) => {
+            (Verdict::Equal(search.explored), Onward::Alike)
+        }
+        Ok(None) => {
+            let explored = search.explored.clone();
+            let onward = match search.onward(may_fail) {
+                Ok(parted) => parted.map_or(Onward::Alike, Onward::Differ),
+                Err(Exhausted) => Onward::Undecided,
+            };
+            (Verdict::Equal(explored), onward)
+        }
+        Err(Exhausted) => (Verdict::Undecided(search.explored), Onward::Undecided),
     })
 }
 
@@ -72,8 +89,9 @@ impl SymbolicSearch {
     fn run(&mut self) -> Result<Option<Trace>, Exhausted> {
         let fresh = self.pairs.fresh();
         let first = self.pairs.pair(&fresh);
-        if let Some(valuation) = self.parts_at_once(first.differ)? {
-            return Ok(Some(self.pairs.parted(Vec::new(), &first, &valuation)));
+        if let Some(valuation) = self.at_once(first.differ)? {
+            let trace = self.pairs.parted(Vec::new(), &first.sides, &valuation);
+            return Ok(Some(trace));
         }
         if fresh.iter().all(|memory| memory.is_empty()) {
             return Ok(None);
@@ -93,11 +111,11 @@ impl SymbolicSearch {
         Ok(None)
     }
 
-    /// The least valuation in which the trees part before anything has happened, whatever the window holds.
-    fn parts_at_once(&mut self, differ: Signal) -> Result<Option<Vec<bool>>, Exhausted> {
+    /// The least valuation in which this holds before anything has happened, whatever the window holds.
+    fn at_once(&mut self, holds: Signal) -> Result<Option<Vec<bool>>, Exhausted> {
         let too_many = self.pairs.too_many();
         let inputs = &mut self.pairs.inputs;
-        let goal = inputs.circuit.and(differ, !too_many);
+        let goal = inputs.circuit.and(holds, !too_many);
         let asked = inputs.circuit.support(goal, &inputs.atoms);
         if asked <= TABLE {
             self.explored.means = Means::Table { atoms: asked };
@@ -141,7 +159,8 @@ impl SymbolicSearch {
         let mut open = self.pairs.shows(&state.window);
         open.push(pair.differ);
         if self.solver.can_hold(&self.pairs.inputs.circuit, &open)? {
-            return self.trace(at).map(Some);
+            let trace = self.trace(at, pair.differ, &pair.sides)?;
+            return Ok(Some(trace));
         }
         open.pop();
         let [left, right] = &pair.sides;
@@ -173,8 +192,13 @@ impl SymbolicSearch {
         Ok(None)
     }
 
-    /// The way to a state in which the trees part, its valuations as small as they can be.
-    fn trace(&mut self, at: usize) -> Result<Trace, Exhausted> {
+    /// The way to a state in which the trees part by `differ`, its valuations as small as they can be.
+    fn trace(
+        &mut self,
+        at: usize,
+        differ: Signal,
+        sides: &[Rc<Unfolded>; 2],
+    ) -> Result<Trace, Exhausted> {
         let mut path = Vec::new();
         let mut next = Some((at, None));
         while let Some((at, moves)) = next {
@@ -187,13 +211,13 @@ impl SymbolicSearch {
         for (state, moves) in path.into_iter().rev() {
             let pair = self.pairs.pair(&state.memories);
             let mut question = self.pairs.shows(&state.window);
-            question.push(moves.unwrap_or(pair.differ));
+            question.push(moves.unwrap_or(differ));
             let circuit = &self.pairs.inputs.circuit;
             let least = self.solver.least(circuit, &question, &inputs)?;
             let values = least.ok_or(Exhausted)?;
             match moves {
                 Some(_) => steps.push(self.pairs.step(&pair, &inputs, &values)),
-                None => return Ok(self.pairs.parted(steps, &pair, &values)),
+                None => return Ok(self.pairs.parted(steps, sides, &values)),
             }
         }
         Err(Exhausted)

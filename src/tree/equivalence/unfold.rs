@@ -45,12 +45,18 @@ pub(super) struct Unfolded {
     pub(super) leaves: Vec<(Box<[u64]>, Signal)>,
 }
 
-/// Unfolds a tick from this memory.
-pub(super) fn unfold(tree: &CompiledTree, memory: &[u64], inputs: &mut Inputs) -> Unfolded {
+/// Unfolds a tick from this memory. Where `failing` is ticked, it fails, and what is selected is what is ticked next.
+pub(super) fn unfold(
+    tree: &CompiledTree,
+    memory: &[u64],
+    inputs: &mut Inputs,
+    failing: Option<Id<Behavior>>,
+) -> Unfolded {
     let mut tick = Tick {
         tree,
         memory,
         inputs,
+        failing,
         tests: vec![None; tree.tests.len()],
         selects: BTreeMap::new(),
     };
@@ -87,7 +93,7 @@ pub(super) fn unfold(tree: &CompiledTree, memory: &[u64], inputs: &mut Inputs) -
 #[derive(Clone, Copy)]
 struct Reach {
     all: Signal,
-    /// … before the tick has ticked any behaviour.
+    /// … before the tick has selected any behaviour.
     fresh: Signal,
 }
 
@@ -96,6 +102,8 @@ struct Reach {
 struct Left {
     /// Whether it ticked a behaviour.
     drove: bool,
+    /// Whether it ticked one that is selected.
+    selected: bool,
     slots: Slots,
 }
 
@@ -105,6 +113,7 @@ impl Left {
         slots.extend(next.slots.iter().map(|(slot, value)| (*slot, *value)));
         Self {
             drove: self.drove || next.drove,
+            selected: self.selected || next.selected,
             slots,
         }
     }
@@ -124,6 +133,7 @@ struct Tick<'a> {
     tree: &'a CompiledTree,
     memory: &'a [u64],
     inputs: &'a mut Inputs,
+    failing: Option<Id<Behavior>>,
     /// The guards from each test on, as far as they were asked.
     tests: Vec<Option<Signal>>,
     selects: BTreeMap<Id<Behavior>, Signal>,
@@ -189,6 +199,9 @@ impl Tick<'_> {
     }
 
     fn behavior(&mut self, behavior: Id<Behavior>, reach: Reach) -> Ways {
+        if self.failing == Some(behavior) {
+            return self.fails(reach);
+        }
         let selected = self.selects.entry(behavior).or_insert(Signal::FALSE);
         *selected = self.inputs.circuit.or(*selected, reach.fresh);
         let mut ways = Ways::new();
@@ -201,10 +214,22 @@ impl Tick<'_> {
             let when = self.inputs.circuit.and(reach.all, status);
             let left = Left {
                 drove: true,
+                selected: true,
                 slots: Slots::new(),
             };
             self.take(&mut ways, answer, left, when);
         }
+        ways
+    }
+
+    /// The behaviour that fails, which is not selected.
+    fn fails(&mut self, reach: Reach) -> Ways {
+        let mut ways = Ways::new();
+        let left = Left {
+            drove: true,
+            ..Left::default()
+        };
+        self.take(&mut ways, Status::Failure, left, reach.all);
         ways
     }
 
@@ -306,9 +331,9 @@ impl Tick<'_> {
 
     /// A child that is reached `when` the children before it have left this.
     fn child(&mut self, child: usize, before: &Left, when: Signal, reach: Reach) -> Ways {
-        let fresh = match before.drove {
+        let fresh = match before.selected {
             true => Signal::FALSE,
-            // Where nothing has been ticked before, nothing has here: the gates of nested nodes stay those of flat ones.
+            // Where nothing has been selected before, nothing has here: the gates of nested nodes stay those of flat ones.
             false if reach.fresh == reach.all => when,
             false => self.inputs.circuit.and(when, reach.fresh),
         };

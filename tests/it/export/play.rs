@@ -1,7 +1,7 @@
 //! What happens to a tree, and what it does: the same for btc and for those that run its exports.
 
 use super::trees::atoms;
-use crate::tree::random::Random;
+use crate::laws::random::Random;
 use btc::ir::Program;
 use btc::ir::history::Window;
 use btc::ir::task::History;

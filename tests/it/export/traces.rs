@@ -6,7 +6,7 @@
 use super::play::{Play, Tick};
 use super::trees::{Grower, Kinds, atoms};
 use super::{library, names, python, script, written};
-use crate::tree::random::Random;
+use crate::laws::random::Random;
 use btc::emit::form::TreeForm;
 use btc::ir::Program;
 use btc::ir::tree::{Guard, Node};

@@ -1,7 +1,7 @@
 //! Random trees over the names of a program.
 
-use crate::tree::build::{composite, condition, decorated, leaf, parallel, sequence, when};
-use crate::tree::random::Random;
+use crate::laws::build::{composite, condition, decorated, leaf, parallel, sequence, when};
+use crate::laws::random::Random;
 use btc::ir::Id;
 use btc::ir::Program;
 use btc::ir::tree::{Atom, Composite, Decorator, Guard, Node};

@@ -1,6 +1,6 @@
 //! Minimisation: right, prime, irredundant, and minimal where brute force can tell.
 
-use crate::tree::random::Random;
+use crate::laws::random::Random;
 use btc::logic::{Bits, Columns, Cover, Cube, Literal, minimise};
 use std::collections::BTreeMap;
 

@@ -1,7 +1,7 @@
 //! No text makes the parser panic, run long, or stay silent about what it does not understand.
 
+use crate::laws::parse::swallow;
 use btc::source::FileId;
-use btc::syntax::ast::{ItemKind, WorldEntryKind};
 use btc::syntax::{parse, print};
 use proptest::prelude::*;
 
@@ -9,35 +9,6 @@ const EXAMPLES: [&str; 2] = [
     include_str!("../../../examples/delivery_small.bt"),
     include_str!("../../../examples/delivery_large.bt"),
 ];
-
-/// Parses, and formats what parses.
-fn swallow(text: &str) {
-    let (file, diagnostics) = parse(FileId(0), text);
-    for diagnostic in &diagnostics {
-        for label in &diagnostic.labels {
-            assert!(
-                text.get(label.span.range()).is_some(),
-                "{:?} of {text:?}",
-                label.span
-            );
-        }
-        for (span, _) in diagnostic.fixes.iter().flat_map(|fix| &fix.edits) {
-            assert!(text.get(span.range()).is_some(), "{span:?} of {text:?}");
-        }
-    }
-    if diagnostics.is_empty() {
-        let has_error = file.items.iter().any(|item| match &item.kind {
-            ItemKind::Error => true,
-            ItemKind::World(world) => world
-                .entries
-                .iter()
-                .any(|entry| entry.kind == WorldEntryKind::Error),
-            _ => false,
-        });
-        assert!(!has_error, "a silent error in {text:?}");
-        print::format(text).unwrap();
-    }
-}
 
 /// Texts in the alphabet of the language, which reach deeper than arbitrary ones.
 fn near_miss() -> impl Strategy<Value = String> {

@@ -1,7 +1,7 @@
 //! Tables of numbers and words: the tree that is printed takes the decision of each row, with its values.
 
 use super::{USUAL, compared, is_found, loaded, made, shown, text};
-use crate::naive::{self, Memory};
+use crate::laws::naive::{self, Memory};
 use crate::program::{self, NoFiles};
 use crate::snapshot;
 use btc::diagnostic::Code;

@@ -1,12 +1,14 @@
 //! The canonical forms of the paper's section IV, and what has none.
 
-use super::build::{
+use super::random::policy;
+use super::walk::read;
+use crate::laws::build::{
     asked, condition, decorated, done, failed, leaf, memory_selector, memory_sequence, not, p,
     parallel, selector, sequence, when,
 };
-use super::grown::Soil;
-use super::random::{Random, policy};
-use super::walk::{holds, read};
+use crate::laws::grown::Soil;
+use crate::laws::naive::holds;
+use crate::laws::random::Random;
 use btc::ir::Id;
 use btc::ir::law::Behavior;
 use btc::ir::task::History;

@@ -1,8 +1,9 @@
 //! Chains with memory come out again from what a tree with them was seen to do.
 
-use super::random::Random;
-use super::walk::{holds, parts_after};
-use crate::naive::{Memory, tick};
+use super::walk::parts_after;
+use crate::laws::naive::holds;
+use crate::laws::naive::{Memory, tick};
+use crate::laws::random::Random;
 use btc::ir::Id;
 use btc::ir::task::History;
 use btc::ir::tree::{Atom, Composite, Guard, Node, Status};

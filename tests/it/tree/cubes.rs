@@ -1,8 +1,8 @@
 //! Tables whose rows are cubes: their trees hold in every minterm, and a tree that does not is refuted by one.
 
-use super::build::{leaf, not, p, selector, when};
-use super::random::Random;
-use super::walk::holds;
+use crate::laws::build::{leaf, not, p, selector, when};
+use crate::laws::naive::holds;
+use crate::laws::random::Random;
 use btc::ir::Id;
 use btc::ir::tree::{Atom, Node};
 use btc::policy::{Minterm, Policy, Row};

@@ -1,8 +1,8 @@
 //! The laws of guards and units: building, simplifying and factoring change no value.
 
-use super::build::leaf;
-use super::grown::Soil;
-use super::random::Random;
+use crate::laws::build::leaf;
+use crate::laws::grown::Soil;
+use crate::laws::random::Random;
 use btc::ir::Id;
 use btc::ir::tree::{Atom, Composite, Guard};
 use btc::logic::{Cover, Cube, Literal};

@@ -1,8 +1,8 @@
 //! Theorem 2: a canonical tree in any order of its behaviours.
 
-use super::build::{leaf, not, p, selector, when};
-use super::grown::Soil;
-use super::random::Random;
+use crate::laws::build::{leaf, not, p, selector, when};
+use crate::laws::grown::Soil;
+use crate::laws::random::Random;
 use btc::ir::Id;
 use btc::ir::law::Behavior;
 use btc::ir::task::History;

@@ -1,10 +1,12 @@
 //! Trees of random policies hold by the naive interpreter, and mutations of them are refuted or equal.
 
-use super::build::{self, asked, condition, leaf, not, p, when};
-use super::grown::Soil;
-use super::random::{Random, policy};
+use super::random::policy;
 use super::seen::seen;
-use super::walk::{holds, parts_after, read, replay};
+use super::walk::{parts_after, read, replay};
+use crate::laws::build::{self, asked, condition, leaf, not, p, when};
+use crate::laws::grown::Soil;
+use crate::laws::naive::holds;
+use crate::laws::random::Random;
 use btc::ir::task::History;
 use btc::ir::tree::{Guard, Node};
 use btc::policy::Policy;

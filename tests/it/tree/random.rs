@@ -1,41 +1,13 @@
 //! Random policies with random transitions that are consistent with a history window.
 
-use super::walk::holds;
-use crate::naive::{Memory, tick};
+use crate::laws::naive::{Memory, holds, tick};
+use crate::laws::random::Random;
 use btc::ir::Id;
 use btc::ir::law::Behavior;
 use btc::ir::task::History;
 use btc::ir::tree::{Atom, Composite, Guard, Node, Status};
 use btc::policy::{Minterm, Policy, Row, Transition};
 use std::collections::BTreeMap;
-
-/// Marsaglia's xorshift, 64 bits.
-pub(crate) struct Random(u64);
-
-impl Random {
-    pub(crate) fn new(seed: u64) -> Self {
-        let mut random = Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1);
-        for _ in 0..8 {
-            random.next();
-        }
-        random
-    }
-
-    pub(crate) fn next(&mut self) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        self.0
-    }
-
-    pub(crate) fn below(&mut self, n: usize) -> usize {
-        (self.next() >> 11) as usize % n
-    }
-
-    pub(crate) fn chance(&mut self, percent: usize) -> bool {
-        self.below(100) < percent
-    }
-}
 
 type Window = Vec<(usize, Status)>;
 

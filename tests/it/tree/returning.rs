@@ -1,7 +1,7 @@
 //! Planted lists that return to a behaviour: trees are no larger than the list, nor than a decision tree (CART) as a tree.
 
-use super::random::Random;
 use super::scale::{searched, table};
+use crate::laws::random::Random;
 use btc::logic::Order;
 use btc::policy::{Minterm, Policy};
 

@@ -1,7 +1,8 @@
 //! Sizes of trees: rules come out as they were planted, orders are kept, and nothing is larger than Algorithm 1's.
 
-use super::random::{Random, policy};
+use super::random::policy;
 use super::walk::parts_after;
+use crate::laws::random::Random;
 use crate::planted::{BEHAVIORS, planted};
 use btc::ir::Id;
 use btc::ir::tree::{Atom, Node};

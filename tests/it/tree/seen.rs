@@ -1,8 +1,8 @@
 //! What a tree was seen to do in a world whose predicates and statuses come at random.
 
-use super::random::Random;
-use super::walk::holds;
-use crate::naive::{Memory, tick};
+use crate::laws::naive::holds;
+use crate::laws::naive::{Memory, tick};
+use crate::laws::random::Random;
 use btc::ir::Id;
 use btc::ir::law::Behavior;
 use btc::ir::task::History;

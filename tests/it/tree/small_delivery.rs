@@ -1,6 +1,6 @@
 //! The paper's example (section VIII-A): ten minterms, Figure 8.
 
-use super::build::asked;
+use crate::laws::build::asked;
 use btc::ir::Id;
 use btc::ir::task::History;
 use btc::ir::tree::{Atom, Composite, Guard, Node, Status};

@@ -1,11 +1,11 @@
 //! Ticks: what each node kind does, and the compiled tree beside the naive one on random trees.
 
-use super::build::{
+use crate::laws::build::{
     condition, decorated, done, leaf, memory_selector, memory_sequence, not, p, parallel, selector,
     sequence, when,
 };
-use super::random::Random;
-use crate::naive::{self, Memory};
+use crate::laws::naive::{self, Memory};
+use crate::laws::random::Random;
 use btc::ir::Id;
 use btc::ir::tree::{Atom, Decorator, Guard, Node, Status};
 use btc::tree::tick::Runner;

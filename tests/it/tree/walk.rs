@@ -1,6 +1,6 @@
 //! Walks through the transitions of a policy with the naive interpreter.
 
-use crate::naive::{Memory, all_ticks};
+use crate::laws::naive::{Memory, all_ticks, holds};
 use btc::ir::Id;
 use btc::ir::law::Behavior;
 use btc::ir::tree::{Atom, Composite, Decorator, Node, Status};
@@ -9,14 +9,6 @@ use btc::tree::equivalence::Trace;
 use btc::tree::reading::Reading;
 use btc::tree::tick::Runner;
 use std::collections::{BTreeSet, VecDeque};
-
-/// Whether an atom holds in a minterm.
-pub(crate) fn holds<'a>(atoms: &'a [Atom], minterm: &'a Minterm) -> impl Fn(Atom) -> bool + 'a {
-    move |atom| {
-        let at = atoms.iter().position(|a| *a == atom);
-        at.is_some_and(|i| minterm.get(i))
-    }
-}
 
 /// P2: the number of ticks after which the tree first does something else than the policy on some path, if it does.
 pub(crate) fn parts_after(root: &Node, policy: &Policy) -> Option<usize> {

@@ -17,6 +17,9 @@ use std::rc::Rc;
 /// A memory of each tree.
 pub(super) type Memories = [Box<[u64]>; 2];
 
+/// A tick of a tree: from which memory, and which behaviour fails in it, if that is asked.
+type Ticked = (Box<[u64]>, Option<Id<Behavior>>);
+
 /// A tick of both trees from a pair of memories.
 pub(super) struct Pair {
     pub(super) sides: [Rc<Unfolded>; 2],
@@ -34,7 +37,7 @@ pub(super) struct Pairs {
     /// The history atoms that the window remembers, with the terminations that they ask for.
     remembered: Vec<((Id<Behavior>, Status), Atom, Signal)>,
     pub(super) inputs: Inputs,
-    unfolded: [FxHashMap<Box<[u64]>, Rc<Unfolded>>; 2],
+    unfolded: [FxHashMap<Ticked, Rc<Unfolded>>; 2],
     known: FxHashMap<Memories, Rc<Pair>>,
 }
 
@@ -106,8 +109,21 @@ impl Pairs {
             return Rc::clone(pair);
         }
         let [left, right] = memories;
-        let sides = [self.unfold(0, left), self.unfold(1, right)];
-        let [left, right] = &sides;
+        let sides = [self.unfold(0, left, None), self.unfold(1, right, None)];
+        let differ = self.differ(&sides);
+        let [selecting, _] = &sides;
+        let enters = self.enters(&selecting.selects);
+        let pair = Rc::new(Pair {
+            differ,
+            enters,
+            sides,
+        });
+        self.known.insert(memories.clone(), Rc::clone(&pair));
+        pair
+    }
+
+    /// When two ticks select different behaviours.
+    pub(super) fn differ(&mut self, [left, right]: &[Rc<Unfolded>; 2]) -> Signal {
         let circuit = &mut self.inputs.circuit;
         let behaviors: BTreeSet<_> = left.selects.keys().chain(right.selects.keys()).collect();
         let selects = |side: &Unfolded, behavior| {
@@ -119,22 +135,22 @@ impl Pairs {
             let parts = circuit.xor(selects(left, behavior), selects(right, behavior));
             differ = circuit.or(differ, parts);
         }
-        let enters = self.enters(&left.selects);
-        let pair = Rc::new(Pair {
-            differ,
-            enters,
-            sides,
-        });
-        self.known.insert(memories.clone(), Rc::clone(&pair));
-        pair
+        differ
     }
 
-    fn unfold(&mut self, side: usize, memory: &[u64]) -> Rc<Unfolded> {
+    /// The tick of one tree from a memory. Where a behaviour is failing, it fails, and what is selected is what comes next.
+    pub(super) fn unfold(
+        &mut self,
+        side: usize,
+        memory: &[u64],
+        failing: Option<Id<Behavior>>,
+    ) -> Rc<Unfolded> {
         let (Some(tree), Some(known)) = (self.trees.get(side), self.unfolded.get_mut(side)) else {
             return Rc::default();
         };
-        let entry = known.entry(memory.into());
-        Rc::clone(entry.or_insert_with(|| Rc::new(unfold(tree, memory, &mut self.inputs))))
+        let entry = known.entry((memory.into(), failing));
+        let unfolded = || Rc::new(unfold(tree, memory, &mut self.inputs, failing));
+        Rc::clone(entry.or_insert_with(unfolded))
     }
 
     /// What enters the window when these behaviours are selected.
@@ -188,8 +204,12 @@ impl Pairs {
     }
 
     /// The trace with these steps whose last tick has these values of the atoms.
-    pub(super) fn parted(&self, steps: Vec<TraceTick>, pair: &Pair, values: &[bool]) -> Trace {
-        let [left, right] = &pair.sides;
+    pub(super) fn parted(
+        &self,
+        steps: Vec<TraceTick>,
+        [left, right]: &[Rc<Unfolded>; 2],
+        values: &[bool],
+    ) -> Trace {
         let atoms = &self.inputs.atoms;
         Trace {
             atoms: self.atoms.clone(),

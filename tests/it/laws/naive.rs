@@ -5,6 +5,7 @@
 use btc::ir::Id;
 use btc::ir::law::Behavior;
 use btc::ir::tree::{Atom, Composite, Decorator, Node, Status};
+use btc::policy::Minterm;
 use std::collections::BTreeMap;
 
 /// The memory of a tree: what each node that was reached by the last tick remembers, by its path from the root.
@@ -17,6 +18,14 @@ pub(crate) struct Tick {
     /// Every behaviour that was ticked, in order; the first is the one that the tree selects.
     pub(crate) ticked: Vec<Id<Behavior>>,
     pub(crate) memory: Memory,
+}
+
+/// Whether an atom holds in a minterm.
+pub(crate) fn holds<'a>(atoms: &'a [Atom], minterm: &'a Minterm) -> impl Fn(Atom) -> bool + 'a {
+    move |atom| {
+        let at = atoms.iter().position(|a| *a == atom);
+        at.is_some_and(|i| minterm.get(i))
+    }
 }
 
 /// Ticks `node` once with the memory that the last tick left.
