@@ -4,7 +4,6 @@
 //! fails gives way, too, so only what can never fail shuts off what follows it in a selector.
 
 use super::cases::{Cases, of_guard};
-use super::endings::may_end;
 use super::idle::is_switch;
 use crate::check::Checker;
 use crate::diagnostic::Code;
