@@ -90,8 +90,11 @@ fn the_dictionary_has_the_words_of_the_language() {
     }
 }
 
+/// What holds of any bytes.
+type Law = fn(&[u8]);
+
 /// The laws, by the names of their targets.
-const LAWS: [(&str, fn(&[u8])); 6] = [
+const LAWS: [(&str, Law); 6] = [
     ("check", laws::check::holds),
     ("format", laws::format::holds),
     ("parse", laws::parse::holds),

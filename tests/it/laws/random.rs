@@ -1,11 +1,13 @@
 //! Where choices come from: numbers of a seed, or the bytes of an input.
 
+use std::collections::VecDeque;
+
 /// Choices, one after another.
 pub(crate) enum Random {
     /// Marsaglia's xorshift, 64 bits.
     Seeded(u64),
     /// A byte for each choice; 0 when there are no more.
-    Given(std::vec::IntoIter<u8>),
+    Given(VecDeque<u8>),
 }
 
 impl Random {
@@ -18,7 +20,7 @@ impl Random {
     }
 
     pub(crate) fn given(bytes: &[u8]) -> Self {
-        Self::Given(bytes.to_vec().into_iter())
+        Self::Given(bytes.iter().copied().collect())
     }
 
     pub(crate) fn next(&mut self) -> u64 {
@@ -29,7 +31,7 @@ impl Random {
                 *state ^= *state << 17;
                 *state
             }
-            Self::Given(bytes) => u64::from(bytes.next().unwrap_or(0)) << 11,
+            Self::Given(bytes) => u64::from(bytes.pop_front().unwrap_or(0)) << 11,
         }
     }
 
