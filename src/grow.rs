@@ -99,10 +99,10 @@ pub fn ground<'w, W: World>(experiment: &'w Experiment<W>, seed: u64) -> Ground<
 }
 
 /// The part of the effort that goes into the policy, by iteration and then decision by decision.
-const ITERATING: f64 = 0.32;
-const IMPROVING: f64 = 0.03;
+const ITERATING: f64 = 0.35;
+const IMPROVING: f64 = 0.05;
 /// The part that goes into the tree.
-const GROWING: f64 = 0.65;
+const GROWING: f64 = 0.6;
 
 /// Improves the policy of a run by simulation.
 pub fn improve<W: World>(

@@ -13,6 +13,8 @@ use std::mem;
 /// The attempts, and the part of the effort that they take.
 const ATTEMPTS: usize = 2;
 const ATTEMPTED: f64 = 0.7;
+/// The least effort that is divided among them.
+const ENOUGH: u64 = 1_000_000;
 /// The trees that are kept of an attempt that was not the best.
 const KEPT: usize = 3;
 
@@ -29,11 +31,19 @@ impl<W: World> Grower<'_, '_, '_, W> {
         self.attempts.first.is_some()
     }
 
+    /// How many attempts there are.
+    fn most(&self) -> usize {
+        match self.settings.effort < ENOUGH {
+            true => 1,
+            false => ATTEMPTS,
+        }
+    }
+
     /// The ticks of an attempt, or of the whole search when they are over.
     pub(super) fn share(&self) -> f64 {
         let effort = self.settings.effort as f64;
         match self.is_attempting() {
-            true => effort * ATTEMPTED / ATTEMPTS as f64,
+            true => effort * ATTEMPTED / self.most() as f64,
             false => effort,
         }
     }
@@ -49,15 +59,17 @@ impl<W: World> Grower<'_, '_, '_, W> {
         self.visit(&base);
         self.attempts.found.push(mem::take(&mut self.visited));
         let first = self.attempts.first.take();
-        if let Some(first) = first.filter(|_| self.attempts.found.len() < ATTEMPTS) {
+        if let Some(first) = first.filter(|_| self.attempts.found.len() < self.most()) {
             self.visit(&first);
             return self.attempt(first);
         }
         let mut found = mem::take(&mut self.attempts.found);
         let tops = found.iter().filter_map(|trees| trees.last());
         let tops = tops.map(|top| top.root.clone()).filter(|top| *top != base);
+        let tops: Vec<Node> = tops.collect();
         let terms = Terms::taking(self.price);
-        let best = self.judge.race(&base, tops.collect(), terms);
+        let race = (!tops.is_empty()).then(|| self.judge.race(&base, tops, terms));
+        let best = race.flatten();
         let base = best.map_or(base, |best| best.root);
         let is_best = |trees: &Vec<Visited>| trees.last().is_some_and(|top| top.root == base);
         found.sort_by_key(is_best);
