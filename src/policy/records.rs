@@ -7,6 +7,12 @@ use std::ops::Range;
 /// The byte-order mark that some programs write before a text.
 const MARK: &[u8] = b"\xef\xbb\xbf";
 
+/// The first byte of the character that a byte belongs to.
+pub(in crate::policy) fn character(text: &[u8], at: usize) -> usize {
+    let continues = |at: &usize| text.get(*at).is_some_and(|byte| byte & 0xc0 == 0x80);
+    (0..=at).rev().find(|at| !continues(at)).unwrap_or(0)
+}
+
 /// Reads the records of a text one by one.
 pub(super) struct Records<'t> {
     text: &'t [u8],

@@ -6,6 +6,7 @@
 use super::decoded;
 use crate::ir::input::Measure;
 use crate::policy::error::{TableError, TableErrorKind};
+use crate::policy::records;
 use crate::policy::valued::{Builder, Valued};
 use serde::Deserialize;
 use serde_json::value::RawValue;
@@ -38,10 +39,12 @@ pub(super) fn read(text: &[u8]) -> Result<Valued, Vec<TableError>> {
                 .take(error.line().saturating_sub(1));
             let line: usize = line.map(str::len).sum();
             let at = (line + error.column().saturating_sub(1)).min(whole.len());
+            let at = records::character(whole.as_bytes(), at);
+            let wrong = whole.get(at..).and_then(|rest| rest.chars().next());
             let why = error.to_string();
             let why = why.split(" at line ").next().unwrap_or_default().to_owned();
             builder.report(
-                &(at..(at + 1).min(whole.len())),
+                &(at..at + wrong.map_or(0, char::len_utf8)),
                 TableErrorKind::Malformed(why),
             );
             return builder.finish(start..start);

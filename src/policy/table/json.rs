@@ -35,7 +35,7 @@ pub(super) fn read(text: &[u8], reading: &mut Reading) {
                 let why = error.to_string();
                 let why = why.split(" at line ").next().unwrap_or_default().to_owned();
                 reading.mistake(TableError {
-                    span: start + column - 1..start + line.len(),
+                    span: start + records::character(line, column - 1)..start + line.len(),
                     kind: TableErrorKind::Malformed(why),
                 });
                 continue;
