@@ -5,7 +5,7 @@ use super::progress::Progress;
 use super::report::{Reporter, tell};
 use super::store::checkpoint::{Run, Unlike};
 use super::store::{Checkpoint, Folder, System};
-use super::{Failure, PLAYED, interrupt, paths};
+use super::{Failure, PLAYED, effort, interrupt, paths};
 use crate::checkpoint::Forgetful;
 use crate::diagnostic::render;
 use crate::driver::learn::{self, Learned, Options, Shape};
@@ -120,20 +120,6 @@ fn loss(text: &str) -> Result<f64, String> {
         Ok(part) if (0.0..1.0).contains(&part) => Ok(part),
         _ => Err("a loss is a part of the return, such as `1%`".to_owned()),
     }
-}
-
-/// A number of ticks: `60M`, `500k` or `20_000_000`.
-fn effort(text: &str) -> Result<u64, String> {
-    let (digits, scale) = match text.strip_suffix(['M', 'm']) {
-        Some(digits) => (digits, 1_000_000),
-        None => match text.strip_suffix(['k', 'K']) {
-            Some(digits) => (digits, 1000),
-            None => (text, 1),
-        },
-    };
-    let number = digits.replace('_', "").parse::<u64>().ok();
-    let ticks = number.and_then(|number| number.checked_mul(scale));
-    ticks.ok_or_else(|| "an effort is a number of ticks, such as `60M`".to_owned())
 }
 
 pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {

@@ -96,6 +96,20 @@ enum Command {
     Man(man::Arguments),
 }
 
+/// A number of ticks: `60M`, `500k` or `20_000_000`.
+fn effort(text: &str) -> Result<u64, String> {
+    let (digits, scale) = match text.strip_suffix(['M', 'm']) {
+        Some(digits) => (digits, 1_000_000),
+        None => match text.strip_suffix(['k', 'K']) {
+            Some(digits) => (digits, 1000),
+            None => (text, 1),
+        },
+    };
+    let number = digits.replace('_', "").parse::<u64>().ok();
+    let ticks = number.and_then(|number| number.checked_mul(scale));
+    ticks.ok_or_else(|| "an effort is a number of ticks, such as `60M`".to_owned())
+}
+
 /// Why a command stops without its result. The reason stands on standard error already.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Failure {

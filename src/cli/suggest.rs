@@ -3,7 +3,7 @@
 use super::files;
 use super::progress::Progress;
 use super::report::{Format, Reporter};
-use super::{Failure, PLAYED};
+use super::{Failure, PLAYED, effort};
 use crate::driver::suggest::{self, Options};
 use clap::Args;
 
@@ -15,7 +15,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "NAME")]
     learner: Option<String>,
     /// About how many ticks the search for one tree may take.
-    #[arg(long, value_name = "TICKS", default_value_t = Options::default().effort)]
+    #[arg(long, value_name = "TICKS", default_value_t = Options::default().effort, value_parser = effort)]
     effort: u64,
     /// How many conditions are learned with, at most.
     #[arg(long, value_name = "N", default_value_t = Options::default().tries as u64, value_parser = clap::value_parser!(u64).range(1..=1000))]

@@ -5,7 +5,7 @@ use super::learn::tuned_files;
 use super::progress::Progress;
 use super::report::{Format, Reporter, tell};
 use super::store::{Folder, System};
-use super::{Failure, PLAYED, interrupt};
+use super::{Failure, PLAYED, effort, interrupt};
 use crate::driver::tune::{self, Options};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -24,7 +24,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "N", default_value_t = Options::default().episodes, value_parser = clap::value_parser!(u64).range(2..=PLAYED))]
     episodes: u64,
     /// About how many ticks the search may take.
-    #[arg(long, value_name = "TICKS", default_value_t = Options::default().effort)]
+    #[arg(long, value_name = "TICKS", default_value_t = Options::default().effort, value_parser = effort)]
     effort: u64,
     /// The seed of the episodes.
     #[arg(long, value_name = "N", default_value_t = Options::default().seed)]

@@ -22,6 +22,9 @@ pub const ITEMS: [&str; 16] = [
     "test",
 ];
 
+/// The functions that range over a kind.
+pub const RANGING: [&str; 4] = ["any", "all", "count", "nearest"];
+
 /// The words that begin an aspect of a task; without parentheses or backquotes, they do not stand in a list.
 pub const ASPECTS: [&str; 7] = [
     "observe", "choose", "history", "patience", "start", "end", "reward",

@@ -39,6 +39,18 @@ fn a_program_without_mistakes_is_ok() {
     );
 }
 
+/// Every command that simulates takes its effort in the same words.
+#[test]
+fn an_effort_may_be_in_millions() {
+    for command in ["learn", "tune", "suggest"] {
+        // What is missing is the file.
+        let asked = [command, "no_such.bt", "--effort", "5M"];
+        assert_eq!(btc(&asked).status.code(), Some(1), "{command}");
+        let wrong = [command, "no_such.bt", "--effort", "5x"];
+        assert_eq!(btc(&wrong).status.code(), Some(2), "{command}");
+    }
+}
+
 #[test]
 fn mistakes_give_exit_code_1_and_a_bad_command_line_2() {
     let wrong = b"state battery: ratio = 3 m\n";

@@ -7,9 +7,7 @@ use crate::syntax::ast::{Arg, ArgKind, Expr, ExprKind, Ident, Ref};
 use crate::syntax::diagnose::no_such_unit;
 use crate::syntax::grammar::{Node, Parts, Rule};
 use crate::syntax::tokens::Kind;
-
-/// The functions that range over a kind.
-const RANGING: [&str; 4] = ["any", "all", "count", "nearest"];
+use crate::syntax::words::RANGING;
 
 /// What comes next of a range whose `..` is another word.
 #[derive(Clone, Copy, PartialEq, Eq)]

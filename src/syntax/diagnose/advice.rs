@@ -6,7 +6,7 @@ use crate::diagnostic::{Applicability, Diagnostic};
 use crate::spelling::RESERVED;
 use crate::syntax::grammar::Rule;
 use crate::syntax::tokens::{Kind, Token};
-use crate::syntax::words::{CALLED, NODES};
+use crate::syntax::words::{CALLED, NODES, RANGING};
 
 impl Place<'_> {
     /// Advice on a token that does not fit.
@@ -159,8 +159,7 @@ impl Place<'_> {
 
     /// Whether the token follows `any` or one of its relatives.
     fn is_binder_without_parentheses(&self) -> bool {
-        let ranges = ["any", "all", "count", "nearest"];
-        ranges.contains(&self.before()) && is_word(self.found) && self.same_line_as_before()
+        RANGING.contains(&self.before()) && is_word(self.found) && self.same_line_as_before()
     }
 
     /// Advice on names with marks in them, and on calls without parentheses.
