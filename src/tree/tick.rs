@@ -26,6 +26,17 @@ pub struct Runner {
     tree: CompiledTree,
     now: Vec<u64>,
     next: Vec<u64>,
+    settled: Option<Settled>,
+}
+
+/// A tick that is the next one as well, while the atoms and the behaviour's answer stay the same: it ticked this behaviour
+/// alone, which runs, and left the memory as it was.
+#[derive(Clone, Copy, Debug)]
+struct Settled {
+    key: u128,
+    behavior: Id<Behavior>,
+    /// The tree's answer.
+    status: Status,
 }
 
 impl Runner {
@@ -40,6 +51,7 @@ impl Runner {
             tree,
             now: memory.clone(),
             next: memory,
+            settled: None,
         })
     }
 
@@ -59,14 +71,44 @@ impl Runner {
         self.tick_in(&mut Known(valuation, leaf))
     }
 
-    /// One tick in a valuation as the simulator keeps it: a key of at most 128 atoms.
-    pub fn tick_key(&mut self, key: u128, leaf: impl FnMut(Id<Behavior>) -> Status) -> Status {
-        self.tick(&[key as u64, (key >> 64) as u64], leaf)
+    /// One tick in a valuation as the simulator keeps it: a key of at most 128 atoms. The tree is not walked again where
+    /// that would lead to the same behaviour.
+    pub fn tick_key(&mut self, key: u128, mut leaf: impl FnMut(Id<Behavior>) -> Status) -> Status {
+        let mut answered = None;
+        if let Some(settled) = self.settled
+            && settled.key == key
+        {
+            let answer = leaf(settled.behavior);
+            if answer == Status::Running {
+                return settled.status;
+            }
+            answered = Some(answer);
+        }
+        let (mut ticked, mut last) = (0, None);
+        let status = self.tick(&[key as u64, (key >> 64) as u64], |behavior| {
+            let answer = answered.take().unwrap_or_else(|| leaf(behavior));
+            (ticked, last) = (ticked + 1, Some((behavior, answer)));
+            answer
+        });
+        if let Some((behavior, Status::Running)) = last
+            && ticked == 1
+            && self.now == self.next
+        {
+            self.settled = Some(Settled {
+                key,
+                behavior,
+                status,
+            });
+        }
+        status
     }
 
     /// One tick.
     pub fn tick_in(&mut self, surroundings: &mut impl Surroundings) -> Status {
-        self.next.fill(0);
+        self.settled = None;
+        if !self.next.is_empty() {
+            self.next.fill(0);
+        }
         let mut tick = Tick {
             tree: &self.tree,
             now: &self.now,
@@ -86,12 +128,14 @@ impl Runner {
 
     /// Sets the memory to one that [`Runner::memory`] gave.
     pub fn resume(&mut self, memory: &[u64]) {
+        self.settled = None;
         self.now.clear();
         self.now.extend_from_slice(memory);
     }
 
     /// Halts everything.
     pub fn reset(&mut self) {
+        self.settled = None;
         self.now.fill(0);
     }
 }

@@ -66,6 +66,8 @@ pub struct Simulation<'a> {
     pub(super) terminations: Vec<(Id<Behavior>, Status)>,
     /// The other robots.
     pub(super) others: Vec<Other<'a>>,
+    /// All robots where they stand, the acting one first; kept so that nothing is allocated in a tick.
+    robots: Vec<Circle>,
     /// The terminations of other robots' behaviours in this tick.
     elsewhere: Vec<(Id<Behavior>, Status)>,
     /// The behaviours of which it is asked whether they run, with their registers.
@@ -102,6 +104,7 @@ impl<'a> Simulation<'a> {
                     atoms: 0,
                 })
                 .collect(),
+            robots: Vec::new(),
             elsewhere: Vec::new(),
             watched: simulator.layout.running(),
             scene: (!simulator.doors.is_empty()).then(|| Box::new(simulator.around.scene.clone())),
@@ -357,15 +360,14 @@ impl<'a> Simulation<'a> {
 
     /// Tells each robot where the others are.
     pub(super) fn meet(&mut self) {
-        let acting = (self.body.pose.position, self.simulator.radius);
-        let others = self.others.iter();
-        let others = others.map(|other| (other.body.pose.position, other.script.radius));
-        let circles: Vec<Circle> = std::iter::once(acting)
-            .chain(others)
-            .map(|(center, radius)| Circle { center, radius })
-            .collect();
+        let mut robots = std::mem::take(&mut self.robots);
+        robots.clear();
+        robots.extend(
+            self.standing()
+                .map(|(center, radius)| Circle { center, radius }),
+        );
         let but = |own: usize| {
-            let circles = circles.iter().enumerate();
+            let circles = robots.iter().enumerate();
             circles.filter(move |(at, _)| *at != own).map(|(_, it)| *it)
         };
         self.body.bodies.clear();
@@ -375,6 +377,7 @@ impl<'a> Simulation<'a> {
             other.body.bodies.clear();
             other.body.bodies.extend(but(own));
         }
+        self.robots = robots;
     }
 
     /// Tells the code where all robots are.
@@ -432,13 +435,16 @@ impl<'a> Simulation<'a> {
         self.body.atoms
     }
 
-    /// Where all robots are, with their radii.
-    pub(super) fn robots(&self) -> Vec<(Point, f64)> {
+    /// Where all robots are, with their radii, the acting one first.
+    fn standing(&self) -> impl Iterator<Item = (Point, f64)> + '_ {
         let others = self.others.iter();
         let others = others.map(|other| (other.body.pose.position, other.script.radius));
-        std::iter::once((self.body.pose.position, self.simulator.radius))
-            .chain(others)
-            .collect()
+        std::iter::once((self.body.pose.position, self.simulator.radius)).chain(others)
+    }
+
+    /// Where all robots are, with their radii.
+    pub(super) fn robots(&self) -> Vec<(Point, f64)> {
+        self.standing().collect()
     }
 
     /// Tells each robot what stands.

@@ -201,15 +201,24 @@ fn the_compiled_tree_ticks_as_the_naive_one() {
             .chain([Atom::Done(Id::new(0))])
             .collect();
         let mut runner = Runner::new(&root, &atoms).unwrap();
+        let mut keyed = runner.clone();
         let mut memory = Memory::new();
-        for _ in 0..40 {
-            let words = [random.next() & random.next(), random.next()];
+        let mut words = [0; 2];
+        for tick in 0..60 {
+            // Often nothing changes, and what runs goes on: `tick_key` does not walk the tree then.
+            if tick == 0 || random.below(3) == 0 {
+                words = [random.next() & random.next(), random.next()];
+            }
             let holds = |atom: Atom| {
                 let bit = atoms.iter().position(|a| *a == atom).unwrap();
                 words[bit / 64] >> (bit % 64) & 1 == 1
             };
             let script: Vec<Status> = (0..64)
-                .map(|_| [Status::Success, Status::Failure, Status::Running][random.below(3)])
+                .map(|_| match random.below(6) {
+                    0 => Status::Success,
+                    1 => Status::Failure,
+                    _ => Status::Running,
+                })
                 .collect();
             let mut ticked = vec![];
             let status = runner.tick(&words, |behavior| {
@@ -225,6 +234,17 @@ fn the_compiled_tree_ticks_as_the_naive_one() {
                 (status, &ticked),
                 (expected.status, &expected.ticked),
                 "seed {seed}: {root:?}"
+            );
+            let mut ticked = vec![];
+            let key = u128::from(words[0]) | u128::from(words[1]) << 64;
+            let status = keyed.tick_key(key, |behavior| {
+                ticked.push(behavior);
+                script[ticked.len() - 1]
+            });
+            assert_eq!(
+                (status, &ticked, keyed.memory()),
+                (expected.status, &expected.ticked, runner.memory()),
+                "seed {seed}, by key: {root:?}"
             );
             memory = expected.memory;
         }
