@@ -6,6 +6,7 @@ use crate::diagnostic::{Applicability, Code, Diagnostic, Label, suggest};
 use crate::source::Span;
 use crate::spelling::spelled;
 use crate::syntax::ast::{Expr, ExprKind, Ident};
+use crate::syntax::print;
 use std::collections::BTreeMap;
 use std::fmt::Display;
 
@@ -194,6 +195,14 @@ impl<'a> Checker<'a> {
                 format!("{what} is {}", listed(choices, "or")),
             )
             .label("this is not");
+        if let ([only], ExprKind::Number(_)) = (choices, &value.kind)
+            && let Some((shape, _)) = only.split_once('(')
+        {
+            let right = format!("{shape}({})", print::expr(value));
+            let title = format!("write `{right}`");
+            draft.fix(title, span, right, Applicability::Unsafe);
+            return;
+        }
         if let Some(name) = name {
             let words = choices.iter().filter_map(|choice| choice.split('(').next());
             draft.likely(name, suggest::nearest(&name.name, words));

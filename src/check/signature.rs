@@ -2,7 +2,8 @@
 
 use super::Checker;
 use super::report::listed;
-use crate::diagnostic::Code;
+use crate::diagnostic::{Applicability, Code};
+use crate::source::Span;
 use crate::syntax::ast::{Arg, ArgKind, Expr, Ident, Ref};
 
 /// The arguments that something takes.
@@ -124,9 +125,15 @@ impl<'a> Checker<'a> {
             ) => {
                 if first_mistake {
                     let message = format!("{owner} takes its settings by name");
-                    self.error(Code::E0305, arg.span, message)
+                    let draft = self
+                        .error(Code::E0305, arg.span, message)
                         .label("which setting is this?")
                         .help(format!("it has {}", listed(names, "and")));
+                    if let (ArgKind::Positional(_), Some(first)) = (&arg.kind, names.first()) {
+                        let title = format!("if it is `{first}`, say so");
+                        let name = format!("{first} = ");
+                        draft.fix(title, arg.span.before(), name, Applicability::Unsafe);
+                    }
                 }
                 None
             }
@@ -148,11 +155,16 @@ impl<'a> Checker<'a> {
                 *position += 1;
                 Some(*position - 1)
             }
-            (ArgKind::Named(name, _), Takes::Values) => {
+            (ArgKind::Named(name, value), Takes::Values) => {
                 if first_mistake {
                     let message = format!("{owner} takes its arguments by position");
+                    let until_value = Span {
+                        end: value.span.start,
+                        ..name.span
+                    };
                     self.error(Code::E0305, name.span, message)
-                        .label("no parameter has a name");
+                        .label("no parameter has a name")
+                        .fix("drop the name", until_value, "", Applicability::Unsafe);
                 }
                 None
             }

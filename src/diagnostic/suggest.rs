@@ -123,7 +123,7 @@ const FOREIGN: [(&str, &str); 111] = [
 ];
 
 /// The candidate that `name` is called elsewhere, or else the nearest one, if it is near enough to be what was meant; the
-/// first one of several.
+/// first one of several. Where none is near, the one that `name` is the beginning of.
 ///
 /// Nearness is the number of letters inserted, dropped, replaced or exchanged with their neighbour (optimal string
 /// alignment); the case of letters counts half a replacement, so that `Sequence` finds `sequence`.
@@ -149,10 +149,19 @@ where
         let near = distance <= allowed && distance < 2 * length && candidate != name;
         near.then_some((distance, candidate))
     };
-    let candidates = candidates.into_iter().filter_map(near);
-    candidates
+    let nearest = (candidates.iter().copied())
+        .filter_map(near)
         .min_by_key(|(distance, _)| *distance)
-        .map(|(_, candidate)| candidate)
+        .map(|(_, candidate)| candidate);
+    nearest.or_else(|| cut_short(name, &candidates))
+}
+
+/// The only candidate that begins with `name`, if that has three letters or more.
+fn cut_short<'a>(name: &str, candidates: &[&'a str]) -> Option<&'a str> {
+    let begins = |candidate: &&&str| candidate.len() > name.len() && candidate.starts_with(name);
+    let mut whole = candidates.iter().filter(begins);
+    let only = whole.next().filter(|_| name.len() >= 3)?;
+    whole.all(|other| other == only).then_some(only)
 }
 
 /// Twice the edit distance, where a change of case costs one: it is an edit only while case counts.
@@ -173,6 +182,8 @@ mod tests {
         assert_eq!(nearest("Sequence", words), Some("sequence"));
         assert_eq!(nearest("got", words), Some("goto"));
         assert_eq!(nearest("ogto", words), Some("goto"));
+        assert_eq!(nearest("seq", words), Some("sequence"));
+        assert_eq!(nearest("wal", ["wall_at", "wall_of"]), None);
     }
 
     #[test]

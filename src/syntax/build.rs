@@ -175,14 +175,7 @@ impl<'i> Builder<'i> {
     /// Takes the `=` of a declaration, and reports `==` and `:=`, and `:` where no type can stand.
     fn take_is(&mut self, parts: &mut Parts<'i>) -> bool {
         if let Some(node) = parts.maybe(Rule::wrong_is) {
-            let span = self.span(&node);
-            let message = "a value is given with `=`, not with `:`".to_owned();
-            let touches = self.text.get(..span.range().start);
-            let right = match touches.is_some_and(|before| before.ends_with(is_blank)) {
-                true => "=",
-                false => " =",
-            };
-            self.respell(Code::E0127, span, message, right);
+            self.wrong_is(&node);
             return true;
         }
         let Some(node) = parts.maybe(Rule::is) else {
@@ -190,6 +183,18 @@ impl<'i> Builder<'i> {
         };
         self.single_equals(&node);
         true
+    }
+
+    /// Reports a `:` before a value.
+    fn wrong_is(&mut self, node: &Node<'i>) {
+        let span = self.span(node);
+        let message = "a value is given with `=`, not with `:`".to_owned();
+        let touches = self.text.get(..span.range().start);
+        let right = match touches.is_some_and(|before| before.ends_with(is_blank)) {
+            true => "=",
+            false => " =",
+        };
+        self.respell(Code::E0127, span, message, right);
     }
 
     fn single_equals(&mut self, node: &Node<'i>) {

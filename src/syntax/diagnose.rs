@@ -66,6 +66,7 @@ pub(super) fn failure(
         .or_else(|| place.outcome())
         .or_else(|| place.unclosed())
         .or_else(|| place.text())
+        .or_else(|| place.effect())
         .or_else(|| place.grouped_digits())
         .or_else(|| place.unit())
         .or_else(|| place.modulo())

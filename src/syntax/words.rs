@@ -228,12 +228,16 @@ pub const NODES: [(&str, Word); 9] = [
 ];
 
 /// What other languages call the composites and decorators.
-pub(super) const FOREIGN_NODES: [(&str, Word); 14] = [
+pub(super) const FOREIGN_NODES: [(&str, Word); 18] = [
     ("fallback", Word::Selector),
     ("priority", Word::Selector),
     ("select", Word::Selector),
     ("choice", Word::Selector),
+    ("reactive_fallback", Word::Selector),
+    ("reactivefallback", Word::Selector),
     ("seq", Word::Sequence),
+    ("reactive_sequence", Word::Sequence),
+    ("reactivesequence", Word::Sequence),
     ("concurrent", Word::Parallel),
     ("all", Word::Parallel),
     ("inverter", Word::Invert),

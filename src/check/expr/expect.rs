@@ -162,6 +162,19 @@ fn conversion(typed: &Typed, expr: &Expr, wanted: &Type) -> Option<String> {
             "a kind stands behind the name: `place {place}: {kind} = …`"
         ));
     }
+    if let (Type::Point, Type::Shape) = (&typed.ty, wanted) {
+        let point = print::expr(expr);
+        return Some(format!("the disc around it: `disc({point}, 20 cm)`"));
+    }
+    if let (Type::Point, ExprKind::Ref(word)) = (wanted, &expr.kind)
+        && word.name.name == "anywhere"
+    {
+        return Some("anywhere, however it looks: `pose = anywhere`".to_owned());
+    }
+    if let (Type::Ratio, Type::Bool, ExprKind::Number(_)) = (&typed.ty, wanted, &expr.kind) {
+        let odds = print::expr(expr);
+        return Some(format!("in so many of all cases: `chance({odds})`"));
+    }
     let (is, wanted) = (typed.ty.dim()?, wanted.dim()?);
     let literal = match &expr.kind {
         ExprKind::Number(literal) => Some(literal),

@@ -2,12 +2,13 @@
 
 use super::cases::{Cases, of_expr};
 use crate::check::Checker;
+use crate::check::expr::plain_ref;
 use crate::diagnostic::Code;
 use crate::ir::expr::{Expr, ExprId};
 use crate::ir::task::{Discount, Learner, Objective, Task};
 use crate::ir::{Id, Name};
 use crate::source::Span;
-use crate::syntax::ast::{self, AspectKind, Item, ItemKind, LearnEntry, RewardLine};
+use crate::syntax::ast::{self, AspectKind, Item, ItemKind, LearnEntry, Paid, RewardLine};
 
 impl<'a> Checker<'a> {
     /// Warns of what a task says about rewards, ends and times without any effect.
@@ -94,8 +95,43 @@ impl<'a> Checker<'a> {
                     .label("whenever this happens, an earlier line pays")
                     .also(earlier, "this line comes first");
             }
+            let ends = cases
+                .iter()
+                .all(|cases| self.ends_an_episode(cases, checked));
+            if let Paid::On(condition) = &line.paid
+                && !ends
+            {
+                self.pays_again_and_again(condition);
+            }
             before.extend(cases.into_iter().map(|cases| (here, cases)));
         }
+    }
+
+    /// Whether an episode ends as soon as this is so.
+    fn ends_an_episode(&self, cases: &Cases, checked: &Task) -> bool {
+        let ends = checked.end_on.iter();
+        ends.map(|end| of_expr(&self.program, *end, true))
+            .any(|end| cases.implies(&end))
+    }
+
+    /// `on battery_low: -1`: what holds for a while is paid in every tick of it.
+    fn pays_again_and_again(&mut self, condition: &ast::Expr) {
+        let Some(asked) = plain_ref(condition) else {
+            return;
+        };
+        let name = &asked.name.name;
+        let mut predicates = self.program.predicates.values();
+        if !predicates.any(|predicate| predicate.name.is(name)) {
+            return;
+        }
+        let message =
+            format!("`{name}` is a predicate: this is paid in every tick in which it holds");
+        self.warning(Code::W0519, condition.span, message)
+            .label("an event happens, a predicate lasts")
+            .help(format!(
+                "a price for the time is written `while {name}, per 1 s: …`"
+            ))
+            .help("what happens once is an event, such as the success of a behaviour");
     }
 
     /// Whether what a line of `reward` waits for is an event, whose own condition is told.

@@ -128,9 +128,13 @@ impl<'a> Checker<'a> {
         {
             let pairs = numbers.get(..loose).unwrap_or_default().chunks(2);
             let pairs: Vec<String> = pairs.map(|pair| format!("({})", pair.join(", "))).collect();
-            let right = pairs.join(", ");
+            let mut right = pairs.join(", ");
+            let corner = name == "rect" && loose == 2;
+            if corner {
+                right = format!("(0 m, 0 m), {right}");
+            }
             let title = format!("write `{right}`");
-            let enough = loose >= 4 || points == 1;
+            let enough = loose >= 4 || points == 1 || corner;
             if enough {
                 draft.fix(
                     title,

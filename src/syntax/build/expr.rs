@@ -259,14 +259,14 @@ impl<'i> Builder<'i> {
         let mut diagnostic = Diagnostic::new(Code::E0107, span, "no text can stand here")
             .label("the language has no values of text")
             .note("quotation marks are for the paths of `use`");
-        if !inner.is_empty() && !inner.contains('`') {
+        let number = inner.trim().parse::<f64>().is_ok_and(f64::is_finite);
+        if number {
+            let title = "write the number, without quotation marks";
+            diagnostic = diagnostic.fix(title, span, inner.trim(), Applicability::Unsafe);
+        } else if !inner.is_empty() && !inner.contains('`') {
             let name = spelled(inner).into_owned();
-            diagnostic = diagnostic.fix(
-                "name something, without quotation marks",
-                span,
-                name,
-                Applicability::Unsafe,
-            );
+            let title = "name something, without quotation marks";
+            diagnostic = diagnostic.fix(title, span, name, Applicability::Unsafe);
         }
         self.report(diagnostic);
     }

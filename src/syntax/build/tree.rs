@@ -12,7 +12,7 @@ use crate::syntax::words::{FOREIGN_NODES, NODES};
 /// The composite with memory that a single word means elsewhere: `SequenceWithMemory`, `memory_selector`.
 fn remembering(written: &str) -> Option<Word> {
     let plain = written.replace('_', "").to_ascii_lowercase();
-    let ends = ["withmemory", "withmem", "memory", "mem"];
+    let ends = ["withmemory", "withmem", "memory", "mem", "star"];
     let rest = (ends.iter().find_map(|end| plain.strip_suffix(end)))
         .or_else(|| ends.iter().find_map(|start| plain.strip_prefix(start)))?;
     let mut words = NODES.iter().chain(&FOREIGN_NODES);

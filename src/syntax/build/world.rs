@@ -1,11 +1,14 @@
 //! Worlds.
 
 use super::Builder;
-use crate::diagnostic::Code;
+use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::syntax::ast::{
     Expr, Field, Ident, RobotEntry, RobotEntryKind, World, WorldEntry, WorldEntryKind,
 };
 use crate::syntax::grammar::{Node, Parts, Rule};
+
+/// The words before the name of what an entry declares.
+const DECLARING: [&str; 4] = ["place", "wall", "robot", "sensor"];
 
 impl<'i> Builder<'i> {
     pub(super) fn world(&mut self, node: Node<'i>) -> World {
@@ -112,7 +115,22 @@ impl<'i> Builder<'i> {
     /// `name = value`
     fn definition(&mut self, mut parts: Parts<'i>) -> Field {
         let name = self.take_name(&mut parts);
-        self.take_is(&mut parts);
+        match parts.maybe(Rule::wrong_is) {
+            Some(mark) if DECLARING.contains(&name.name.as_str()) => {
+                let diagnostic = Diagnostic::new(
+                    Code::E0127,
+                    self.span(&mark),
+                    format!("`{}` is followed by its name", name.name),
+                )
+                .label("no mark stands here")
+                .fix("drop the mark", self.span(&mark), "", Applicability::Safe);
+                self.report(diagnostic);
+            }
+            Some(mark) => self.wrong_is(&mark),
+            None => {
+                self.take_is(&mut parts);
+            }
+        }
         let value = self.take_expr(&mut parts);
         Field { name, value }
     }

@@ -52,6 +52,11 @@ impl Place<'_> {
         if let Some((title, right)) = self.respelled() {
             return diagnostic.fix(title, self.span(), right, Applicability::Unsafe);
         }
+        if self.before() == "probability" && self.found.kind == Kind::Number {
+            let title = "say that it is as probable or more";
+            let before = self.span().before();
+            return diagnostic.fix(title, before, ">= ", Applicability::Unsafe);
+        }
         let help = match (self.failure.strict, found) {
             _ if self.is_node_without_braces() => {
                 "the children of a node stand in braces: `selector { …, … }`"
@@ -92,6 +97,9 @@ impl Place<'_> {
             }
             (_, "[") if self.expects(Rule::children) => "the children of a node stand in braces",
             (_, "[") if self.expects(Rule::open_paren) => "arguments stand in parentheses",
+            (Rule::strict_item, "with") if self.begins_with("claim") => {
+                "how sure it is follows last: `… within TIME with probability >= 95%`"
+            }
             (_, "..") => "a value from a range is drawn by `uniform(low, high)`",
             (Rule::strict_start_line, "if") => {
                 "a start has no branches: `battery = if CONDITION { … } else { … }`"
@@ -104,6 +112,7 @@ impl Place<'_> {
             (_, "if") if self.expects(Rule::or_op) || self.expects(Rule::sum_op) => {
                 "a value is chosen by `if CONDITION { … } else { … }`"
             }
+            (Rule::strict_child, "then") => "a guard is followed by `=>`: `CONDITION => NODE`",
             (_, "then") => "what depends on a condition stands in braces",
             (Rule::strict_reward, ":") if self.expects(Rule::comma) => {
                 "a price says what time it is for: `while CONDITION, per 1 s: …`"
@@ -127,6 +136,12 @@ impl Place<'_> {
         match (self.failure.strict, self.found()) {
             (Rule::strict_child | Rule::strict_item, ":") if self.expects(Rule::guards) => {
                 Some(("a guard is followed by `=>`", "=>"))
+            }
+            (Rule::strict_item, "==" | "=") if self.begins_with("claim") => {
+                Some(("a claim says it in words", "equals"))
+            }
+            (Rule::strict_item, ";") if self.begins_with("enum") => {
+                Some(("the values of an enum are parted by commas", ","))
             }
             (Rule::strict_child | Rule::strict_item, ";") if self.expects(Rule::comma) => {
                 Some(("the children of a node are parted by commas", ","))

@@ -92,6 +92,47 @@ impl Place<'_> {
         )
     }
 
+    /// `on EVENT => carrying = true`, `each tick: battery -= 1%`: effects without their braces.
+    pub(super) fn effect(&self) -> Option<Diagnostic> {
+        let is_item = self.failure.strict == Rule::strict_item;
+        if !is_item || !(self.begins_with("on") || self.begins_with("each")) {
+            return None;
+        }
+        let sets = |token: &str| matches!(token, "=" | ":=" | "+=" | "-=" | "*=" | "/=");
+        let mark = |token: &str| matches!(token, "=>" | "->" | ":");
+        let found = self.found();
+        let at = match mark(found) {
+            true => self.found,
+            false if sets(found) => {
+                let first = self
+                    .tokens
+                    .partition_point(|token| token.end <= self.failure.start);
+                let tokens = self.tokens.get(first..)?.iter();
+                let mut before = tokens.take_while(|token| token.start < self.found.start);
+                *before.find(|token| mark(token.of(self.text)))?
+            }
+            false => return None,
+        };
+        let rest = self.text.get(at.end..)?.lines().next()?;
+        let effect = rest.split("//").next()?.trim();
+        let set = ["+=", "-=", "*=", "/=", "="]
+            .iter()
+            .any(|sign| effect.contains(sign));
+        let message = "effects stand in braces".to_owned();
+        let diagnostic = Diagnostic::new(Code::E0101, self.span_of(at), message);
+        if !set || effect.contains(['{', '}']) {
+            return Some(diagnostic.label("write `{ … }`"));
+        }
+        let right = format!("{{ {effect} }}");
+        let until = at.end + rest.find(effect)? + effect.len();
+        Some(diagnostic.label(format!("write `{right}`")).fix(
+            format!("write `{right}`"),
+            Span::new(self.file, at.start, until),
+            right,
+            Applicability::Unsafe,
+        ))
+    }
+
     /// A word that begins no item because what it says needs none, or stands within one.
     pub(super) fn no_item(&self, code: Code) -> Option<Diagnostic> {
         let word = self.found();

@@ -114,6 +114,11 @@ impl Place<'_> {
             .map(|form| format!("its form is `{form}`"))
     }
 
+    /// Whether the text that does not parse begins with a word.
+    pub(super) fn begins_with(&self, word: &str) -> bool {
+        self.word_at(self.failure.start) == word
+    }
+
     /// The word that begins at byte `at`, or behind the blanks there.
     fn word_at(&self, at: usize) -> &str {
         let rest = self.text.get(at..).unwrap_or_default();

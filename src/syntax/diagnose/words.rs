@@ -163,6 +163,14 @@ impl Place<'_> {
         let names_next = next.is_some_and(|next| {
             matches!(next.kind, Kind::Word | Kind::Name) && !RESERVED.contains(&next.of(self.text))
         });
+        if self.failure.strict == Rule::strict_robot_entry && matches!(word, "tree" | "behavior") {
+            let message = format!("`{word}` is no entry of a robot");
+            let diagnostic = Diagnostic::new(Code::E0123, self.span(), message);
+            return Some(
+                self.meant(diagnostic, self.found, Some("runs"))
+                    .note("what another robot does is said by `runs = TREE`"),
+            );
+        }
         // Only where nothing but a name can stand is the word a name.
         let only_name = self.failure.expected.iter().all(|&rule| {
             matches!(
@@ -391,7 +399,9 @@ pub(in crate::syntax) fn no_such_unit(span: Span, word: &str, others: &[&str]) -
             near,
             Applicability::Unsafe,
         ),
-        None => diagnostic.label("this follows a number"),
+        None => diagnostic
+            .label("this follows a number")
+            .help("a plain number stands without a unit"),
     };
     diagnostic.note(units_note())
 }
