@@ -2,7 +2,7 @@
 
 use super::ends::Ended;
 use super::json::{self, Named};
-use super::words::end_names;
+use super::words::{end_names, numbered};
 use crate::ir::Program;
 use crate::ir::task::Task;
 use crate::learn::rate;
@@ -97,8 +97,13 @@ impl Episodes {
         // As wide as the names of most programs; wider only where a name is longer.
         let width = names.map(|name| name.len()).max().unwrap_or(0).max(16);
         let mut text = format!(
-            "{} episodes, {} ticks\n\n  {:<width$} {:>9.3}   95 % [{:.3}, {:.3}]\n",
-            summary.episodes, summary.ticks, "return", summary.total.mean, low, high
+            "{}, {}\n\n  {:<width$} {:>9.3}   95 % [{:.3}, {:.3}]\n",
+            numbered(summary.episodes, "episode"),
+            numbered(summary.ticks, "tick"),
+            "return",
+            summary.total.mean,
+            low,
+            high
         );
         for (name, rate) in self.events.iter().zip(&summary.events) {
             let [low, high] = rate.ci95;
@@ -110,10 +115,10 @@ impl Episodes {
         text.push('\n');
         for ended in ended {
             text.push_str(&format!(
-                "  {:<width$} {:>9}   of {} episodes, {}\n",
+                "  {:<width$} {:>9}   of {}, {}\n",
                 ended.name,
                 ended.count,
-                ended.episodes,
+                numbered(ended.episodes, "episode"),
                 ended.bound()
             ));
         }

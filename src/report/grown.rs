@@ -2,7 +2,7 @@
 
 use super::ends::Ended;
 use super::episodes::Episodes;
-use super::words::{end_names, line};
+use super::words::{end_names, line, numbered};
 use crate::emit::svg;
 use crate::grow::{Figures, Grown, Point};
 use crate::ir::Program;
@@ -125,13 +125,13 @@ pub fn front(grown: &Grown) -> Vec<String> {
     let row = |point: &Point| {
         let [low, high] = point.returns.ci95;
         let text = format!(
-            "{:>9.3}, 95 % [{low:.3}, {high:.3}], {} of {} episodes harmed{}",
+            "{:>9.3}, 95 % [{low:.3}, {high:.3}], {} of {} harmed{}",
             point.returns.mean,
             point.harms,
-            point.episodes,
+            numbered(point.episodes, "episode"),
             if point.taken { "; taken" } else { "" }
         );
-        line(&format!("{} nodes", point.size.nodes), &text)
+        line(&numbered(point.size.nodes as u64, "node"), &text)
     };
     grown.front.iter().map(row).collect()
 }

@@ -3,7 +3,7 @@
 use super::ends::Ended;
 use super::results::Results;
 use super::value::Value;
-use super::words::{end_names, line};
+use super::words::{self, end_names, line, numbered};
 
 /// The share of episodes that one end may take before the first line says so.
 const OFTEN: f64 = 0.01;
@@ -19,8 +19,9 @@ pub fn lines<W>(results: &Results<W>) -> Vec<String> {
     ends.sort_by_key(Ended::is_goal);
     let [low, high] = summary.total.ci95;
     let mut first = format!(
-        "{:.3}, 95 % [{low:.3}, {high:.3}], in {} episodes",
-        summary.total.mean, summary.episodes
+        "{:.3}, 95 % [{low:.3}, {high:.3}], in {}",
+        summary.total.mean,
+        numbered(summary.episodes, "episode")
     );
     for end in &ends {
         let share = end.count as f64 / end.episodes.max(1) as f64;
@@ -49,11 +50,7 @@ pub fn lines<W>(results: &Results<W>) -> Vec<String> {
     });
     let limit = format!("{} at the limit", summary.cut);
     let ends: Vec<String> = ends.chain([limit]).collect();
-    let size = printed.size;
-    let tree = format!(
-        "{} nodes, {} literals; {}",
-        size.nodes, size.literals, printed.evidence
-    );
+    let tree = format!("{}; {}", words::size(&printed.size), printed.evidence);
     let mut value = Value::of(results).text();
     if results.grown.as_ref().is_some_and(|grown| !grown.kept) {
         value.push_str("; of the policy, not of the tree");

@@ -9,7 +9,6 @@ use crate::learn::bootstrap::quantile;
 use crate::learn::curve::pooled;
 use crate::learn::statistics::Summary;
 use crate::policy::Minterm;
-use crate::tree::Size;
 use crate::tree::decanonicalise::{Care, Decanonicalised};
 
 /// The most minterms to list.
@@ -173,15 +172,14 @@ impl<W> Report<'_, W> {
     fn tree(&mut self) {
         let trees = &self.results.trees;
         let found = trees.chosen();
-        let Size {
-            nodes,
-            literals,
-            depth,
-        } = found.size;
         let alone = found.paper_size.map_or_else(String::new, |paper| {
             format!(" (Algorithm 1 alone: {} nodes)", paper.nodes)
         });
-        let text = format!("{nodes} nodes, {literals} literals, depth {depth}{alone}");
+        let text = format!(
+            "{}, depth {}{alone}",
+            words::size(&found.size),
+            found.size.depth
+        );
         self.line("tree", text);
         let of = |found: &Decanonicalised| {
             let (minterms, size) = (found.proof.minterms, &found.size);

@@ -1,6 +1,6 @@
 //! What was built from a program.
 
-use super::words::counted;
+use super::words::{self, counted};
 use crate::geometry::Shape;
 use crate::ir::Program;
 use crate::ir::name::{self, Name};
@@ -76,10 +76,10 @@ pub fn summary(program: &Program) -> String {
         line(
             "learner",
             format!(
-                "{} for {}: {} episodes of {} ticks, seed {}",
+                "{} for {}: {} of {} ticks, seed {}",
                 learner.name,
                 program.tasks[learner.task].name,
-                learner.episodes,
+                words::numbered(learner.episodes, "episode"),
                 learner.episode_ticks,
                 learner.seed
             ),
@@ -90,8 +90,10 @@ pub fn summary(program: &Program) -> String {
         line(
             "tree",
             format!(
-                "{}: {} nodes, {} literals, depth {}",
-                tree.name, size.nodes, size.literals, size.depth
+                "{}: {}, depth {}",
+                tree.name,
+                words::size(&size),
+                size.depth
             ),
         );
     }

@@ -4,6 +4,7 @@ use crate::ir::task::Task;
 use crate::ir::tree::Atom;
 use crate::ir::{Expr, ExprId, Program};
 use crate::policy::{Minterm, Policy};
+use crate::tree::Size;
 use crate::tree::decanonicalise::Failing;
 
 /// A line of a report.
@@ -15,9 +16,26 @@ pub fn line(title: &str, text: &str) -> String {
 pub fn counted(n: usize, what: &str) -> String {
     match n {
         0 => format!("no {what}s"),
+        n => numbered(n as u64, what),
+    }
+}
+
+/// A number of things as a figure, 0 included.
+pub fn numbered(n: u64, what: &str) -> String {
+    match n {
         1 => format!("1 {what}"),
         n => format!("{n} {what}s"),
     }
+}
+
+/// The size of a tree.
+pub fn size(size: &Size) -> String {
+    let (nodes, literals) = (size.nodes as u64, size.literals as u64);
+    format!(
+        "{}, {}",
+        numbered(nodes, "node"),
+        numbered(literals, "literal")
+    )
 }
 
 /// A text as the data of a workflow command for GitHub.

@@ -2,7 +2,7 @@
 
 use super::mentions::Mentions;
 use crate::check::{Checker, Input};
-use crate::diagnostic::Code;
+use crate::diagnostic::{Code, suggest};
 use crate::spelling::spelled;
 use crate::syntax::ast::{
     BehaviorBody, Ident, Item, ItemKind, RobotEntryKind, State, World, WorldEntryKind,
@@ -72,7 +72,28 @@ impl<'a> Checker<'a> {
 
     /// Only of sensors does the library know the names.
     fn unused_in_world(&mut self, world: &'a World, mentions: &Mentions, library: &Mentions) {
+        let kinds = || {
+            world
+                .entries
+                .iter()
+                .filter_map(|entry| entry.kind.of_kind())
+        };
         for entry in &world.entries {
+            if let Some(kind) = entry
+                .kind
+                .of_kind()
+                .filter(|kind| !mentioned(kind, mentions))
+            {
+                let spoken_of = kinds().filter(|kind| mentioned(kind, mentions));
+                let spoken_of = spoken_of.map(|kind| kind.name.as_str());
+                if let Some(meant) = suggest::nearest(&kind.name, spoken_of) {
+                    let shown = quoted(&spelled(&kind.name));
+                    let message = format!("nothing speaks of the kind {shown}");
+                    self.warning(Code::W0201, kind.span, message)
+                        .likely(kind, Some(meant));
+                    continue;
+                }
+            }
             match &entry.kind {
                 WorldEntryKind::Place { name, of_kind, .. }
                     if !of_kind

@@ -61,6 +61,16 @@ pub enum WorldEntryKind {
     Error,
 }
 
+impl WorldEntryKind {
+    /// The kind of a place or a wall.
+    pub fn of_kind(&self) -> Option<&Ident> {
+        match self {
+            Self::Place { of_kind, .. } | Self::Wall { of_kind, .. } => of_kind.as_ref(),
+            _ => None,
+        }
+    }
+}
+
 /// An entry of a robot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotEntry {
