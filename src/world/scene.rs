@@ -246,6 +246,12 @@ impl Scene {
     pub fn is_free_along(&self, p: Point, step: Point, radius: f64) -> bool {
         let q = along(p, 1.0, step);
         let square = radius * radius;
+        // What is farther from `p` than the way and the radius together cannot be met; a hair is added for rounding.
+        let reach = (radius + dot(step, step).sqrt()) * (1.0 + 1e-9);
+        let apart = |segment: &Segment| {
+            let nearest = segment.nearest(p);
+            dot(nearest, nearest) > reach * reach || segment.gap_square(p, step) >= square
+        };
         let arena = match self.arena {
             // A convex arena: it is enough that the end is free.
             Arena::Rect(min, max) => (0..2).all(|i| match (q.get(i), min.get(i), max.get(i)) {
@@ -257,16 +263,10 @@ impl Scene {
                 let reach = circle.radius - radius;
                 reach >= 0.0 && dot(from, from) <= reach * reach
             }
-            Arena::Polygon => self
-                .boundary
-                .iter()
-                .all(|segment| segment.gap_square(p, step) >= square),
+            Arena::Polygon => self.boundary.iter().all(apart),
         };
         arena
-            && self
-                .segments
-                .iter()
-                .all(|segment| segment.gap_square(p, step) >= square)
+            && self.segments.iter().all(apart)
             && self.circles.iter().all(|circle| {
                 let reach = circle.radius + radius;
                 circle.center_gap_square(p, step) >= reach * reach
