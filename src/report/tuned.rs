@@ -89,7 +89,11 @@ impl Report<'_> {
         for opinion in &self.tuned.opinions {
             self.opinion(opinion, &mut text);
         }
-        if self.tuned.opinions.is_empty() {
+        if self.tuned.untried {
+            text.push_str(
+                "values were found, and the effort does not go as far as fresh episodes: give it more `--effort`\n",
+            );
+        } else if self.tuned.opinions.is_empty() {
             text.push_str("no value does better than those in use, with its neighbours\n");
         } else if self.tuned.better().is_none() {
             text.push_str("nothing is proposed: the values in use stay\n");
@@ -173,7 +177,8 @@ impl Report<'_> {
     /// The curve of each number as SVG, with the name of its file.
     pub fn pictures(&self) -> Vec<(String, String)> {
         let all = self.tunables().enumerate();
-        all.map(|(number, (tunable, curve))| {
+        let searched = all.filter(|(_, (_, curve))| curve.searched);
+        searched.map(|(number, (tunable, curve))| {
             let dots = curve.dots.iter().map(|dot| svg::sweep::Dot {
                 value: dot.value,
                 mean: dot.gain.mean,
@@ -262,6 +267,13 @@ fn drawn(tunable: &Tunable, curve: &Curve) -> String {
         let dot = curve.dots.get(at);
         dot.map_or(String::new(), |dot| tunable.written(dot.value))
     };
+    if !curve.searched {
+        let used = written(curve.used);
+        return format!(
+            "{}: {used} in use, not searched: the effort does not go so far\n",
+            tunable.name
+        );
+    }
     let flat = match curve.flat() {
         Some((from, to)) if from < to => {
             format!(
@@ -398,6 +410,7 @@ struct Fought {
 
 impl<'a> Number<'a> {
     fn new(tunable: &'a Tunable, curve: &Curve) -> Self {
+        let best = curve.dots.get(curve.best).filter(|_| curve.searched);
         let rows = curve.dots.iter().map(|dot| Row {
             value: dot.value,
             gain: dot.gain.mean,
@@ -412,7 +425,7 @@ impl<'a> Number<'a> {
             used: tunable.value,
             low: tunable.low,
             high: tunable.high,
-            best: curve.dots.get(curve.best).map(|dot| dot.value),
+            best: best.map(|dot| dot.value),
             flat: curve.flat(),
             curve: rows.collect(),
         }
