@@ -137,7 +137,10 @@ fn search(
 
     let number = subject.program.tunables.len();
     let alone = share(ALONE).saturating_sub(account.ticks) / number.max(1) as u64;
-    let axes = axes(subject.program, alone / 2 / (curve::FIRST[0] as u64 * length));
+    let axes = axes(
+        subject.program,
+        alone / 2 / (curve::FIRST[0] as u64 * length),
+    );
     let place = Place {
         subject,
         axes: &axes,
@@ -149,7 +152,7 @@ fn search(
     let mut field = Field::new(place, account, (player, first));
     let mut curves = Vec::new();
     for axis in 0..axes.len() {
-        let until = field.account.ticks + alone;
+        let until = field.account.ticks.saturating_add(alone);
         curves.push(curve::search(&mut field, axis, until));
     }
     let (mut points, pairs) = pairs::search(&mut field, &curves, share(TOGETHER));
@@ -186,7 +189,9 @@ fn axes(program: &Program, affordable: u64) -> Vec<Axis> {
 
 /// The ticks that are put by to hold what will be found against the values in use.
 fn reserve(subject: &Subject, options: &Options, length: u64) -> u64 {
-    let episodes = options.episodes.saturating_mul(confirm::plays(subject, OPINIONS));
+    let episodes = options
+        .episodes
+        .saturating_mul(confirm::plays(subject, OPINIONS));
     let claims = confirm::MOST * confirm::tests(subject, OPINIONS);
     let wanted = episodes.saturating_add(claims).saturating_mul(length);
     wanted.min(Account::new(options.effort).at(RESERVE))
@@ -249,7 +254,7 @@ fn excluded<'s>(subject: &Subject<'s>) -> impl Iterator<Item = (&'s Claim, &'s O
 
 /// The events that the program claims never to happen under the tree, in any episode and at any time.
 fn never(subject: &Subject) -> Vec<usize> {
-    let always = excluded(subject)
-        .filter(|(_, never)| never.within.is_none() && never.probability >= 1.0);
+    let always =
+        excluded(subject).filter(|(_, never)| never.within.is_none() && never.probability >= 1.0);
     always.map(|(_, never)| never.event.index()).collect()
 }

@@ -1,8 +1,8 @@
 //! `--checkpoint` and `--resume`: what a command that runs long keeps in the folder of its results.
 
 use super::report::tell;
-use super::store::{Checkpoint, Folder, System};
 use super::store::checkpoint::{Run, Unlike};
+use super::store::{Checkpoint, Folder, System};
 use super::{Failure, files};
 use crate::diagnostic::render;
 use clap::Args;
@@ -44,7 +44,8 @@ impl Checkpoints {
                 "note: there is no checkpoint in {place}: the run begins at the beginning"
             )),
             (true, Err(Unlike::Other(differences))) => {
-                let failure = files::complain(&format!("the checkpoint in {place} is of another run"));
+                let failure =
+                    files::complain(&format!("the checkpoint in {place} is of another run"));
                 for [what, there, here] in differences {
                     let or_none = |value: String| match value.is_empty() {
                         true => "nothing".to_owned(),

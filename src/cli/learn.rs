@@ -1,9 +1,9 @@
 //! `btc learn`
 
+use super::checkpoints::{self, Checkpoints};
 use super::files::{self, STDIN};
 use super::progress::Progress;
 use super::report::{Reporter, tell};
-use super::checkpoints::{self, Checkpoints};
 use super::store::checkpoint::Run;
 use super::store::{Checkpoint, Folder, System};
 use super::{Failure, PLAYED, effort, interrupt, paths};

@@ -93,6 +93,8 @@ impl Report<'_> {
             text.push_str(
                 "values were found, and the effort does not go as far as fresh episodes: give it more `--effort`\n",
             );
+        } else if self.tuned.curves.iter().all(|curve| !curve.searched) {
+            text.push_str("nothing is searched: give it more `--effort`\n");
         } else if self.tuned.opinions.is_empty() {
             text.push_str("no value does better than those in use, with its neighbours\n");
         } else if self.tuned.better().is_none() {
@@ -178,24 +180,25 @@ impl Report<'_> {
     pub fn pictures(&self) -> Vec<(String, String)> {
         let all = self.tunables().enumerate();
         let searched = all.filter(|(_, (_, curve))| curve.searched);
-        searched.map(|(number, (tunable, curve))| {
-            let dots = curve.dots.iter().map(|dot| svg::sweep::Dot {
-                value: dot.value,
-                mean: dot.gain.mean,
-                interval: dot.gain.ci95,
-                out: dot.out,
-            });
-            let picture = svg::sweep::sweep(&svg::sweep::Sweep {
-                dots: dots.collect(),
-                unit: &tunable.unit.text,
-                used: tunable.value,
-                best: curve.dots.get(curve.best).map_or(0.0, |dot| dot.value),
-                flat: curve.flat(),
-                caption: &tunable.name,
-            });
-            (format!("tune_{}.svg", number + 1), picture)
-        })
-        .collect()
+        searched
+            .map(|(number, (tunable, curve))| {
+                let dots = curve.dots.iter().map(|dot| svg::sweep::Dot {
+                    value: dot.value,
+                    mean: dot.gain.mean,
+                    interval: dot.gain.ci95,
+                    out: dot.out,
+                });
+                let picture = svg::sweep::sweep(&svg::sweep::Sweep {
+                    dots: dots.collect(),
+                    unit: &tunable.unit.text,
+                    used: tunable.value,
+                    best: curve.dots.get(curve.best).map_or(0.0, |dot| dot.value),
+                    flat: curve.flat(),
+                    caption: &tunable.name,
+                });
+                (format!("tune_{}.svg", number + 1), picture)
+            })
+            .collect()
     }
 
     fn document(&self) -> Document<'_> {

@@ -71,7 +71,10 @@ impl Curve {
         };
         if !self.searched {
             let used = own.values.get(own.used);
-            self.dots = used.map(|used| dot((&field.used(), used))).into_iter().collect();
+            self.dots = used
+                .map(|used| dot((&field.used(), used)))
+                .into_iter()
+                .collect();
             (self.used, self.best) = (0, 0);
             return;
         }

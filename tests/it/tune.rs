@@ -173,7 +173,8 @@ fn a_search_keeps_its_budget() {
         "predicate carrying_package",
         "predicate near = distance(A) <= tune(1 m, 10 cm .. 3 m)\npredicate carrying_package",
     );
-    let claimed = format!("{plain}\nclaim expert never dead\nclaim expert never dead within 1 min\n");
+    let claimed =
+        format!("{plain}\nclaim expert never dead\nclaim expert never dead within 1 min\n");
     for text in [&plain, &several, &claimed] {
         for effort in [30_000, 100_000, 300_000, 1_000_000, 3_000_000] {
             let options = Options {
@@ -186,7 +187,10 @@ fn a_search_keeps_its_budget() {
             let ticks = document["ticks"].as_u64().unwrap();
             assert!(ticks <= effort + effort / 50, "{ticks} of {effort}");
             // What is affordable is played.
-            assert!(effort < 1_000_000 || ticks > effort / 2, "{ticks} of {effort}");
+            assert!(
+                effort < 1_000_000 || ticks > effort / 2,
+                "{ticks} of {effort}"
+            );
         }
     }
 }

@@ -150,9 +150,9 @@ fn what_is_tuned_goes_on_from_its_states() {
     for part in ["played", "tuned", "again-seed-1", "again-grown"] {
         assert!(parts.iter().any(|kept| *kept == part), "{part}: {parts:?}");
     }
-    let other = parts.iter().all(|part| {
-        ["played", "tuned"].contains(&part.as_str()) || part.starts_with("again-")
-    });
+    let other = parts
+        .iter()
+        .all(|part| ["played", "tuned"].contains(&part.as_str()) || part.starts_with("again-"));
     assert!(other, "{parts:?}");
     let step = kept.len().div_ceil(8);
     for at in (0..kept.len()).step_by(step) {
