@@ -128,7 +128,11 @@ fn search(
     let heard = |ticks| progress(Progress { ticks, of });
     let start = Purpose::Tune.start(options.seed, subject.program.tasks[subject.task].end_after);
     let player = Player::new(subject.program, subject.task, subject.root)?;
-    let first = player.play(start, 0, CHUNK);
+    // Of few ticks, most are to be left for other values.
+    let mut first = player.play(start, 0, 1);
+    let affordable = options.effort / 4 / field::length(&first).max(1);
+    let more = usize::try_from(affordable).map_or(CHUNK, |n| n.clamp(1, CHUNK));
+    first.extend(player.play(start, 1, more));
     let length = field::length(&first).max(1);
     let mut account = Account::new(options.effort);
     account.spend(first.iter().map(|episode| episode.ticks).sum());
