@@ -48,6 +48,45 @@ impl Keeper for Forgetful {
     fn publish(&self, _: &str, _: &str) {}
 }
 
+/// Keeps the parts of a run that is itself a part of another, under names of their own. Texts are those of the other run
+/// alone.
+#[derive(Clone, Copy, Debug)]
+pub struct Under<'k> {
+    keeper: &'k dyn Keeper,
+    name: &'k str,
+}
+
+impl<'k> Under<'k> {
+    /// The parts that are kept under this name.
+    pub fn new(keeper: &'k dyn Keeper, name: &'k str) -> Self {
+        Self { keeper, name }
+    }
+
+    fn of(&self, part: &str) -> String {
+        format!("{}-{part}", self.name)
+    }
+}
+
+impl Keeper for Under<'_> {
+    fn load(&self, part: &str) -> Option<Vec<u8>> {
+        self.keeper.load(&self.of(part))
+    }
+
+    fn keeps(&self) -> bool {
+        self.keeper.keeps()
+    }
+
+    fn is_due(&self, part: &str) -> bool {
+        self.keeper.is_due(&self.of(part))
+    }
+
+    fn save(&self, part: &str, state: &[u8]) {
+        self.keeper.save(&self.of(part), state);
+    }
+
+    fn publish(&self, _: &str, _: &str) {}
+}
+
 /// A part of a run.
 #[derive(Clone, Debug)]
 pub struct Part<'k> {

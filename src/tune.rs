@@ -4,23 +4,28 @@
 //! numbers plays the same seeds, and the worse half of them is dropped after each doubling of the episodes (successive
 //! halving: Karnin, Koren and Somekh 2013). A value counts for as much as the worst of itself and its two neighbours on
 //! the grid. [`curve`] searches one number at a time, [`pairs`] two at once; what comes out of both is held against the
-//! values in use on fresh seeds by [`confirm`].
+//! values in use on fresh seeds by [`confirm`]. All of them draw on one [`account`] of ticks: what is not affordable is left out.
 
+pub mod account;
 pub mod confirm;
 pub mod curve;
 pub mod field;
 pub mod grid;
 pub mod pairs;
 
-use crate::ir::task::{ClaimKind, Task, TreeRef};
+use crate::checkpoint::{Keeper, Part};
+use crate::ir::task::{Claim, ClaimKind, Occurrence, Task, TreeRef};
 use crate::ir::tree::Node;
 use crate::ir::{Id, Program};
 use crate::learn::simulated::Purpose;
 use crate::trial::Unplayable;
-use confirm::Confirmed;
+use crate::trial::duel::{CHUNK, Player};
+use account::Account;
+use confirm::{Confirmed, Opinions};
 use curve::Curve;
-use field::{Field, Point};
+use field::{Field, Place, Point};
 use grid::Axis;
+use serde::{Deserialize, Serialize};
 
 /// Episodes of the last round of the search.
 const EPISODES: usize = 128;
@@ -28,6 +33,12 @@ const EPISODES: usize = 128;
 const FINALISTS: usize = 8;
 /// The most points that are held against the values in use on fresh seeds.
 const OPINIONS: usize = 3;
+
+/// The most of the effort, in hundredths, that is put by for what was found.
+const RESERVE: u64 = 40;
+/// The part of the search, in hundredths, after which each number alone and then pairs of them have been searched.
+const ALONE: u64 = 50;
+const TOGETHER: u64 = 85;
 
 /// A tree whose numbers are tuned.
 #[derive(Clone, Copy)]
@@ -47,9 +58,9 @@ pub struct Subject<'a> {
 /// How much to search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// About how many ticks the search may take.
+    /// About how many ticks the search may take, with the episodes that hold what was found against the values in use.
     pub effort: u64,
-    /// The number of fresh episodes on which the values that were found are held against those in use.
+    /// The most fresh episodes on which the values that were found are held against those in use.
     pub episodes: u64,
     /// The seed of all episodes.
     pub seed: u64,
@@ -65,7 +76,7 @@ pub struct Progress {
 }
 
 /// What was found.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Tuned {
     /// The curve of each number.
     pub curves: Vec<Curve>,
@@ -73,6 +84,10 @@ pub struct Tuned {
     pub pairs: (usize, usize),
     /// What became of the best points on fresh seeds, in the order in which they were tried.
     pub opinions: Vec<Confirmed>,
+    /// The number of fresh episodes.
+    pub fresh: u64,
+    /// Whether points were found and the effort did not go as far as fresh episodes.
+    pub untried: bool,
     /// Ticks simulated.
     pub ticks: u64,
 }
@@ -84,51 +99,77 @@ impl Tuned {
     }
 }
 
-/// Searches for better values.
+/// Searches for better values. What was played is kept: a search that goes on plays it no second time.
 ///
 /// # Errors
 /// The tree cannot be played under the values in use.
 pub fn tune(
     subject: &Subject,
     options: &Options,
+    keeper: &dyn Keeper,
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Tuned, Unplayable> {
-    let tunables = subject.program.tunables.values();
-    let number = subject.program.tunables.len();
-    let most = grid::most(number);
-    let axes: Vec<Axis> = tunables.map(|tunable| Axis::new(tunable, most)).collect();
-    let never = never(subject);
-    let heard = |ticks| {
-        progress(Progress {
-            ticks,
-            of: options.effort,
-        });
-    };
+    let whole = Part::new(keeper, "tuned");
+    if let Some(tuned) = whole.resume() {
+        return Ok(tuned);
+    }
+    let tuned = search(subject, options, &Part::new(keeper, "played"), progress)?;
+    whole.save(|| &tuned);
+    Ok(tuned)
+}
+
+fn search(
+    subject: &Subject,
+    options: &Options,
+    part: &Part,
+    progress: &(dyn Fn(Progress) + Sync),
+) -> Result<Tuned, Unplayable> {
+    let of = options.effort;
+    let heard = |ticks| progress(Progress { ticks, of });
     let start = Purpose::Tune.start(options.seed, subject.program.tasks[subject.task].end_after);
-    let mut field = Field::new(subject, &axes, &never, start, &heard)?;
-    let share = |part: u64| options.effort / 100 * part;
+    let player = Player::new(subject.program, subject.task, subject.root)?;
+    // Of few ticks, most are to be left for other values.
+    let mut first = player.play(start, 0, 1);
+    let affordable = options.effort / 4 / field::length(&first).max(1);
+    let more = usize::try_from(affordable).map_or(CHUNK, |n| n.clamp(1, CHUNK));
+    first.extend(player.play(start, 1, more));
+    let length = field::length(&first).max(1);
+    let mut account = Account::new(options.effort);
+    account.spend(first.iter().map(|episode| episode.ticks).sum());
+    let whole = options.effort - reserve(subject, options, length);
+    let share = |hundredths: u64| whole / 100 * hundredths;
+
+    let number = subject.program.tunables.len();
+    let alone = share(ALONE).saturating_sub(account.ticks) / number.max(1) as u64;
+    let axes = axes(
+        subject.program,
+        alone / 2 / (curve::FIRST[0] as u64 * length),
+    );
+    let place = Place {
+        subject,
+        axes: &axes,
+        never: &never(subject),
+        start,
+        part,
+        progress: &heard,
+    };
+    let mut field = Field::new(place, account, (player, first));
     let mut curves = Vec::new();
     for axis in 0..axes.len() {
-        let until = field.ticks + share(50) / number.max(1) as u64;
+        let until = field.account.ticks.saturating_add(alone);
         curves.push(curve::search(&mut field, axis, until));
     }
-    let (mut points, pairs) = pairs::search(&mut field, &curves, share(85));
+    let (mut points, pairs) = pairs::search(&mut field, &curves, share(TOGETHER));
     points.extend(curves.iter().flat_map(|curve| curve.best(FINALISTS / 2)));
     points.extend(together(&field, &curves));
-    let ranked = last_round(&mut field, points, options.effort);
-    let mut ticks = field.ticks;
-    let mut opinions: Vec<Confirmed> = Vec::new();
-    for point in ranked.into_iter().take(OPINIONS) {
-        let Some(opinion) = confirm::confirm(subject, &axes, &point, options)? else {
-            continue;
-        };
-        ticks += opinion.duel.ticks;
-        let holds = opinion.holds();
-        opinions.push(opinion);
-        if holds {
-            break;
-        }
-    }
+    let mut ranked = last_round(&mut field, points, whole);
+    ranked.truncate(OPINIONS);
+    let Opinions {
+        opinions,
+        fresh,
+        ticks,
+    } = confirm::confirm(&field, &ranked, options)?;
+    heard(ticks);
     for (axis, curve) in curves.iter_mut().enumerate() {
         curve.finish(&field, axis);
     }
@@ -136,8 +177,28 @@ pub fn tune(
         curves,
         pairs,
         opinions,
+        fresh,
+        untried: fresh == 0 && !ranked.is_empty(),
         ticks,
     })
+}
+
+/// The values of each number that are tried: no more than can be played.
+fn axes(program: &Program, affordable: u64) -> Vec<Axis> {
+    let affordable = usize::try_from(affordable).unwrap_or(usize::MAX);
+    let most = grid::most(program.tunables.len()).min(affordable);
+    let tunables = program.tunables.values();
+    tunables.map(|tunable| Axis::new(tunable, most)).collect()
+}
+
+/// The ticks that are put by to hold what will be found against the values in use.
+fn reserve(subject: &Subject, options: &Options, length: u64) -> u64 {
+    let episodes = options
+        .episodes
+        .saturating_mul(confirm::plays(subject, OPINIONS));
+    let claims = confirm::MOST * confirm::tests(subject, OPINIONS);
+    let wanted = episodes.saturating_add(claims).saturating_mul(length);
+    wanted.min(Account::new(options.effort).at(RESERVE))
 }
 
 /// The best value of each number, all at once.
@@ -156,21 +217,26 @@ fn together(field: &Field, curves: &[Curve]) -> Option<Point> {
 }
 
 /// The best points, the most robust first; those that do no better than the values in use are left out.
-fn last_round(field: &mut Field, mut points: Vec<Point>, effort: u64) -> Vec<Point> {
+fn last_round(field: &mut Field, mut points: Vec<Point>, until: u64) -> Vec<Point> {
     points.sort();
     points.dedup();
+    field.rank(&mut points);
     let mut episodes = 16;
     while episodes <= EPISODES {
-        field.play_with_neighbours(&points, episodes);
+        let mut played = field.play_with_neighbours(&points, episodes, until);
+        while !played && points.len() > OPINIONS {
+            points.truncate(points.len() / 2);
+            played = field.play_with_neighbours(&points, episodes, until);
+        }
+        if !played {
+            break;
+        }
         field.rank(&mut points);
         points.truncate(match episodes {
             16 => 2 * FINALISTS,
             32 => FINALISTS,
             _ => FINALISTS / 2,
         });
-        if field.ticks > effort {
-            break;
-        }
         episodes *= 2;
     }
     points.retain(|point| field.robust(point) > 0.0);
@@ -178,18 +244,21 @@ fn last_round(field: &mut Field, mut points: Vec<Point>, effort: u64) -> Vec<Poi
     points
 }
 
-/// An event that the program claims never to happen under the tree, in any episode and at any time.
-fn never(subject: &Subject) -> Vec<usize> {
+/// The claims on the tree that an event never happens.
+fn excluded<'s>(subject: &Subject<'s>) -> impl Iterator<Item = (&'s Claim, &'s Occurrence)> {
+    let claimed = subject.claimed;
     let claims = subject.program.claims.iter();
-    let events = claims.filter_map(|claim| match &claim.kind {
-        ClaimKind::Never(never)
-            if claim.tree == subject.claimed
-                && never.within.is_none()
-                && never.probability >= 1.0 =>
-        {
-            Some(never.event.index())
-        }
-        _ => None,
-    });
-    events.collect()
+    claims
+        .filter(move |claim| claim.tree == claimed)
+        .filter_map(|claim| match &claim.kind {
+            ClaimKind::Never(occurrence) => Some((claim, occurrence)),
+            _ => None,
+        })
+}
+
+/// The events that the program claims never to happen under the tree, in any episode and at any time.
+fn never(subject: &Subject) -> Vec<usize> {
+    let always =
+        excluded(subject).filter(|(_, never)| never.within.is_none() && never.probability >= 1.0);
+    always.map(|(_, never)| never.event.index()).collect()
 }

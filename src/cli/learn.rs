@@ -1,9 +1,10 @@
 //! `btc learn`
 
+use super::checkpoints::{self, Checkpoints};
 use super::files::{self, STDIN};
 use super::progress::Progress;
 use super::report::{Reporter, tell};
-use super::store::checkpoint::{Run, Unlike};
+use super::store::checkpoint::Run;
 use super::store::{Checkpoint, Folder, System};
 use super::{Failure, PLAYED, effort, interrupt, paths};
 use crate::checkpoint::Forgetful;
@@ -17,7 +18,6 @@ use crate::tree::decanonicalise::{Care, Method};
 use clap::{Args, ValueEnum};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
@@ -71,43 +71,11 @@ pub(super) struct Arguments {
     /// Write the whole report, and not only its five lines on the tree.
     #[arg(long)]
     report: bool,
-    /// How often the state of the run is kept in the folder of the results, such as `60s` or `10min`; or `never`.
-    #[arg(long, value_name = "TIME", default_value = "60s", value_parser = every)]
-    checkpoint: Every,
-    /// Go on where a run with the same options was stopped; the results are those of a run that was not.
-    #[arg(long)]
-    resume: bool,
+    #[command(flatten)]
+    checkpoints: Checkpoints,
     /// Then search for better values of the numbers that may be tuned, and learn again under them; see `btc tune`.
     #[arg(long)]
     tune: bool,
-}
-
-/// How often states are kept.
-#[derive(Clone, Copy, Debug)]
-struct Every(Option<Duration>);
-
-/// A time between two states: `60s`, `10min`, `1h`, or `never`.
-fn every(text: &str) -> Result<Every, String> {
-    if text == "never" {
-        return Ok(Every(None));
-    }
-    let split = text.find(|c: char| c.is_ascii_alphabetic());
-    let (digits, unit) = text.split_at(split.unwrap_or(text.len()));
-    let scale = match unit {
-        "ms" => 0.001,
-        "s" => 1.0,
-        "m" | "min" => 60.0,
-        "h" => 3600.0,
-        _ => f64::NAN,
-    };
-    let time = digits.trim().parse().map(|number: f64| number * scale).ok();
-    let time = time.and_then(|time| Duration::try_from_secs_f64(time).ok());
-    match time {
-        Some(time) => Ok(Every(Some(time))),
-        None => Err(
-            "a time between two checkpoints is such as `60s`, `10min`, `1h` or `never`".to_owned(),
-        ),
-    }
 }
 
 /// A part of a return: `1%` or `0.01`.
@@ -190,23 +158,16 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
         &System,
         &whole,
         run_of(&options, arguments.tune, &program),
-        arguments.checkpoint.0,
+        arguments.checkpoints.every(),
         interrupt::guard,
     );
-    begin(&mut checkpoint, arguments.resume, &place)?;
+    arguments.checkpoints.begin(&mut checkpoint, &place)?;
     let options = Options {
         keeper: &checkpoint,
         ..options
     };
     let made = make(&loaded, &options, arguments.tune, say);
-    if let Some(why) = checkpoint.trouble() {
-        tell(&format!("warning: no checkpoint could be kept: {why}"));
-    }
-    let Ok((learned, tuned)) = made else {
-        checkpoint.remove();
-        Folder::unmake(&System, &missing);
-        return Err(Failure::Input);
-    };
+    let (learned, tuned) = checkpoints::settle(made, &checkpoint, &missing)?;
     let files = learned
         .files
         .iter()
@@ -257,11 +218,11 @@ fn make(
         return Ok((learned, None));
     }
     let bar = Progress::new();
-    let search = tune::Options::default();
-    let tuned = tune::of_learned(loaded, &learned, options, &search, &|stage| match stage {
-        tune::Stage::Learning(stage) => bar.show(stage),
-        tune::Stage::Tuning(_) => bar.stage("tuning"),
-    });
+    let search = tune::Options {
+        keeper: options.keeper,
+        ..tune::Options::default()
+    };
+    let tuned = tune::of_learned(loaded, &learned, options, &search, &|stage| bar.tune(stage));
     bar.finish();
     let tuned = tuned.map_err(|refused| say.refused(&refused))?;
     Ok((learned, Some(tuned)))
@@ -273,46 +234,10 @@ pub(super) fn tuned_files(tuned: &Outcome) -> impl Iterator<Item = (String, Stri
     std::iter::once(report).chain(tuned.pictures.iter().cloned())
 }
 
-/// Looks for the states of this run, and goes on from them if that is asked for.
-fn begin(checkpoint: &mut Checkpoint, resume: bool, place: &Path) -> Result<(), Failure> {
-    let place = place.to_string_lossy();
-    let place = render::visible(&place);
-    match (resume, checkpoint.found()) {
-        (true, Ok(())) => checkpoint.resume(),
-        (true, Err(Unlike::Nothing)) => tell(&format!(
-            "note: there is no checkpoint in {place}: learning begins at the beginning"
-        )),
-        (true, Err(Unlike::Other(differences))) => {
-            let failure = files::complain(&format!("the checkpoint in {place} is of another run"));
-            for [what, there, here] in differences {
-                let or_none = |value: String| match value.is_empty() {
-                    true => "nothing".to_owned(),
-                    false => value,
-                };
-                let (there, here) = (or_none(there), or_none(here));
-                tell(&render::visible(&format!(
-                    "  {what}: {there} there, {here} here"
-                )));
-            }
-            tell("  ask for the same, or leave out `--resume` to begin anew");
-            return Err(failure);
-        }
-        (false, Ok(())) => tell(&format!(
-            "note: {place} has a checkpoint of this run; `--resume` would have gone on from there"
-        )),
-        (false, Err(_)) => {}
-    }
-    Ok(())
-}
-
 /// All that the result depends on.
 fn run_of(options: &Options, tunes: bool, program: &BTreeMap<String, String>) -> Run {
-    let files = program.iter();
-    let mut run: Run = files
-        .map(|(path, hash)| (format!("program {path}"), hash.clone()))
-        .collect();
+    let mut run = checkpoints::run_of("learn", program);
     let mut add = |name: &str, value: String| run.insert(name.to_owned(), value);
-    add("btc", env!("CARGO_PKG_VERSION").to_owned());
     add("--learner", options.learner.unwrap_or_default().to_owned());
     add(
         "--seed",

@@ -6,6 +6,7 @@
 
 mod canonicalize;
 mod check;
+mod checkpoints;
 mod compile;
 mod completions;
 mod decanonicalize;

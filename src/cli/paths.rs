@@ -73,6 +73,14 @@ fn from_folder(folder: &Path, file: &Path) -> Result<String, Failure> {
     Ok(path.join("/"))
 }
 
+/// The hash of each file of a program, by the name that it was given.
+pub(super) fn program_by_name(loaded: &Loaded) -> BTreeMap<String, String> {
+    let files = loaded.files.iter().filter_map(|id| loaded.sources.get(*id));
+    files
+        .map(|source| (source.name.clone(), sha256(source.text.as_bytes())))
+        .collect()
+}
+
 /// The hash of each file of a program, by its path from a folder.
 ///
 /// # Errors

@@ -1,6 +1,7 @@
 //! A progress bar on standard error, on a terminal only, where a command takes longer than two seconds.
 
 use crate::driver::learn::Stage;
+use crate::driver::tune;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::sync::mpsc::{self, RecvTimeoutError, Sender};
@@ -75,6 +76,17 @@ impl Progress {
                 self.bar.set_position(done.min(all));
             }
             Stage::Testing => self.stage("testing"),
+        }
+    }
+
+    /// Shows a stage of the search for better values.
+    pub(super) fn tune(&self, stage: tune::Stage) {
+        match stage {
+            tune::Stage::Learning(stage) => self.show(stage),
+            tune::Stage::Tuning(heard) => {
+                self.measured("tuning", heard.of);
+                self.bar.set_position(heard.ticks.min(heard.of));
+            }
         }
     }
 

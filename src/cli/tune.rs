@@ -1,12 +1,16 @@
 //! `btc tune`
 
+use super::checkpoints::{self, Checkpoints};
 use super::files::{self, STDIN};
 use super::learn::tuned_files;
 use super::progress::Progress;
 use super::report::{Format, Reporter, tell};
-use super::store::{Folder, System};
-use super::{Failure, PLAYED, effort, interrupt};
-use crate::driver::tune::{self, Options};
+use super::store::checkpoint::Run;
+use super::store::{Checkpoint, Folder, System};
+use super::{Failure, PLAYED, effort, interrupt, paths};
+use crate::checkpoint::{Forgetful, Keeper};
+use crate::driver::load::Loaded;
+use crate::driver::tune::{self, Options, Outcome};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -20,10 +24,10 @@ pub(super) struct Arguments {
     /// The learner, if the program has several.
     #[arg(long, value_name = "NAME")]
     learner: Option<String>,
-    /// How many fresh episodes hold the values that were found against those in use.
+    /// How many fresh episodes hold the values that were found against those in use, as far as the effort goes.
     #[arg(long, value_name = "N", default_value_t = Options::default().episodes, value_parser = clap::value_parser!(u64).range(2..=PLAYED))]
     episodes: u64,
-    /// About how many ticks the search may take.
+    /// About how many ticks the search may take, with the fresh episodes; what is learned has an effort of its own.
     #[arg(long, value_name = "TICKS", default_value_t = Options::default().effort, value_parser = effort)]
     effort: u64,
     /// The seed of the episodes.
@@ -35,6 +39,8 @@ pub(super) struct Arguments {
     /// The folder for the report as JSON and the curves as SVG.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
+    #[command(flatten)]
+    checkpoints: Checkpoints,
     /// How to write the report.
     #[arg(long, value_name = "FORM", default_value = "human")]
     format: Format,
@@ -45,27 +51,74 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
         tell("error: standard input cannot be fixed: name a file");
         return Err(Failure::Usage);
     }
-    let loaded = files::load(&arguments.file, say)?;
-    let options = Options {
-        tree: arguments.tree.as_deref(),
-        learner: arguments.learner.as_deref(),
-        effort: arguments.effort,
-        episodes: arguments.episodes,
-        seed: arguments.seed,
+    let Some(place) = &arguments.output else {
+        if arguments.checkpoints.resumes() {
+            tell("error: `--resume` goes on from the folder of the results: name it with `-o`");
+            return Err(Failure::Usage);
+        }
+        let loaded = files::load(&arguments.file, say)?;
+        let tuned = search(&loaded, &arguments.options(&Forgetful), say)?;
+        return say_all(arguments, &tuned);
     };
-    let bar = Progress::new();
-    let tuned = tune::tune(&loaded, &options, &|stage| match stage {
-        tune::Stage::Learning(stage) => bar.show(stage),
-        tune::Stage::Tuning(_) => bar.stage("tuning"),
-    });
-    bar.finish();
-    let tuned = tuned.map_err(|refused| say.refused(&refused))?;
-    if let Some(folder) = &arguments.output {
-        let folder = Folder::new(folder);
-        let files: Vec<(String, String)> = tuned_files(&tuned).collect();
-        interrupt::uninterrupted(|| folder.add(&System, &files))
-            .map_err(|error| files::complain(&error.to_string()))?;
+    let loaded = files::load(&arguments.file, say)?;
+    let folder = Folder::new(place);
+    let missing = folder.missing();
+    let whole = interrupt::uninterrupted(|| folder.probe(&System, &["tune.json"]))
+        .map_err(|error| files::complain(&error.to_string()))?;
+    let mut checkpoint = Checkpoint::new(
+        &System,
+        &whole,
+        arguments.run(&loaded, &whole)?,
+        arguments.checkpoints.every(),
+        interrupt::guard,
+    );
+    arguments.checkpoints.begin(&mut checkpoint, place)?;
+    let tuned = search(&loaded, &arguments.options(&checkpoint), say);
+    let tuned = checkpoints::settle(tuned, &checkpoint, &missing)?;
+    let files: Vec<(String, String)> = tuned_files(&tuned).collect();
+    interrupt::uninterrupted(|| folder.add(&System, &files))
+        .map_err(|error| files::complain(&error.to_string()))?;
+    say_all(arguments, &tuned)
+}
+
+impl Arguments {
+    fn options<'o>(&'o self, keeper: &'o dyn Keeper) -> Options<'o> {
+        Options {
+            tree: self.tree.as_deref(),
+            learner: self.learner.as_deref(),
+            effort: self.effort,
+            episodes: self.episodes,
+            seed: self.seed,
+            keeper,
+        }
     }
+
+    /// All that the result depends on.
+    fn run(&self, loaded: &Loaded, folder: &Path) -> Result<Run, Failure> {
+        let program = match self.file == STDIN {
+            true => paths::program_by_name(loaded),
+            false => paths::program_of(loaded, folder)?,
+        };
+        let mut run = checkpoints::run_of("tune", &program);
+        let mut add = |name: &str, value: String| run.insert(name.to_owned(), value);
+        add("--tree", self.tree.clone().unwrap_or_default());
+        add("--learner", self.learner.clone().unwrap_or_default());
+        add("--effort", self.effort.to_string());
+        add("--episodes", self.episodes.to_string());
+        add("--seed", self.seed.to_string());
+        Ok(run)
+    }
+}
+
+fn search(loaded: &Loaded, options: &Options, say: &Reporter) -> Result<Outcome, Failure> {
+    let bar = Progress::new();
+    let tuned = tune::tune(loaded, options, &|stage| bar.tune(stage));
+    bar.finish();
+    tuned.map_err(|refused| say.refused(&refused))
+}
+
+/// Fixes the program if that is asked for, and prints what was found.
+fn say_all(arguments: &Arguments, tuned: &Outcome) -> Result<(), Failure> {
     if arguments.fix {
         for (name, text) in &tuned.fixed {
             files::write(Path::new(name), text)?;

@@ -4,7 +4,7 @@ use super::learn::{self, Learned};
 use super::load::Loaded;
 use super::refused::Refused;
 use super::{target, world};
-use crate::checkpoint::Forgetful;
+use crate::checkpoint::{Forgetful, Keeper, Under};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::task::{Task, TreeRef};
 use crate::ir::tree::Node;
@@ -21,12 +21,14 @@ pub struct Options<'o> {
     pub tree: Option<&'o str>,
     /// The learner, if there are several.
     pub learner: Option<&'o str>,
-    /// About how many ticks the search may take.
+    /// About how many ticks the search may take, with the fresh episodes.
     pub effort: u64,
-    /// The number of fresh episodes on which the values that were found are held against those in use.
+    /// The most fresh episodes on which the values that were found are held against those in use.
     pub episodes: u64,
     /// The seed of all episodes.
     pub seed: u64,
+    /// Where the run keeps its states.
+    pub keeper: &'o dyn Keeper,
 }
 
 impl Default for Options<'_> {
@@ -37,6 +39,7 @@ impl Default for Options<'_> {
             effort: 40_000_000,
             episodes: 400,
             seed: 1,
+            keeper: &Forgetful,
         }
     }
 }
@@ -106,6 +109,7 @@ pub fn tune(
             let how = learn::Options {
                 learner: Some(&name),
                 source: source.map_or("program.bt", |source| &source.name),
+                keeper: options.keeper,
                 ..learn::Options::default()
             };
             let heard = |stage| progress(Stage::Learning(stage));
@@ -152,7 +156,7 @@ pub fn of_learned(
         root: &learned.tree.root,
         claimed: TreeRef::Learned(id),
     };
-    let tuned = searched.tune(progress)?;
+    let mut tuned = searched.tune(progress)?;
     let better = tuned.better().map(|better| better.values.clone());
     let program = better.and_then(|values| loaded.revalued(&values));
     let Some(program) = program else {
@@ -163,9 +167,10 @@ pub fn of_learned(
         ..loaded.clone()
     };
     let heard = |stage| progress(Stage::Learning(stage));
-    // The states that are kept are those of the values in use.
+    // Its states are others than those of the values in use.
+    let keeper = Under::new(options.keeper, "again");
     let how = learn::Options {
-        keeper: &Forgetful,
+        keeper: &keeper,
         ..*how
     };
     let anew = learn::learn(&changed, &how, &heard)?;
@@ -174,8 +179,10 @@ pub fn of_learned(
         ..searched.subject(&|_| None)
     };
     let before = (&changed.program, searched.root);
-    let duel = duel(&subject, &changed.program, before, &searched.search())
+    let fresh = (options.seed, tuned.fresh);
+    let duel = duel(&subject, &changed.program, before, fresh)
         .map_err(|why| world::unplayable(loaded, why))?;
+    tuned.ticks += duel.ticks;
     let text = match duel.is_won() {
         true => anew.text,
         false => learned.text.clone(),
@@ -218,7 +225,8 @@ impl Searched<'_> {
     fn tune(&self, progress: &(dyn Fn(Stage) + Sync)) -> Result<Tuned, Refused> {
         let revalued = |values: &[f64]| self.loaded.revalued(values);
         let heard = |heard| progress(Stage::Tuning(heard));
-        tune::tune(&self.subject(&revalued), &self.search(), &heard)
+        let keeper = self.options.keeper;
+        tune::tune(&self.subject(&revalued), &self.search(), keeper, &heard)
             .map_err(|why| world::unplayable(self.loaded, why))
     }
 

@@ -89,7 +89,13 @@ impl Report<'_> {
         for opinion in &self.tuned.opinions {
             self.opinion(opinion, &mut text);
         }
-        if self.tuned.opinions.is_empty() {
+        if self.tuned.untried {
+            text.push_str(
+                "values were found, and the effort does not go as far as fresh episodes: give it more `--effort`\n",
+            );
+        } else if self.tuned.curves.iter().all(|curve| !curve.searched) {
+            text.push_str("nothing is searched: give it more `--effort`\n");
+        } else if self.tuned.opinions.is_empty() {
             text.push_str("no value does better than those in use, with its neighbours\n");
         } else if self.tuned.better().is_none() {
             text.push_str("nothing is proposed: the values in use stay\n");
@@ -173,24 +179,26 @@ impl Report<'_> {
     /// The curve of each number as SVG, with the name of its file.
     pub fn pictures(&self) -> Vec<(String, String)> {
         let all = self.tunables().enumerate();
-        all.map(|(number, (tunable, curve))| {
-            let dots = curve.dots.iter().map(|dot| svg::sweep::Dot {
-                value: dot.value,
-                mean: dot.gain.mean,
-                interval: dot.gain.ci95,
-                out: dot.out,
-            });
-            let picture = svg::sweep::sweep(&svg::sweep::Sweep {
-                dots: dots.collect(),
-                unit: &tunable.unit.text,
-                used: tunable.value,
-                best: curve.dots.get(curve.best).map_or(0.0, |dot| dot.value),
-                flat: curve.flat(),
-                caption: &tunable.name,
-            });
-            (format!("tune_{}.svg", number + 1), picture)
-        })
-        .collect()
+        let searched = all.filter(|(_, (_, curve))| curve.searched);
+        searched
+            .map(|(number, (tunable, curve))| {
+                let dots = curve.dots.iter().map(|dot| svg::sweep::Dot {
+                    value: dot.value,
+                    mean: dot.gain.mean,
+                    interval: dot.gain.ci95,
+                    out: dot.out,
+                });
+                let picture = svg::sweep::sweep(&svg::sweep::Sweep {
+                    dots: dots.collect(),
+                    unit: &tunable.unit.text,
+                    used: tunable.value,
+                    best: curve.dots.get(curve.best).map_or(0.0, |dot| dot.value),
+                    flat: curve.flat(),
+                    caption: &tunable.name,
+                });
+                (format!("tune_{}.svg", number + 1), picture)
+            })
+            .collect()
     }
 
     fn document(&self) -> Document<'_> {
@@ -262,6 +270,13 @@ fn drawn(tunable: &Tunable, curve: &Curve) -> String {
         let dot = curve.dots.get(at);
         dot.map_or(String::new(), |dot| tunable.written(dot.value))
     };
+    if !curve.searched {
+        let used = written(curve.used);
+        return format!(
+            "{}: {used} in use, not searched: the effort does not go so far\n",
+            tunable.name
+        );
+    }
     let flat = match curve.flat() {
         Some((from, to)) if from < to => {
             format!(
@@ -398,6 +413,7 @@ struct Fought {
 
 impl<'a> Number<'a> {
     fn new(tunable: &'a Tunable, curve: &Curve) -> Self {
+        let best = curve.dots.get(curve.best).filter(|_| curve.searched);
         let rows = curve.dots.iter().map(|dot| Row {
             value: dot.value,
             gain: dot.gain.mean,
@@ -412,7 +428,7 @@ impl<'a> Number<'a> {
             used: tunable.value,
             low: tunable.low,
             high: tunable.high,
-            best: curve.dots.get(curve.best).map(|dot| dot.value),
+            best: best.map(|dot| dot.value),
             flat: curve.flat(),
             curve: rows.collect(),
         }

@@ -5,6 +5,8 @@
 //! answered while it is asked. What is left is answered by bit-parallel [truth tables](truth) or a [SAT solver](sat).
 
 pub(super) mod guards;
+#[cfg(test)]
+mod rup;
 pub(super) mod sat;
 pub(super) mod truth;
 

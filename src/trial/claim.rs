@@ -54,6 +54,8 @@ impl Tested {
 #[derive(Debug)]
 pub struct Tests<'a> {
     program: &'a Program,
+    /// The most episodes that test a claim, if there are to be fewer than it takes.
+    most: u64,
     played: Vec<(Played<'a>, Vec<Episode>)>,
 }
 
@@ -70,8 +72,23 @@ impl<'a> Tests<'a> {
     pub fn new(program: &'a Program) -> Self {
         Self {
             program,
+            most: u64::MAX,
             played: Vec::new(),
         }
+    }
+
+    /// No test so far, and none on more episodes than these.
+    pub fn at_most(program: &'a Program, most: u64) -> Self {
+        Self {
+            most,
+            ..Self::new(program)
+        }
+    }
+
+    /// Ticks simulated so far.
+    pub fn ticks(&self) -> u64 {
+        let episodes = self.played.iter().flat_map(|(_, episodes)| episodes);
+        episodes.map(|episode| episode.ticks).sum()
     }
 
     /// Tests a claim: that the event is reached, or that it never happens. The episodes are looked at in their order, up to
@@ -92,13 +109,14 @@ impl<'a> Tests<'a> {
         let most = match allowed > 0.0 {
             true => MOST,
             false => WITHOUT_EXCEPTION,
-        };
+        }
+        .min(self.most);
         let fails = |episode: &Episode| {
             let count = episode.events.get(occurrence.event.index()).copied();
             (count.unwrap_or(0) > 0) != reaches
         };
         let (mut trials, mut shortest) = (Anytime::default(), None::<(u64, u64)>);
-        let mut upto = FIRST;
+        let mut upto = FIRST.min(most);
         loop {
             let episodes = self.episodes(wanted, upto)?;
             let fresh = episodes.iter().enumerate().take(most as usize);

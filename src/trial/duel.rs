@@ -9,6 +9,7 @@ use crate::learn::episode::{Episode, play};
 use crate::learn::statistics::{Mean, Summary};
 use crate::world::{End, Simulator, Start};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// Episodes that one thread plays in a row.
 pub const CHUNK: usize = 8;
@@ -49,7 +50,7 @@ impl Player {
 }
 
 /// Two against each other on fresh seeds.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Duel {
     /// The figures of what was there before.
     pub before: Summary,
@@ -64,6 +65,17 @@ pub struct Duel {
 }
 
 impl Duel {
+    /// The duel that these episodes are, before and after, in a task with so many lines of `end on`.
+    pub fn of(before: &[Episode], after: &[Episode], ends: usize) -> Self {
+        Self {
+            before: Summary::of(before, ends),
+            after: Summary::of(after, ends),
+            gain: gain(after, before),
+            ended: ended(after, before),
+            ticks: before.iter().chain(after).map(|e| e.ticks).sum(),
+        }
+    }
+
     /// Whether the whole interval of the gain is above 0, and no more episodes end badly.
     pub fn is_won(&self) -> bool {
         self.gain.ci95[0] > 0.0 && self.ended.0 <= self.ended.1
@@ -72,7 +84,7 @@ impl Duel {
 
 impl Player {
     /// Plays episodes 0 … n − 1 on all threads.
-    fn play_all(&self, start: Start, episodes: usize) -> Vec<Episode> {
+    pub fn play_all(&self, start: Start, episodes: usize) -> Vec<Episode> {
         let chunks = (0..episodes).into_par_iter().step_by(CHUNK);
         chunks
             .flat_map_iter(|from| self.play(start, from, episodes.min(from + CHUNK)))
@@ -98,14 +110,7 @@ pub fn duel(
     };
     let ends = before.0.tasks[task].end_on.len();
     let (before, after) = (play(before)?, play(after)?);
-    let duel = Duel {
-        before: Summary::of(&before, ends),
-        after: Summary::of(&after, ends),
-        gain: gain(&after, &before),
-        ended: ended(&after, &before),
-        ticks: before.iter().chain(&after).map(|e| e.ticks).sum(),
-    };
-    Ok((duel, [before, after]))
+    Ok((Duel::of(&before, &after, ends), [before, after]))
 }
 
 /// What one gains over another, episode by episode.

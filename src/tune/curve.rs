@@ -2,9 +2,10 @@
 
 use super::field::{Field, Point};
 use crate::learn::statistics::Mean;
+use serde::{Deserialize, Serialize};
 
 /// The fewest and the most episodes of every value.
-const FIRST: [usize; 2] = [4, 32];
+pub(super) const FIRST: [usize; 2] = [4, 32];
 /// The most episodes of those that are left.
 const LAST: usize = 128;
 /// The values that are left in the end.
@@ -13,10 +14,12 @@ const LEFT: usize = 6;
 const TOLERANCE: f64 = 0.01;
 
 /// The curve of a number.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Curve {
     /// The values, ascending.
     pub dots: Vec<Dot>,
+    /// Whether they were played at all: the effort may not go so far.
+    pub searched: bool,
     /// Which of them is in use.
     pub used: usize,
     /// Which of them is the best by the worst of itself and its neighbours; that in use if none gains
@@ -27,7 +30,7 @@ pub struct Curve {
 }
 
 /// A value of a curve.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Dot {
     /// The value in the unit of the number.
     pub value: f64,
@@ -59,6 +62,22 @@ impl Curve {
         let Some(own) = field.axes().get(axis) else {
             return;
         };
+        let dot = |(point, &value): (&Point, &f64)| Dot {
+            value,
+            gain: field.gain(point),
+            episodes: field.episodes(point).len(),
+            out: field.is_out(point),
+            flat: false,
+        };
+        if !self.searched {
+            let used = own.values.get(own.used);
+            self.dots = used
+                .map(|used| dot((&field.used(), used)))
+                .into_iter()
+                .collect();
+            (self.used, self.best) = (0, 0);
+            return;
+        }
         let all: Vec<Point> = (0..own.values.len())
             .map(|at| field.with(axis, at))
             .collect();
@@ -69,14 +88,7 @@ impl Curve {
         let best = ranked.first().filter(gains);
         let best = best.cloned().unwrap_or_else(|| field.used());
         self.best = best.get(axis).copied().unwrap_or(own.used);
-        let dots = all.iter().zip(&own.values).map(|(point, &value)| Dot {
-            value,
-            gain: field.gain(point),
-            episodes: field.episodes(point).len(),
-            out: field.is_out(point),
-            flat: false,
-        });
-        self.dots = dots.collect();
+        self.dots = all.iter().zip(&own.values).map(dot).collect();
         let tolerance = TOLERANCE * field.scale();
         let alike = |at: usize| {
             all.get(at).is_some_and(|point| {
@@ -99,25 +111,30 @@ pub(super) fn search(field: &mut Field, axis: usize, until: u64) -> Curve {
     let number = field.axes().get(axis).map_or(0, |axis| axis.values.len());
     let all: Vec<Point> = (0..number).map(|at| field.with(axis, at)).collect();
     // Half of the effort goes into the first round.
-    let left = until.saturating_sub(field.ticks) / 2;
+    let left = until.saturating_sub(field.account.ticks) / 2;
     let affordable = left / (field.length() * number.max(1) as u64).max(1);
     let [least, most] = FIRST;
     let mut episodes = usize::try_from(affordable).map_or(most, |n| n.clamp(least, most));
-    field.play(&all, episodes);
+    let searched = field.play(&all, episodes, until);
     let mut points: Vec<Point> = all
         .into_iter()
-        .filter(|point| *point != field.used())
+        .filter(|point| searched && *point != field.used())
         .collect();
     field.rank(&mut points);
-    while episodes < LAST && field.ticks < until {
-        points.truncate((points.len() / 2).max(LEFT));
+    while searched && episodes < LAST {
+        let mut better = points.clone();
+        better.truncate((points.len() / 2).max(LEFT));
+        if !field.play_with_neighbours(&better, 2 * episodes, until) {
+            break;
+        }
         episodes *= 2;
-        field.play_with_neighbours(&points, episodes);
+        points = better;
         field.rank(&mut points);
     }
     points.truncate(LEFT);
     Curve {
         dots: Vec::new(),
+        searched,
         used,
         best: used,
         ranked: points,

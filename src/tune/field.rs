@@ -1,14 +1,16 @@
 //! Points of the grid with the episodes that the tree has played under their values.
 
 use super::Subject;
+use super::account::Account;
 use super::grid::Axis;
+use crate::checkpoint::Part;
 use crate::learn::episode::Episode;
 use crate::learn::statistics::Mean;
-use crate::trial::Unplayable;
 use crate::trial::duel::{CHUNK, Player, ended, gain, happened};
 use crate::world::Start;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 /// A value of each number, by its place on the axis.
 pub type Point = Vec<usize>;
@@ -24,57 +26,63 @@ struct Arm {
     episodes: Vec<Episode>,
 }
 
+/// The episodes of points, as they are kept.
+type Played = BTreeMap<Point, Vec<Episode>>;
+
+/// What a field lies in.
+pub(super) struct Place<'a> {
+    pub(super) subject: &'a Subject<'a>,
+    pub(super) axes: &'a [Axis],
+    /// The events that must never happen.
+    pub(super) never: &'a [usize],
+    pub(super) start: Start,
+    /// Where the episodes are kept: those of a run before are not played again.
+    pub(super) part: &'a Part<'a>,
+    pub(super) progress: &'a (dyn Fn(u64) + Sync),
+}
+
 /// Points of the grid with their episodes, all on the same seeds.
 pub struct Field<'a> {
-    /// Ticks simulated so far.
-    pub ticks: u64,
-    subject: &'a Subject<'a>,
-    axes: &'a [Axis],
-    never: &'a [usize],
-    start: Start,
+    /// What all that is played here is paid from.
+    pub account: Account,
+    place: Place<'a>,
     arms: BTreeMap<Point, Arm>,
-    progress: &'a (dyn Fn(u64) + Sync),
+    /// What a run before has played.
+    known: Played,
 }
 
 impl<'a> Field<'a> {
-    /// The point in use, with its first episodes.
+    /// The point in use, with its player and the first episodes that it has played, which are paid.
     pub(super) fn new(
-        subject: &'a Subject,
-        axes: &'a [Axis],
-        never: &'a [usize],
-        start: Start,
-        progress: &'a (dyn Fn(u64) + Sync),
-    ) -> Result<Self, Unplayable> {
-        let player = Player::new(subject.program, subject.task, subject.root)?;
+        place: Place<'a>,
+        account: Account,
+        (player, episodes): (Player, Vec<Episode>),
+    ) -> Self {
+        let known = place.part.resume().unwrap_or_default();
         let mut field = Self {
-            ticks: 0,
-            subject,
-            axes,
-            never,
-            start,
+            account,
+            place,
             arms: BTreeMap::new(),
-            progress,
+            known,
         };
-        let used = field.used();
-        field.arms.insert(
-            used.clone(),
-            Arm {
-                player: Some(player),
-                episodes: Vec::new(),
-            },
-        );
-        field.play(&[used], CHUNK);
-        Ok(field)
+        let player = Some(player);
+        field.arms.insert(field.used(), Arm { player, episodes });
+        field
+    }
+
+    /// What is tuned.
+    pub(super) fn subject(&self) -> &'a Subject<'a> {
+        self.place.subject
     }
 
     /// The axes of the grid.
     pub fn axes(&self) -> &'a [Axis] {
-        self.axes
+        self.place.axes
     }
 
     /// The point of the values in use.
     pub fn used(&self) -> Point {
-        self.axes.iter().map(|axis| axis.used).collect()
+        self.place.axes.iter().map(|axis| axis.used).collect()
     }
 
     /// The point in use with another value of one number.
@@ -86,11 +94,10 @@ impl<'a> Field<'a> {
         point
     }
 
-    /// The mean number of ticks of an episode under the values in use.
+    /// The mean number of ticks of an episode, where it is the greatest.
     pub fn length(&self) -> u64 {
-        let episodes = self.episodes(&self.used());
-        let ticks: u64 = episodes.iter().map(|episode| episode.ticks).sum();
-        (ticks / episodes.len().max(1) as u64).max(1)
+        let arms = self.arms.values().map(|arm| length(&arm.episodes));
+        arms.fold(1, u64::max)
     }
 
     /// The episodes of a point.
@@ -98,30 +105,20 @@ impl<'a> Field<'a> {
         self.arms.get(point).map_or(&[], |arm| &arm.episodes)
     }
 
-    /// Lets each point, and the one in use, play the episodes below `episodes` that it has not played, on all threads.
-    pub fn play(&mut self, points: &[Point], episodes: usize) {
+    /// Lets each point, and the one in use, play the episodes below `episodes` that it has not played, on all threads. Does
+    /// nothing, and says so, if that takes more ticks than there are until `until`.
+    #[must_use]
+    pub fn play(&mut self, points: &[Point], episodes: usize, until: u64) -> bool {
         let mut points = points.to_vec();
         points.push(self.used());
         points.sort();
         points.dedup();
-        let new: Vec<&Point> = points
-            .iter()
-            .filter(|point| !self.arms.contains_key(*point))
-            .collect();
-        let made: Vec<(Point, Arm)> = new
-            .into_par_iter()
-            .map(|point| {
-                let Subject { task, root, .. } = *self.subject;
-                let program = (self.subject.revalued)(&self.values(point));
-                let player = program.and_then(|program| Player::new(&program, task, root).ok());
-                let arm = Arm {
-                    player,
-                    episodes: Vec::new(),
-                };
-                (point.clone(), arm)
-            })
-            .collect();
-        self.arms.extend(made);
+        let missing = points.iter().map(|point| self.missing(point, episodes));
+        let price = missing.sum::<usize>() as u64 * self.length();
+        if !self.account.affords(price, until) {
+            return false;
+        }
+        self.enter(&points);
         let mut due: Vec<(&Point, usize, usize)> = Vec::new();
         for point in &points {
             let mut from = self.episodes(point).len();
@@ -133,29 +130,86 @@ impl<'a> Field<'a> {
         }
         let played: Vec<Vec<Episode>> = due
             .par_iter()
-            .map(|(point, from, to)| {
-                let player = self.arms.get(*point).and_then(|arm| arm.player.as_ref());
-                player.map_or(Vec::new(), |player| player.play(self.start, *from, *to))
-            })
+            .map(|(point, from, to)| self.played(point, *from..*to))
             .collect();
         for ((point, ..), played) in due.into_iter().zip(played) {
-            self.ticks += played.iter().map(|episode| episode.ticks).sum::<u64>();
+            let ticks = played.iter().map(|episode| episode.ticks);
+            self.account.spend(ticks.sum());
             if let Some(arm) = self.arms.get_mut(point) {
                 arm.episodes.extend(played);
             }
         }
-        (self.progress)(self.ticks);
+        self.place.part.keep(|| self.all());
+        (self.place.progress)(self.account.ticks);
+        true
+    }
+
+    /// How many episodes below `episodes` a point has not played; none where it cannot be played.
+    fn missing(&self, point: &[usize], episodes: usize) -> usize {
+        let without = self.arms.get(point).is_some_and(|arm| arm.player.is_none());
+        match without {
+            true => 0,
+            false => episodes.saturating_sub(self.episodes(point).len()),
+        }
+    }
+
+    /// Makes a player for each of the points that has none.
+    fn enter(&mut self, points: &[Point]) {
+        let new: Vec<&Point> = points
+            .iter()
+            .filter(|point| !self.arms.contains_key(*point))
+            .collect();
+        let made: Vec<(Point, Arm)> = new
+            .into_par_iter()
+            .map(|point| {
+                let Subject { task, root, .. } = *self.place.subject;
+                let program = (self.place.subject.revalued)(&self.values(point));
+                let player = program.and_then(|program| Player::new(&program, task, root).ok());
+                let arm = Arm {
+                    player,
+                    episodes: Vec::new(),
+                };
+                (point.clone(), arm)
+            })
+            .collect();
+        self.arms.extend(made);
+    }
+
+    /// These episodes of a point, as a run before has played them or as they are played now.
+    fn played(&self, point: &Point, range: Range<usize>) -> Vec<Episode> {
+        let known = self.known.get(point);
+        if let Some(known) = known.and_then(|known| known.get(range.clone())) {
+            return known.to_vec();
+        }
+        let player = self.arms.get(point).and_then(|arm| arm.player.as_ref());
+        player.map_or(Vec::new(), |player| {
+            player.play(self.place.start, range.start, range.end)
+        })
+    }
+
+    /// All episodes so far, with those of a run before that have not been asked for yet.
+    fn all(&self) -> Played {
+        let mut all = self.known.clone();
+        for (point, arm) in &self.arms {
+            let longer = all
+                .get(point)
+                .is_none_or(|known| known.len() < arm.episodes.len());
+            if longer {
+                all.insert(point.clone(), arm.episodes.clone());
+            }
+        }
+        all
     }
 
     /// The values of a point, in the units of the numbers.
     pub fn values(&self, point: &[usize]) -> Vec<f64> {
-        values(self.axes, point)
+        values(self.place.axes, point)
     }
 
     /// The points one step beside a point, in each number in which it is not the one in use.
     fn neighbours(&self, point: &[usize]) -> Vec<Point> {
         let mut found = Vec::new();
-        for (i, (at, axis)) in point.iter().zip(self.axes).enumerate() {
+        for (i, (at, axis)) in point.iter().zip(self.place.axes).enumerate() {
             if *at == axis.used {
                 continue;
             }
@@ -173,10 +227,11 @@ impl<'a> Field<'a> {
     }
 
     /// As [`Field::play`], for the points and their neighbours.
-    pub fn play_with_neighbours(&mut self, points: &[Point], episodes: usize) {
+    #[must_use]
+    pub fn play_with_neighbours(&mut self, points: &[Point], episodes: usize, until: u64) -> bool {
         let beside = points.iter().flat_map(|point| self.neighbours(point));
         let all: Vec<Point> = points.iter().cloned().chain(beside).collect();
-        self.play(&all, episodes);
+        self.play(&all, episodes, until)
     }
 
     /// What a point gains over the one in use, episode by episode.
@@ -199,7 +254,7 @@ impl<'a> Field<'a> {
         let (worse, better) = ended(episodes, used);
         let (worse, better) = (worse as f64, better as f64);
         episodes.is_empty()
-            || happened(episodes, self.never) > happened(same, self.never)
+            || happened(episodes, self.place.never) > happened(same, self.place.never)
             // A sign test at 95 %.
             || worse - better > 1.645 * (worse + better).sqrt() && worse > better + 1.0
     }
@@ -250,7 +305,7 @@ impl<'a> Field<'a> {
 
     /// How many values of a point are not in use, and how round these are.
     fn digits(&self, point: &[usize]) -> (usize, usize) {
-        let own = point.iter().zip(self.axes);
+        let own = point.iter().zip(self.place.axes);
         let changed = own.filter(|(at, axis)| **at != axis.used);
         changed.fold((0, 0), |(number, digits), (at, axis)| {
             (number + 1, digits + axis.digits(*at))
@@ -266,6 +321,12 @@ impl<'a> Field<'a> {
         let deviation = error * (totals.len() as f64).sqrt();
         mean.mean.abs().max(deviation)
     }
+}
+
+/// The mean number of ticks of some episodes, rounded up.
+pub(super) fn length(episodes: &[Episode]) -> u64 {
+    let ticks: u64 = episodes.iter().map(|episode| episode.ticks).sum();
+    ticks.div_ceil(episodes.len().max(1) as u64)
 }
 
 /// The values of a point on some axes.

@@ -28,12 +28,10 @@ pub(super) fn search(
     let mut found = Vec::new();
     let mut searched = 0;
     for &(first, second) in &pairs {
-        let [(episodes, _), ..] = ROUNDS;
-        let price = (VALUES * VALUES * episodes) as u64 * field.length();
-        if field.ticks + price > until {
+        let Some(points) = pair(field, curves, (first, second), until) else {
             break;
-        }
-        found.extend(pair(field, curves, first, second));
+        };
+        found.extend(points);
         searched += 1;
     }
     (found, (searched, pairs.len()))
@@ -47,8 +45,13 @@ fn reach(field: &Field, axis: usize) -> f64 {
     gains.fold(0.0, f64::max)
 }
 
-/// The best points of a pair.
-fn pair(field: &mut Field, curves: &[Curve], first: usize, second: usize) -> Vec<Point> {
+/// The best points of a pair; nothing if they are not played, for the effort goes no further.
+fn pair(
+    field: &mut Field,
+    curves: &[Curve],
+    (first, second): (usize, usize),
+    until: u64,
+) -> Option<Vec<Point>> {
     let used = field.used();
     let mut points = Vec::new();
     for at in values(field, curves, first) {
@@ -62,13 +65,17 @@ fn pair(field: &mut Field, curves: &[Curve], first: usize, second: usize) -> Vec
             points.push(point);
         }
     }
+    let mut played = false;
     for (episodes, stay) in ROUNDS {
-        field.play(&points, episodes);
         // Neighbours are not played yet: the points of a pair are far from each other.
+        if !field.play(&points, episodes, until) {
+            break;
+        }
+        played = true;
         field.rank(&mut points);
         points.truncate(stay);
     }
-    points
+    played.then_some(points)
 }
 
 /// The values of a number that stand for all: some from end to end, and the best ones; not that in use.

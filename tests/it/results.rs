@@ -3,6 +3,7 @@
 mod faults;
 mod folders;
 mod kills;
+mod searches;
 mod states;
 
 use std::collections::BTreeMap;

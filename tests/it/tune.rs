@@ -2,6 +2,7 @@
 
 use crate::program::NoFiles;
 use crate::snapshot::check;
+use btc::checkpoint::Forgetful;
 use btc::driver::load::{Loaded, load};
 use btc::driver::run::{Subject, run};
 use btc::driver::tune::{Options, Outcome, tune};
@@ -32,6 +33,7 @@ pub(super) const QUICK: Options = Options {
     effort: 1_500_000,
     episodes: 40,
     seed: 1,
+    keeper: &Forgetful,
 };
 
 fn tuned(text: &str) -> Outcome {
@@ -161,6 +163,48 @@ fn a_number_that_changes_nothing_stays() {
     };
     assert!(fixed.contains("tune(1 m, 90 cm .. 110 cm)"));
     assert!(!fixed.contains("tune(18%"));
+}
+
+/// All that is simulated is paid from one account.
+#[test]
+fn a_search_keeps_its_budget() {
+    let plain = small("tune(18%, 10% .. 20%)");
+    let several = plain.replace(
+        "predicate carrying_package",
+        "predicate near = distance(A) <= tune(1 m, 10 cm .. 3 m)\npredicate carrying_package",
+    );
+    let claimed =
+        format!("{plain}\nclaim expert never dead\nclaim expert never dead within 1 min\n");
+    for text in [&plain, &several, &claimed] {
+        for effort in [30_000, 100_000, 300_000, 1_000_000, 3_000_000] {
+            let options = Options {
+                effort,
+                episodes: 400,
+                ..QUICK
+            };
+            let found = tune(&loaded(text), &options, &|_| {}).unwrap();
+            let document: serde_json::Value = serde_json::from_str(&found.json).unwrap();
+            let ticks = document["ticks"].as_u64().unwrap();
+            assert!(ticks <= effort + effort / 50, "{ticks} of {effort}");
+            // What is affordable is played.
+            assert!(
+                effort < 1_000_000 || ticks > effort / 2,
+                "{ticks} of {effort}"
+            );
+        }
+    }
+}
+
+/// What the effort does not go as far as is told.
+#[test]
+fn what_is_not_searched_is_told() {
+    let options = Options {
+        effort: 20_000,
+        ..QUICK
+    };
+    let found = tune(&loaded(&small("tune(18%, 10% .. 20%)")), &options, &|_| {}).unwrap();
+    check("not_searched", &found.human);
+    assert!(found.pictures.is_empty() && found.fixed.is_empty());
 }
 
 fn btc(arguments: &[&str]) -> Output {

@@ -1,10 +1,14 @@
 //! Circuits as clauses (Tseitin 1968) for BatSat, a SAT solver of the MiniSat family.
 
+#[cfg(test)]
+use super::rup::Proof;
 use super::{Circuit, Gate, Signal};
+use batsat::Callbacks;
 use rustsat::solvers::{Solve, SolveIncremental, SolverResult};
 use rustsat::types::{Clause, Lit, TernaryVal};
-use rustsat_batsat::BasicSolver;
 use std::cell::Cell;
+#[cfg(test)]
+use std::cell::RefCell;
 use std::rc::Rc;
 
 /// The solver has spent what it was given without an answer.
@@ -13,13 +17,42 @@ pub(in crate::tree) struct Exhausted;
 
 /// A solver that knows the gates that it was asked for. What it has learned serves later questions.
 pub(in crate::tree) struct Solver {
-    solver: BasicSolver,
+    solver: rustsat_batsat::Solver<Calls>,
     /// Which gates it knows.
     known: Vec<bool>,
     /// The work that it may still do.
     left: Rc<Cell<u64>>,
     /// The clauses that it has.
     clauses: Rc<Cell<u64>>,
+    /// Why its answers are no.
+    #[cfg(test)]
+    proof: Rc<RefCell<Proof>>,
+}
+
+/// What BatSat calls on its way.
+#[derive(Default)]
+struct Calls {
+    left: Rc<Cell<u64>>,
+    clauses: Rc<Cell<u64>>,
+    #[cfg(test)]
+    proof: Rc<RefCell<Proof>>,
+}
+
+impl Callbacks for Calls {
+    /// Called at every decision: effort is counted, not timed.
+    fn stop(&self) -> bool {
+        let cost = 1 + self.clauses.get() / CLAUSES;
+        self.left.set(self.left.get().saturating_sub(cost));
+        self.left.get() == 0
+    }
+
+    #[cfg(test)]
+    fn on_new_clause(&mut self, clause: &[batsat::Lit], _: batsat::ClauseKind) {
+        let positive = |literal: &batsat::Lit| *literal == batsat::Lit::new(literal.var(), true);
+        let literal = |literal: &batsat::Lit| Lit::new(literal.var().idx(), !positive(literal));
+        let clause = clause.iter().map(literal).collect();
+        self.proof.borrow_mut().learned(clause);
+    }
 }
 
 /// Clauses that are looked at in the time of one decision, about.
@@ -29,22 +62,19 @@ impl Solver {
     /// A solver that may take `budget` decisions, in all questions together; where there are many clauses, one counts for
     /// several.
     pub(in crate::tree) fn new(budget: u64) -> Self {
-        let left = Rc::new(Cell::new(budget));
-        let spent = Rc::clone(&left);
-        let clauses = Rc::new(Cell::new(0));
-        let many = Rc::clone(&clauses);
-        let mut solver = BasicSolver::default();
-        // Called at every decision: effort is counted, not timed.
-        solver.batsat_mut().cb_mut().set_stop(move || {
-            let cost = 1 + many.get() / CLAUSES;
-            spent.set(spent.get().saturating_sub(cost));
-            spent.get() == 0
-        });
+        let mut solver = rustsat_batsat::Solver::<Calls>::default();
+        let calls = solver.batsat_mut().cb_mut();
+        calls.left.set(budget);
+        let (left, clauses) = (Rc::clone(&calls.left), Rc::clone(&calls.clauses));
+        #[cfg(test)]
+        let proof = Rc::clone(&calls.proof);
         Self {
             solver,
             known: Vec::new(),
             left,
             clauses,
+            #[cfg(test)]
+            proof,
         }
     }
 
@@ -64,7 +94,11 @@ impl Solver {
         let literals: Vec<Lit> = signals.iter().map(|signal| literal(*signal)).collect();
         match self.solver.solve_assumps(&literals) {
             Ok(SolverResult::Sat) => Ok(true),
-            Ok(SolverResult::Unsat) => Ok(false),
+            Ok(SolverResult::Unsat) => {
+                #[cfg(test)]
+                self.proof.borrow_mut().refutes(&literals);
+                Ok(false)
+            }
             _ => Err(Exhausted),
         }
     }
@@ -144,6 +178,8 @@ impl Solver {
 
     fn clause<const N: usize>(&mut self, literals: [Lit; N]) -> Result<(), Exhausted> {
         self.clauses.set(self.clauses.get() + 1);
+        #[cfg(test)]
+        self.proof.borrow_mut().given(&literals);
         let clause: Clause = literals.into_iter().collect();
         self.solver.add_clause(clause).map_err(|_| Exhausted)
     }

@@ -119,9 +119,10 @@ fn a_run_goes_on_from_its_states() {
     goes_on("q_learning", 61);
 }
 
-/// What is learned again under better values has no states: they would be taken for those of the values in use.
+/// A search for better values goes on from each state, and so does what is learned again under them: its states have names of
+/// their own, for they are not those of the values in use.
 #[test]
-fn what_is_tuned_leaves_the_states_alone() {
+fn what_is_tuned_goes_on_from_its_states() {
     let text = small("tune(18%, 10% .. 20%)");
     let loaded = load("small.bt", text.into_bytes(), &mut NoFiles);
     let keeper = Everything::default();
@@ -131,11 +132,38 @@ fn what_is_tuned_leaves_the_states_alone() {
     let expert = loaded.program.trees.values();
     let mut expert = expert.filter(|tree| tree.name.family == "expert");
     learned.tree.root = expert.next().unwrap().root.clone();
-    let states = || keeper.kept.lock().unwrap().clone();
-    let before = states();
-    let found = tune::of_learned(&loaded, &learned, &options, &QUICK, &|_| {}).unwrap();
-    assert!(found.text.is_some(), "{}", found.human);
-    assert_eq!(states(), before);
+    let tuned = |keeper: &dyn Keeper| {
+        let search = tune::Options { keeper, ..QUICK };
+        tune::of_learned(&loaded, &learned, &options, &search, &|_| {}).unwrap()
+    };
+    let before = keeper.kept.lock().unwrap().len();
+    let whole = tuned(&Forgetful);
+    assert!(whole.text.is_some(), "{}", whole.human);
+    assert_eq!(keeper.kept.lock().unwrap().len(), before);
+    let every = Everything {
+        sparse: 1,
+        ..Everything::default()
+    };
+    assert_eq!(tuned(&every).json, whole.json);
+    let kept = every.kept.into_inner().unwrap();
+    let parts: Vec<&String> = kept.iter().map(|(part, _)| part).collect();
+    for part in ["played", "tuned", "again-seed-1", "again-grown"] {
+        assert!(parts.iter().any(|kept| *kept == part), "{part}: {parts:?}");
+    }
+    let other = parts
+        .iter()
+        .all(|part| ["played", "tuned"].contains(&part.as_str()) || part.starts_with("again-"));
+    assert!(other, "{parts:?}");
+    let step = kept.len().div_ceil(8);
+    for at in (0..kept.len()).step_by(step) {
+        let before = kept[..=at].iter().cloned().collect();
+        let again = tuned(&Everything {
+            before,
+            ..Everything::default()
+        });
+        assert_eq!(again.json, whole.json, "{}, state {at}", kept[at].0);
+        assert_eq!(again.text, whole.text, "{}, state {at}", kept[at].0);
+    }
 }
 
 #[test]
