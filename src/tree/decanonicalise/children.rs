@@ -170,7 +170,8 @@ const RUN: usize = 12;
 
 /// How many of the first of these cubes of one class stand best under one guard, with the price of their unit.
 fn together(problem: &Problem, cubes: &[Cube]) -> (usize, Price, Guard) {
-    let mut best: Option<((isize, isize), (usize, Price, Guard))> = None;
+    let mut best = (1, Price::default(), Guard::Const(true));
+    let mut most = (isize::MIN, isize::MIN);
     let mut alone = Price::default();
     for (count, cube) in (1..=RUN).zip(cubes) {
         let literals = Price::literals(cube.literals().len());
@@ -184,9 +185,9 @@ fn together(problem: &Problem, cubes: &[Cube]) -> (usize, Price, Guard) {
             alone.literals as isize - price.literals as isize,
         );
         // Of those that save as much the longest.
-        if best.as_ref().is_none_or(|(most, _)| saved >= *most) {
-            best = Some((saved, (count, price, guard)));
+        if saved >= most {
+            (most, best) = (saved, (count, price, guard));
         }
     }
-    best.map_or((1, alone, Guard::Const(true)), |(_, best)| best)
+    best
 }

@@ -26,7 +26,7 @@ impl Group {
         units: usize,
         above: &mut Vec<usize>,
     ) -> Self {
-        let unit = |at: usize, random: &mut Random| {
+        let mut unit = |at: usize, random: &mut Random| {
             let nested = depth > 0 && random.chance(50);
             let literals = 1 + usize::from(!nested && at < 2) + random.below(2);
             let mut cube: Vec<(usize, bool)> = Vec::new();
@@ -47,7 +47,6 @@ impl Group {
             above.truncate(length);
             (cube, Body::Group(group))
         };
-        let mut unit = unit;
         let units = (0..units).map(|at| unit(at, random)).collect();
         let last = random.below(3);
         Self { units, last }
