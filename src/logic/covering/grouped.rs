@@ -71,13 +71,13 @@ const DEPTH: usize = 4;
 const CUBES: usize = 12;
 const SOUGHT: usize = 3;
 /// Attempts at a smaller list for a part.
-const PATIENCE: usize = 60;
+const PATIENCE: usize = 24;
 /// Of a hundred divisions so many are passed over.
 const PASSED: usize = 40;
 /// A division may begin so many nodes above the list that it divides.
 const SLACK: usize = 4;
 /// Attempts without a smaller list after which the search ends.
-const VAIN: usize = 40;
+const VAIN: usize = 12;
 
 /// The smallest grouped list that is found from these lists, which decide every row rightly, within the account. Rows are minterms.
 pub fn grouped(
