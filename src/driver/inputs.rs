@@ -7,16 +7,17 @@ use super::table::refused;
 use super::text::Text;
 use crate::diagnostic::Code;
 use crate::emit::bt::{self, Definition};
-use crate::ir::expr::{Binary, Expr};
+use crate::ir::expr::{Binary, Expr, ExprId, Pool};
 use crate::ir::input::{self, Input, InputKind};
 use crate::ir::program::Predicate;
 use crate::ir::tree::{Atom, Tree};
 use crate::ir::{Id, Name, Program};
 use crate::policy::table::{AtomName, Table};
-use crate::policy::valued::{Asks, Column, Columns, Comparison, Kind, Test, Valued};
+use crate::policy::valued::{Asks, Column, Columns, Comparison, Holds, Kind, Test, Valued};
 use crate::report::decanonicalised::Values;
 use crate::tree::atoms::atoms;
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 /// A table of values with the comparisons that tell its rows apart.
 #[derive(Clone, Debug)]
@@ -194,18 +195,38 @@ impl Inputs {
             let (Some(when), Some(column)) = (when, column) else {
                 return Err(format!("`{name}` is not defined"));
             };
-            for code in 0..column.kind.values() {
+            for code in telling(&read.pool, when, *comparison, column) {
                 let value = match &column.kind {
                     Kind::Number(_, values) => values.get(code).map_or(f64::NAN, |(_, si)| *si),
                     _ => code as f64,
                 };
-                let holds = input::value(&read.pool, when, &|_| value);
+                let of = |input: Id<Input>| match read.inputs[input].name.is(&column.name) {
+                    true => value,
+                    false => f64::NAN,
+                };
+                let holds = input::value(&read.pool, when, &of);
                 if holds != Some(f64::from(comparison.asks.holds(code as u32))) {
                     return Err(format!("`{name}` does not say what was compared"));
                 }
             }
         }
         Ok(())
+    }
+}
+
+/// The codes of a column whose values tell whether a predicate asks this. A number that is compared with one other is so on one side
+/// of a place among the ascending values, which the values beside the place tell; else every value has to.
+fn telling(pool: &Pool, when: ExprId, comparison: Comparison, column: &Column) -> Range<usize> {
+    let all = 0..column.kind.values();
+    let Expr::Binary(Binary::Le, input, cut) = pool.get(when) else {
+        return all;
+    };
+    match (pool.get(input), pool.get(cut), comparison.asks) {
+        (Expr::Input(_), Expr::Num(_), Asks::AtMost(last)) => {
+            let last = last as usize;
+            last.min(all.end)..(last + 2).min(all.end)
+        }
+        _ => all,
     }
 }
 
@@ -216,12 +237,10 @@ pub(super) fn tests(values: &Valued, comparisons: &[Comparison], names: &[String
         .zip(names)
         .filter_map(|(compared, name)| {
             let column = values.columns.get(compared.column)?;
-            let codes = 0..column.kind.values();
-            let holds = codes.map(|code| compared.asks.holds(code as u32));
             Some(Test {
                 name: AtomName::Predicate(name.clone()),
                 place: column.place.clone(),
-                of: Columns::One(compared.column, holds.collect()),
+                of: Columns::One(compared.column, Holds::Asked(compared.asks)),
             })
         });
     let mut tests: Vec<Test> = values.truths().chain(compared).collect();

@@ -4,12 +4,14 @@
 //! rules that a search finds, the one that decides most rows for its price is taken, until the rows left are of one class.
 //! Unlike a list of classes ([`list`](mod@super::list)), such a list may return to a class.
 
+mod grouped;
 mod pool;
 mod rebuild;
 mod rule;
 mod table;
 mod tidy;
 
+pub use grouped::{Grouped, Part, grouped};
 pub use rebuild::{Known, lists};
 
 use super::account::Account;

@@ -6,6 +6,7 @@
 
 mod builder;
 mod cart;
+mod coded;
 mod cuts;
 mod decimal;
 mod name;
@@ -14,7 +15,7 @@ mod rows;
 pub use builder::Builder;
 pub use cuts::{Asks, Comparison};
 pub use decimal::Decimal;
-pub use rows::{Columns, Opens, Test};
+pub use rows::{Columns, Holds, Opens, Test};
 
 use super::names::AtomName;
 use super::table::Behaviors;

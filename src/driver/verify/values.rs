@@ -11,7 +11,7 @@ use crate::ir::program::Predicate;
 use crate::ir::tree::{Atom, Status, Tree};
 use crate::ir::{Id, Name, Program};
 use crate::policy::table::AtomName;
-use crate::policy::valued::{Column, Columns, Kind, OPEN, Opens, Test, Valued};
+use crate::policy::valued::{Column, Columns, Holds, Kind, OPEN, Opens, Test, Valued};
 use crate::report::verdict::Answer;
 use crate::report::words::counted;
 use crate::source::Span;
@@ -233,7 +233,7 @@ impl Sides<'_> {
                 let more = self.between(id, when, &place)?;
                 truths.extend(more.iter().map(|value| holds(&|_| *value)));
             }
-            let of = Columns::One(*column, truths);
+            let of = Columns::One(*column, Holds::Listed(truths));
             return Ok(Test { name, place, of });
         }
         let rows = (0..self.values.len()).map(|row| {

@@ -154,7 +154,9 @@ impl Search<'_> {
         let end = covering.list(left, &mut self.pool, passing)?;
         list.rules.extend(end.rules);
         list.last = end.last;
-        tidy(&self.table.columns, self.classes, &mut list, self.account);
+        let columns = &self.table.columns;
+        let all = Bits::full(columns.rows());
+        tidy(columns, self.classes, &all, &mut list, self.account);
         for rule in &list.rules {
             self.pool.add(self.table, &rule.cube, self.account);
         }

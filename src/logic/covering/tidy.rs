@@ -5,13 +5,25 @@ use crate::logic::account::Account;
 use crate::logic::bits::Bits;
 use crate::logic::columns::Columns;
 
-/// Drops rules whose rows the rules behind them decide as well, and literals without which a rule still holds on rows of its class
-/// only, until there are none, or the account is spent.
-pub(super) fn tidy(columns: &Columns, classes: &[Bits], list: &mut List, account: &Account) {
-    while !account.is_spent() && dropped(columns, classes, list, account) {}
+/// Drops rules whose rows among these the rules behind them decide as well, and literals without which a rule still holds on rows of
+/// its class only, until there are none, or the account is spent.
+pub(super) fn tidy(
+    columns: &Columns,
+    classes: &[Bits],
+    among: &Bits,
+    list: &mut List,
+    account: &Account,
+) {
+    while !account.is_spent() && dropped(columns, classes, among, list, account) {}
 }
 
-fn dropped(columns: &Columns, classes: &[Bits], list: &mut List, account: &Account) -> bool {
+fn dropped(
+    columns: &Columns,
+    classes: &[Bits],
+    among: &Bits,
+    list: &mut List,
+    account: &Account,
+) -> bool {
     let words = 8 + columns.rows().div_ceil(64);
     account.spend((8 * list.rules.len() * words) as u64);
     let all = Bits::full(columns.rows());
@@ -28,7 +40,7 @@ fn dropped(columns: &Columns, classes: &[Bits], list: &mut List, account: &Accou
         right.push(after.or(&inside));
     }
     right.reverse();
-    let mut reach = all.clone();
+    let mut reach = among.clone();
     for at in 0..list.rules.len() {
         let Some(rule) = list.rules.get_mut(at) else {
             break;

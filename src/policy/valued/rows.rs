@@ -1,14 +1,11 @@
 //! The rows of a table over truth values that are asked of its columns.
 
-use super::{Kind, OPEN, Valued};
+use super::coded::{Coded, join, set};
+use super::{Asks, Kind, OPEN, Valued};
 use crate::policy::error::{TableError, TableErrorKind};
 use crate::policy::names::AtomName;
 use crate::policy::table::{Reading, Table};
-use rustc_hash::FxHashMap;
 use std::ops::Range;
-
-/// The most rows that stand for those which leave inputs open.
-const WRITTEN_OUT: usize = 65_536;
 
 /// What becomes of cells that leave something open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,11 +30,30 @@ pub struct Test {
 /// How an atom follows from the cells of a row.
 #[derive(Clone, Debug)]
 pub enum Columns {
-    /// From that of one column: whether it holds by code. Codes beyond those of the column stand for values that it does not
-    /// have, and that a cell which is left open may.
-    One(usize, Vec<bool>),
+    /// From that of one column.
+    One(usize, Holds),
     /// From those of these columns: whether it holds by row.
     Several(Vec<usize>, Vec<bool>),
+}
+
+/// For which codes of a column an atom holds.
+#[derive(Clone, Debug)]
+pub enum Holds {
+    /// Where this does.
+    Asked(Asks),
+    /// Where this says so. Codes beyond those of the column stand for values that it does not have, and that a cell which is left
+    /// open may.
+    Listed(Vec<bool>),
+}
+
+impl Holds {
+    /// Whether the atom holds for a code.
+    pub(super) fn at(&self, code: u32) -> bool {
+        match self {
+            Self::Asked(asks) => asks.holds(code),
+            Self::Listed(holds) => holds.get(code as usize) == Some(&true),
+        }
+    }
 }
 
 impl Valued {
@@ -48,7 +64,7 @@ impl Valued {
             Kind::Truth(name) => Some(Test {
                 name: name.clone(),
                 place: column.place.clone(),
-                of: Columns::One(at, vec![false, true]),
+                of: Columns::One(at, Holds::Listed(vec![false, true])),
             }),
             _ => None,
         })
@@ -187,113 +203,4 @@ fn of_values(error: TableError) -> TableError {
         kind => kind,
     };
     TableError { kind, ..error }
-}
-
-/// The atoms that hold by the code of each column, in words.
-struct Coded {
-    width: usize,
-    columns: Vec<Masks>,
-}
-
-/// The atoms that one column decides.
-#[derive(Default)]
-struct Masks {
-    width: usize,
-    /// All of them.
-    atoms: Vec<u64>,
-    /// Those that hold, by code.
-    holds: Vec<u64>,
-    /// The different ones of these, in the order of the codes.
-    different: Vec<Vec<u64>>,
-}
-
-impl Masks {
-    fn of(&self, code: u32) -> &[u64] {
-        let start = code as usize * self.width;
-        self.holds
-            .get(start..start + self.width)
-            .unwrap_or_default()
-    }
-}
-
-impl Coded {
-    fn new(valued: &Valued, tests: &[Test]) -> Self {
-        let width = tests.len().div_ceil(64);
-        let mut of: FxHashMap<usize, Vec<(usize, &[bool])>> = FxHashMap::default();
-        for (atom, test) in tests.iter().enumerate() {
-            if let Columns::One(column, holds) = &test.of {
-                of.entry(*column).or_default().push((atom, holds));
-            }
-        }
-        let columns = (0..valued.columns.len()).map(|column| {
-            let Some(own) = of.get(&column) else {
-                return Masks::default();
-            };
-            let codes = own.iter().map(|(_, holds)| holds.len()).max().unwrap_or(0);
-            let mut masks = Masks {
-                width,
-                atoms: vec![0; width],
-                holds: vec![0; width * codes],
-                different: Vec::new(),
-            };
-            for (atom, holds) in own {
-                set(&mut masks.atoms, *atom);
-                for (code, _) in holds.iter().enumerate().filter(|(_, holds)| **holds) {
-                    set(&mut masks.holds, code * width * 64 + atom);
-                }
-            }
-            // A column of many values has a row open seldom; then its neighbours are mostly alike.
-            let open = valued.columns.get(column);
-            if open.is_some_and(|column| column.codes.contains(&OPEN)) {
-                let mut known = std::collections::BTreeSet::new();
-                for code in 0..codes {
-                    let mask = masks.of(code as u32).to_vec();
-                    if known.insert(mask.clone()) {
-                        masks.different.push(mask);
-                    }
-                }
-            }
-            masks
-        });
-        let columns = columns.collect();
-        Self { width, columns }
-    }
-
-    /// Whether a test asks a column.
-    fn asks(&self, column: usize) -> bool {
-        let masks = self.columns.get(column);
-        masks.is_some_and(|masks| masks.width > 0)
-    }
-
-    /// Whether the rows that leave something open can be written out, up to what stays; else the row that is too much.
-    fn written_out(&self, valued: &Valued, stays: impl Fn(usize) -> bool) -> Result<(), usize> {
-        let mut all = 0_usize;
-        for row in 0..valued.len() {
-            let mut here = 1_usize;
-            for (column, masks) in self.columns.iter().enumerate() {
-                if valued.code(column, row) == OPEN && self.asks(column) && !stays(column) {
-                    here = here.saturating_mul(masks.different.len());
-                }
-            }
-            if here > 1 {
-                all = all.saturating_add(here);
-            }
-            if all > WRITTEN_OUT {
-                return Err(row);
-            }
-        }
-        Ok(())
-    }
-}
-
-fn set(words: &mut [u64], at: usize) {
-    if let Some(word) = words.get_mut(at / 64) {
-        *word |= 1 << (at % 64);
-    }
-}
-
-fn join(words: &mut [u64], mask: &[u64]) {
-    for (word, mask) in words.iter_mut().zip(mask) {
-        *word |= mask;
-    }
 }

@@ -13,7 +13,7 @@ use super::problem::Problem;
 use super::share::shared;
 use super::subunit::behaviors;
 use crate::ir::tree::Node;
-use crate::logic::covering::{Known, List, lists};
+use crate::logic::covering::{Known, List, grouped, lists};
 use crate::logic::impurity::Impurity;
 use crate::logic::partition::{Partition, partition};
 use crate::logic::{Account, Bits, Cover, Cube, Order};
@@ -25,6 +25,8 @@ const WHOLE: usize = 1024;
 const FIRST: usize = 512;
 /// The most rows of a core in which a beam searches.
 const SEARCHED: usize = 4096;
+/// A list with fewer nodes than one for so many rows says that the table has structure.
+const RARE: usize = 8;
 /// The words that may be read in the search for one rule of one class.
 pub(super) const REACH: u64 = 60_000;
 /// Attempts at a smaller list before it is tried on all rows, and before the search for lists ends.
@@ -66,7 +68,12 @@ pub(super) fn trees(problem: &Problem, held: &Held, account: &Account) -> Vec<No
     let part = account.part(2);
     let listed = core.lists(&mut known, &part);
     account.settle(&part);
-    let mut found = listed.clone().unwrap_or_default();
+    let mut found: Vec<Node> = Vec::new();
+    if let Some(lists) = &listed {
+        let listed = |list: &List| Children::listed(problem, list).node();
+        found.extend(lists.iter().map(listed));
+        found.extend(in_groups(problem, lists, &mut known, account).map(|(node, _)| node));
+    }
     // A list of classes looks at a core of its own for each class.
     let minimiser = Minimiser::new(problem, account.part(3));
     let subunits = behaviors(problem);
@@ -99,6 +106,27 @@ pub(super) fn trees(problem: &Problem, held: &Held, account: &Account) -> Vec<No
         }
     }
     found
+}
+
+/// The best grouped list from these lists, and its cubes.
+fn in_groups(
+    problem: &Problem,
+    lists: &[List],
+    known: &mut Known,
+    account: &Account,
+) -> Option<(Node, Vec<Cube>)> {
+    if problem.wide {
+        return None;
+    }
+    let part = account.part(3);
+    let (columns, classes) = (problem.columns(), problem.classes());
+    let best = known.list.take();
+    let found = grouped(columns, &classes, lists, REACH, known, &part);
+    known.list = best;
+    account.settle(&part);
+    let found = found?;
+    let cubes = found.cubes().into_iter().cloned().collect();
+    Some((Children::grouped(problem, &found).node(), cubes))
 }
 
 /// The partitions with lists in the places of their parts.
@@ -152,7 +180,7 @@ impl<'a, 'p> Core<'a, 'p> {
 
     /// Lists for cores that grow until lists are right on all rows, first quickly, then thoroughly: those that are; `None` where no list
     /// is found at all.
-    fn lists(&mut self, known: &mut Known, account: &Account) -> Option<Vec<Node>> {
+    fn lists(&mut self, known: &mut Known, account: &Account) -> Option<Vec<List>> {
         let mut right = Vec::new();
         let mut patience = QUICK;
         loop {
@@ -160,9 +188,9 @@ impl<'a, 'p> Core<'a, 'p> {
             let sample = Problem::new(&policy);
             let (columns, classes) = (sample.columns(), sample.classes());
             let found = lists(columns, &classes, REACH, patience, known, account);
-            let best = found.last().map(|list| Children::listed(&sample, list));
-            let best = best.map(Children::node);
-            match best.map(|best| (self.adopt(&best, account), best)) {
+            let best = found.into_iter().last();
+            let node = |list: &List| Children::listed(&sample, list).node();
+            match best.map(|best| (self.adopt(&node(&best), account), best)) {
                 Some((true, best)) => {
                     right.push(best);
                     if patience == THOROUGH {
@@ -174,7 +202,12 @@ impl<'a, 'p> Core<'a, 'p> {
                 None if right.is_empty() => return None,
                 None => return Some(right),
             }
-            if account.is_spent() || self.rows.count() > SEARCHED {
+            let rows = self.rows.count();
+            let structured = known
+                .list
+                .as_ref()
+                .is_some_and(|list| list.nodes() * RARE < rows);
+            if account.is_spent() || rows > SEARCHED && !structured {
                 return Some(right);
             }
         }
@@ -206,6 +239,7 @@ fn searched(problem: &Problem, known: &mut Known, account: &Account) -> Vec<Node
     let (columns, classes) = (problem.columns(), problem.classes());
     let ruled: Vec<List> = lists(columns, &classes, REACH, THOROUGH, known, &part);
     account.settle(&part);
+    let in_groups = in_groups(problem, &ruled, known, account);
     let orders = [Order::Learned, Order::Given, Order::Rarest];
     let minimisers = orders.map(|_| Minimiser::new(problem, account.part(6)));
     let in_orders = minimisers.into_iter().zip(orders);
@@ -223,8 +257,11 @@ fn searched(problem: &Problem, known: &mut Known, account: &Account) -> Vec<Node
         let covers = in_orders.iter().flat_map(|(_, list)| list);
         let covers: Vec<&Cover> = covers.map(|(_, cover)| cover).collect();
         let cubes = ruled.iter().flat_map(|list| &list.rules);
-        let cubes: Vec<&Cube> = cubes.map(|rule| &rule.cube).collect();
+        let cubes = cubes.map(|rule| &rule.cube);
+        let inner = in_groups.iter().flat_map(|(_, cubes)| cubes);
+        let cubes: Vec<&Cube> = cubes.chain(inner).collect();
         found.extend(beams::trees(problem, &subunits, &covers, &cubes, account));
     }
+    found.extend(in_groups.map(|(node, _)| node));
     found.into_iter().map(shared).collect()
 }

@@ -2,8 +2,8 @@
 
 use super::problem::Problem;
 use crate::ir::tree::{Composite, Guard, Node};
-use crate::logic::covering::List;
-use crate::logic::{Cover, Literal};
+use crate::logic::covering::{Grouped, List, Part, Rule};
+use crate::logic::{Cover, Cube, Literal};
 use crate::tree::guard::{self, factored, or};
 use crate::tree::size::Price;
 use crate::tree::unit::{Unit, guarded, selector};
@@ -102,50 +102,61 @@ impl Children {
         self
     }
 
-    /// A list of rules, and then the class of what they leave. Neighbours of one class share a unit where that is smaller.
+    /// A list of rules, and then the class of what they leave.
     pub(super) fn listed(problem: &Problem, list: &List) -> Self {
+        Self::leaf(problem, list.last).after(problem, &list.rules)
+    }
+
+    /// The same of a list with groups.
+    pub(super) fn grouped(problem: &Problem, list: &Grouped) -> Self {
         let mut children = Self::leaf(problem, list.last);
-        let atoms = &problem.policy.atoms;
+        // The rules that stand before what was placed last.
+        let mut run: Vec<Rule> = Vec::new();
+        for part in list.parts.iter().rev() {
+            match part {
+                Part::Rule(rule) => run.insert(0, rule.clone()),
+                Part::Group(cube, inner) => {
+                    children = children.after(problem, &std::mem::take(&mut run));
+                    children = children.behind(problem, cube, Self::grouped(problem, inner));
+                }
+            }
+        }
+        children.after(problem, &run)
+    }
+
+    /// A group of these children behind a cube, and then the children here.
+    fn behind(mut self, problem: &Problem, cube: &Cube, inner: Self) -> Self {
+        let literals = cube.literals().iter();
+        let literals = literals.map(|literal| guard::literal(*literal, &problem.policy.atoms));
+        let price = Price::COMPOSITE + Price::literals(cube.literals().len());
+        self.price = self.price + price + Price::COMPOSITE + inner.price;
+        let group = guarded(guard::and(literals), selector(inner.nodes));
+        self.nodes.insert(0, group);
+        self
+    }
+
+    /// Rules, and then the children here. Neighbours of one class share a unit where that is smaller.
+    fn after(mut self, problem: &Problem, rules: &[Rule]) -> Self {
         let mut units = Vec::new();
-        for run in list.rules.chunk_by(|a, b| a.class == b.class) {
+        for run in rules.chunk_by(|a, b| a.class == b.class) {
             let Some(class) = run.first().map(|rule| rule.class) else {
                 continue;
             };
             let mut cubes: Vec<_> = run.iter().map(|rule| rule.cube.clone()).collect();
             // Rules of one class may stand in any order.
             cubes.sort_by_key(|cube| cube.literals().len());
+            let body = Self::leaf(problem, class).nodes;
             let mut rest = cubes.as_slice();
             while !rest.is_empty() {
-                let alone = |count: usize| -> Price {
-                    let cubes = rest.iter().take(count);
-                    let price = cubes.map(|cube| Price::literals(cube.literals().len()));
-                    price.map(|guard| guard + Price::COMPOSITE + LEAF).sum()
-                };
-                let together = |count: usize| {
-                    let cover = Cover::new(rest.iter().take(count).cloned());
-                    let guard = factored(&cover, atoms);
-                    let price = Price::of_guard(&guard, Composite::Sequence);
-                    (price + Price::COMPOSITE + LEAF, guard)
-                };
-                let most = rest.len().min(RUN);
-                let counts = (1..=most).map(|count| (count, together(count)));
-                // Of those that save as much the longest.
-                let best = counts.max_by_key(|(count, (price, _))| {
-                    let before = alone(*count);
-                    let saved = before.nodes as isize - price.nodes as isize;
-                    (saved, before.literals as isize - price.literals as isize)
-                });
-                let Some((count, (price, guard))) = best else {
-                    break;
-                };
-                let body = Self::leaf(problem, class).nodes;
-                units.extend(body.into_iter().map(|body| guarded(guard.clone(), body)));
-                children.price = children.price + price;
+                let (count, price, guard) = together(problem, rest);
+                let units_of = body.iter().map(|body| guarded(guard.clone(), body.clone()));
+                units.extend(units_of);
+                self.price = self.price + price;
                 rest = rest.get(count..).unwrap_or_default();
             }
         }
-        children.nodes.splice(0..0, units);
-        children
+        self.nodes.splice(0..0, units);
+        self
     }
 
     /// The selector of them.
@@ -156,3 +167,27 @@ impl Children {
 
 /// The most neighbouring rules that are tried under one guard.
 const RUN: usize = 12;
+
+/// How many of the first of these cubes of one class stand best under one guard, with the price of their unit.
+fn together(problem: &Problem, cubes: &[Cube]) -> (usize, Price, Guard) {
+    let mut best = (1, Price::default(), Guard::Const(true));
+    let mut most = (isize::MIN, isize::MIN);
+    let mut alone = Price::default();
+    for (count, cube) in (1..=RUN).zip(cubes) {
+        let literals = Price::literals(cube.literals().len());
+        alone = alone + literals + Price::COMPOSITE + LEAF;
+        let cover = Cover::new(cubes.iter().take(count).cloned());
+        let guard = factored(&cover, &problem.policy.atoms);
+        let guarding = Price::of_guard(&guard, Composite::Sequence);
+        let price = guarding + Price::COMPOSITE + LEAF;
+        let saved = (
+            alone.nodes as isize - price.nodes as isize,
+            alone.literals as isize - price.literals as isize,
+        );
+        // Of those that save as much the longest.
+        if saved >= most {
+            (most, best) = (saved, (count, price, guard));
+        }
+    }
+    best
+}

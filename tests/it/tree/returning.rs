@@ -1,20 +1,10 @@
 //! Planted lists that return to a behaviour: trees are no larger than the list, nor than a decision tree (CART) as a tree.
 
+use super::falls::Falls;
 use super::scale::{searched, table};
 use crate::laws::random::Random;
 use btc::logic::Order;
 use btc::policy::{Minterm, Policy};
-
-/// How the predicates of a planted table fall.
-#[derive(Clone, Copy, Debug)]
-enum Falls {
-    /// A coin for each.
-    Evenly,
-    /// Some hold seldom, some mostly.
-    Skewed,
-    /// Half of them mostly as another, or as its negation.
-    Together,
-}
 
 /// A list of rules over `atoms` predicates with three behaviours, each row decided by it; with the nodes of the list as a tree.
 fn planted(seed: u64, atoms: usize, rows: usize, rules: usize, falls: Falls) -> (Policy, usize) {
@@ -33,35 +23,10 @@ fn planted(seed: u64, atoms: usize, rows: usize, rules: usize, falls: Falls) -> 
         })
         .collect();
     let last = random.below(3);
-    let chances: Vec<usize> = (0..atoms)
-        .map(|_| match falls {
-            Falls::Skewed => [15, 30, 50, 70, 85][random.below(5)],
-            Falls::Evenly | Falls::Together => 50,
-        })
-        .collect();
-    // The predicate that each is like, whether it is its negation, and how often it is not.
-    let like: Vec<Option<(usize, bool, usize)>> = (0..atoms)
-        .map(|atom| match falls {
-            Falls::Together if atom > 0 && random.chance(50) => Some((
-                random.below(atom),
-                random.chance(50),
-                10 + 15 * random.below(2),
-            )),
-            _ => None,
-        })
-        .collect();
-    let rows: Vec<(Minterm, usize)> = (0..rows)
-        .map(|_| {
-            let mut values: Vec<bool> = Vec::new();
-            for (chance, like) in chances.iter().zip(&like) {
-                let value = match like {
-                    Some((other, negated, unlike)) => {
-                        values[*other] ^ negated ^ random.chance(*unlike)
-                    }
-                    None => random.chance(*chance),
-                };
-                values.push(value);
-            }
+    let rows: Vec<(Minterm, usize)> = falls
+        .rows(random, atoms, rows)
+        .into_iter()
+        .map(|values| {
             let minterm = Minterm::new(values);
             let holds = |rule: &&(Vec<(usize, bool)>, usize)| {
                 rule.0
