@@ -1,7 +1,10 @@
 //! Finite semi-Markov decision problems, solved exactly (Howard 1960; Puterman 1994, chapters 6 and 11).
 
+mod sweeps;
+
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
+use sweeps::SWEEPS;
 
 /// What a choice is expected to bring.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -59,14 +62,6 @@ const IMPROVEMENTS: usize = 200;
 
 /// The least gain that counts as better, above the noise of the elimination.
 const BETTER: f64 = 1e-9;
-
-/// The most sweeps, and the change below which they end.
-const SWEEPS: usize = 20_000;
-const SETTLED: f64 = 1e-12;
-
-/// The same where the values are near, in parts of the greatest value.
-const NEAR_SWEEPS: usize = 300;
-const NEAR: f64 = 1e-5;
 
 /// What may be left to come of the expected meetings of all states.
 const LEFT: f64 = 1e-3;
@@ -131,7 +126,7 @@ impl Problem {
             if !self.improve(&mut policy, &values) {
                 break;
             }
-            values = self.evaluate(&policy);
+            values = self.evaluate_from(&policy, values);
         }
         Solution { policy, values }
     }
@@ -159,16 +154,17 @@ impl Problem {
     /// The value of every state under a policy, v = r + P v: by elimination, or by sweeps where there are too many
     /// states for it or the equations have no single solution, as without a discount and without an end.
     pub fn evaluate(&self, policy: &[Option<usize>]) -> Vec<f64> {
-        let solved = if self.states.len() <= ELIMINATED {
-            self.eliminate(policy)
-        } else {
-            None
-        };
-        solved.unwrap_or_else(|| {
-            let taken = |state| policy.get(state).copied().flatten();
-            let values = vec![self.unknown; self.states.len()];
-            self.sweep(taken, values, self.unknown, (SWEEPS, SETTLED))
-        })
+        self.evaluate_from(policy, vec![self.unknown; self.states.len()])
+    }
+
+    /// The same, where sweeps are needed from values that may be near.
+    fn evaluate_from(&self, policy: &[Option<usize>], values: Vec<f64>) -> Vec<f64> {
+        let taken = |state| policy.get(state).copied().flatten();
+        if self.states.len() > ELIMINATED {
+            return self.settle(taken, values);
+        }
+        self.eliminate(policy)
+            .unwrap_or_else(|| self.sweep_all(taken, vec![self.unknown; self.states.len()]))
     }
 
     /// The outlook of a policy in a state.
@@ -197,19 +193,6 @@ impl Problem {
         let values = matrix.lu().solve(&rewards)?;
         let finite = values.iter().all(|value| value.is_finite());
         finite.then(|| values.iter().copied().collect())
-    }
-
-    /// About the value of every state under a policy, by a few sweeps from values that are near, where states without a choice
-    /// are worth `unknown`.
-    pub fn evaluate_near(
-        &self,
-        policy: &[Option<usize>],
-        values: Vec<f64>,
-        unknown: f64,
-    ) -> Vec<f64> {
-        let largest = values.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
-        let taken = |state| policy.get(state).copied().flatten();
-        self.sweep(taken, values, unknown, (NEAR_SWEEPS, NEAR * largest))
     }
 
     /// How often each state is met under a policy that begins in these, discounted: u = d + Pᵀ u.
@@ -242,32 +225,6 @@ impl Problem {
         let taken = policy.get(state).copied().flatten();
         self.outlook(state, taken)
             .map_or(0.0, |outlook| outlook.back(state))
-    }
-
-    /// Values by sweeps in place (Gauss and Seidel) under a policy, from these values: at most so many, until the greatest
-    /// change is small.
-    fn sweep(
-        &self,
-        taken: impl Fn(usize) -> Option<usize>,
-        mut values: Vec<f64>,
-        unknown: f64,
-        (most, settled): (usize, f64),
-    ) -> Vec<f64> {
-        for _ in 0..most {
-            let mut change: f64 = 0.0;
-            for state in 0..self.states.len() {
-                let outlook = self.outlook(state, taken(state));
-                let worth = outlook.map_or(unknown, |outlook| self.worth(outlook, &values));
-                if let Some(value) = values.get_mut(state) {
-                    change = change.max((worth - *value).abs());
-                    *value = worth;
-                }
-            }
-            if change < settled {
-                break;
-            }
-        }
-        values
     }
 }
 

@@ -1,5 +1,6 @@
 //! Everything that learning found.
 
+use super::words::numbered;
 use crate::grow::Grown;
 use crate::ir::tree::Node;
 use crate::learn::agreement::Agreement;
@@ -86,8 +87,8 @@ impl<W> Results<'_, W> {
                 evidence: match grown.kept {
                     true => format!("proved on {}", self.proved()),
                     false => format!(
-                        "tested, not proved; the exact tree, proved, has {} nodes",
-                        grown.before.size.nodes
+                        "tested, not proved; the exact tree, proved, has {}",
+                        numbered(grown.before.size.nodes as u64, "node")
                     ),
                 },
             },
