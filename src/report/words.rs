@@ -1,5 +1,6 @@
 //! Words that several reports use.
 
+use crate::ir::expr::Binary;
 use crate::ir::task::Task;
 use crate::ir::tree::Atom;
 use crate::ir::{Expr, ExprId, Program};
@@ -94,9 +95,22 @@ pub fn failing(program: &Program, policy: &Policy, failing: &Failing) -> String 
 
 /// The names of what ends the episodes of a task: of the event, or `end N` for any other condition.
 pub fn end_names(program: &Program, task: &Task) -> Vec<String> {
-    let name = |(i, id): (usize, &ExprId)| match program.pool.get(*id) {
-        Expr::Event(event) => program.events[event].name.to_string(),
-        _ => format!("end {}", i + 1),
+    let name = |(i, id): (usize, &ExprId)| {
+        let events = events_of(program, *id);
+        events.map_or_else(|| format!("end {}", i + 1), |events| events.join(" or "))
     };
     task.end_on.iter().enumerate().map(name).collect()
+}
+
+/// The names of the events that are joined by `or`, if there is nothing else.
+fn events_of(program: &Program, id: ExprId) -> Option<Vec<String>> {
+    match program.pool.get(id) {
+        Expr::Event(event) => Some(vec![program.events[event].name.to_string()]),
+        Expr::Binary(Binary::Or, left, right) => {
+            let mut events = events_of(program, left)?;
+            events.extend(events_of(program, right)?);
+            Some(events)
+        }
+        _ => None,
+    }
 }

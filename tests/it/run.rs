@@ -69,3 +69,16 @@ fn cases_are_laid_out() {
         assert_eq!(text, laid_out, "{}", path.display());
     });
 }
+
+/// An end on several events is called after them; one on anything else, by its number.
+#[test]
+fn ends_are_called_after_their_events() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/delivery_small.bt");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let ends = "end on dead or docked\n    end on dropoff\n    end on battery < 1%";
+    let loaded = program::with_text(&path, text.replace("end on dead", ends));
+    assert!(!loaded.has_errors(), "{}", program::shown(&loaded));
+    let task = loaded.program.tasks.values().next().unwrap();
+    let names = btc::report::words::end_names(&loaded.program, task);
+    assert_eq!(names, ["dead or docked", "dropoff", "end 3"]);
+}

@@ -101,6 +101,9 @@ impl Place<'_> {
                 "how sure it is follows last: `… within TIME with probability >= 95%`"
             }
             (_, "..") => "a value from a range is drawn by `uniform(low, high)`",
+            (Rule::strict_start_line, "for") => {
+                "a line goes for all of a kind: `STATE(x in KIND) = VALUE`"
+            }
             (Rule::strict_start_line, "if") => {
                 "a start has no branches: `battery = if CONDITION { … } else { … }`"
             }
