@@ -19,6 +19,7 @@ mod search;
 mod share;
 mod slack;
 mod subunit;
+mod windows;
 
 use super::Size;
 use super::prove::{Proof, Prover, Refuted};

@@ -7,6 +7,7 @@ mod equivalence;
 mod falls;
 mod files;
 mod guards;
+mod language;
 mod nested;
 mod optimum;
 mod permuted;

@@ -15,6 +15,7 @@ use super::orders::{in_order, tree as listed};
 use super::problem::Problem;
 use super::share::shared;
 use super::subunit::{Subunit, behaviors};
+use super::windows::Windows;
 use super::{Stage, paper};
 use crate::ir::tree::Node;
 use crate::logic::{Account, Cover, Order};
@@ -23,6 +24,9 @@ use rayon::prelude::*;
 
 /// The most trees whose proof is tried, smallest first.
 const PROOFS: usize = 256;
+
+/// The trees whose windows are looked at, smallest first.
+const TIGHT: usize = 8;
 
 /// What a search came to.
 pub(super) struct Found {
@@ -92,13 +96,7 @@ pub(super) fn tree(problem: &Problem, account: &Account) -> Found {
     if half.is_spent() || parts.iter().any(|(_, part)| part.is_spent()) {
         unfinished.push(Stage::Search);
     }
-    let mut tree = smallest(
-        problem,
-        trees
-            .into_iter()
-            .map(|node| (Size::of(&node), node))
-            .collect(),
-    );
+    let mut tree = smallest(problem, tight(problem, trees, account));
     if tree.is_none() {
         // No partition of rows that leave atoms free.
         let minimiser = Minimiser::new(problem, Account::unlimited());
@@ -111,6 +109,23 @@ pub(super) fn tree(problem: &Problem, account: &Account) -> Found {
         paper,
         unfinished,
     }
+}
+
+/// The trees with their sizes, and the smallest of them with smaller windows.
+fn tight(problem: &Problem, trees: Vec<Node>, account: &Account) -> Vec<(Size, Node)> {
+    let sized = |node: Node| (Size::of(&node), node);
+    let mut found: Vec<(Size, Node)> = trees.into_iter().map(sized).collect();
+    found.sort_by_key(|(size, _)| *size);
+    found.dedup_by(|a, b| a.1 == b.1);
+    let part = account.part(4);
+    let mut windows = Windows::new(problem, &part);
+    let smallest = found.iter().take(TIGHT);
+    let tight: Vec<Node> = smallest
+        .filter_map(|(_, tree)| windows.tightened(tree))
+        .collect();
+    account.settle(&part);
+    found.extend(tight.into_iter().map(sized));
+    found
 }
 
 /// The smallest of these that is proved.
