@@ -13,6 +13,7 @@ use super::members::{Kinds, Member};
 use super::names::Names;
 use super::report;
 use super::tune::Tunes;
+use super::twice;
 use super::{Checked, Input};
 use crate::diagnostic::{self, Diagnostic};
 use crate::geometry::Point;
@@ -209,7 +210,10 @@ impl<'a> Checker<'a> {
     /// The program with every mistake and warning, in the order of the text.
     pub fn checked(mut self) -> Checked {
         diagnostic::sort(&mut self.diagnostics);
-        report::merge(&mut self.diagnostics);
+        report::merge(&mut self.diagnostics, |name| {
+            self.meanings.declaration(name)
+        });
+        twice::misnamed(&mut self.diagnostics);
         Checked {
             program: self.program,
             tunes: self.tunes.sites(),

@@ -119,6 +119,14 @@ impl Meanings {
         self.uses.iter().map(|(span, meaning)| (*span, *meaning))
     }
 
+    /// The declaration of the name that is used at a place, if the user's files declare it.
+    pub fn declaration(&self, used: Span) -> Option<Span> {
+        match self.uses.get(&used)? {
+            Meaning::Declared(span) => Some(*span),
+            Meaning::BuiltIn => None,
+        }
+    }
+
     /// The type of the name at a place, as a person names it.
     pub fn type_of(&self, name: Span) -> Option<String> {
         self.known(name).map(Type::to_string)

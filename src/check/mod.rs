@@ -20,6 +20,7 @@ mod signature;
 mod task;
 mod tree;
 mod tune;
+mod twice;
 mod types;
 mod world;
 

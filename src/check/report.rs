@@ -225,8 +225,9 @@ impl<'a> Checker<'a> {
 const SHOWN: usize = 3;
 
 /// Makes one diagnostic of those that say the same of one thing in several places: a name that nothing declares, a
-/// sensor or a world that is missing, entries of one list that are of the wrong kind.
-pub fn merge(sorted: &mut Vec<Diagnostic>) {
+/// sensor or a world that is missing, entries of one list that are of the wrong kind, a wall that is taken for a place.
+/// `declared` says where the name at a place is declared.
+pub fn merge(sorted: &mut Vec<Diagnostic>, declared: impl Fn(Span) -> Option<Span>) {
     let mut first: BTreeMap<(Code, String), usize> = BTreeMap::new();
     let mut merged: Vec<Diagnostic> = Vec::new();
     let mut further: BTreeMap<usize, Vec<Span>> = BTreeMap::new();
@@ -235,6 +236,11 @@ pub fn merge(sorted: &mut Vec<Diagnostic>) {
             Code::E0202 | Code::E0406 | Code::W0603 => found.message.clone(),
             Code::E0305 if found.message.contains(" needs its argument ") => found.message.clone(),
             Code::E0407 => String::new(),
+            // One name, taken again and again for what it is not.
+            Code::E0302 if declared(found.span()).is_some() => {
+                let wanted = found.message.rsplit(" is ").next().unwrap_or_default();
+                format!("{:?} {wanted}", declared(found.span()))
+            }
             // The same of what stands side by side: the coordinates of a point, the arguments of a shape.
             Code::E0301 | Code::E0302 | Code::E0601
                 if merged.last().is_some_and(|last| is_beside(last, &found)) =>

@@ -64,6 +64,10 @@ impl<'a> Checker<'a> {
                 AspectKind::Start(start) => starts.push(start),
                 AspectKind::EndOn(event) => {
                     self.context = Context::new(Region::Reward);
+                    let called = plain_ref(event).is_some_and(|event| event.args.is_some());
+                    if called && self.unbound_members(event, " in ").is_some() {
+                        continue;
+                    }
                     let scopes = match plain_ref(event) {
                         Some(reference) => self.ranges(reference),
                         None => Some(vec![Vec::new()]),
@@ -197,6 +201,10 @@ impl<'a> Checker<'a> {
                     continue;
                 }
             };
+            let called = plain_ref(event).is_some_and(|event| event.args.is_some());
+            if called && self.unbound_members(event, " in ").is_some() {
+                continue;
+            }
             let range = plain_ref(event).filter(|reference| Self::ranging(reference));
             let scopes = match range {
                 Some(reference) => self.ranges(reference),

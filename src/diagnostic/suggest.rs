@@ -3,13 +3,17 @@
 use strsim::osa_distance;
 
 /// What people who come from other languages and tools write, and what it is called here, where that is known at all.
-const FOREIGN: [(&str, &str); 111] = [
+const FOREIGN: [(&str, &str); 139] = [
     // shapes and worlds
     ("circle", "disc"),
     ("disk", "disc"),
     ("rectangle", "rect"),
     ("box", "rect"),
     ("square", "rect"),
+    ("cube", "rect"),
+    ("sphere", "disc"),
+    ("ball", "disc"),
+    ("cylinder", "disc"),
     ("segment", "line"),
     ("path", "polyline"),
     ("size", "arena"),
@@ -74,6 +78,16 @@ const FOREIGN: [(&str, &str); 111] = [
     ("pick", "one_of"),
     ("dist", "distance"),
     ("delta_time", "tick"),
+    ("randint", "uniform"),
+    ("randrange", "uniform"),
+    ("random_uniform", "uniform"),
+    ("bernoulli", "chance"),
+    ("clip", "clamp"),
+    ("saturate", "clamp"),
+    ("constrain", "clamp"),
+    ("get_distance", "distance"),
+    ("now", "elapsed"),
+    ("clock", "elapsed"),
     ("collided", "touching"),
     ("collision", "touching"),
     ("bumped", "touching"),
@@ -110,6 +124,12 @@ const FOREIGN: [(&str, &str); 111] = [
     ("go_to", "goto"),
     ("stop", "idle"),
     ("stay", "idle"),
+    ("navigate", "goto"),
+    ("navigate_to", "goto"),
+    ("NavigateToPose", "goto"),
+    ("MoveTo", "goto"),
+    ("MoveToActor", "chase"),
+    ("explore", "wander"),
     ("roam", "wander"),
     // learners
     ("alpha", "rate"),
@@ -119,11 +139,19 @@ const FOREIGN: [(&str, &str); 111] = [
     ("gamma", "discount"),
     ("algorithm", "method"),
     ("steps", "episodes"),
+    ("total_timesteps", "episodes"),
+    ("timesteps", "episodes"),
+    ("num_episodes", "episodes"),
+    ("n_episodes", "episodes"),
+    ("iterations", "episodes"),
+    ("epochs", "episodes"),
+    ("trials", "episodes"),
+    ("lr", "rate"),
     ("default", "unseen"),
 ];
 
 /// The candidate that `name` is called elsewhere, or else the nearest one, if it is near enough to be what was meant; the
-/// first one of several. Where none is near, the one that `name` is the beginning of.
+/// first one of several. Where none is near, the one that `name` is the beginning of, or is but for a prefix or an ending.
 ///
 /// Nearness is the number of letters inserted, dropped, replaced or exchanged with their neighbour (optimal string
 /// alignment); the case of letters counts half a replacement, so that `Sequence` finds `sequence`.
@@ -151,9 +179,29 @@ where
     };
     let nearest = (candidates.iter().copied())
         .filter_map(near)
-        .min_by_key(|(distance, _)| *distance)
+        .min_by_key(|(distance, word)| (*distance, own.abs_diff(word.chars().count())))
         .map(|(_, candidate)| candidate);
-    nearest.or_else(|| cut_short(name, &candidates))
+    nearest
+        .or_else(|| cut_short(name, &candidates))
+        .or_else(|| within(name, &candidates))
+}
+
+/// What other languages put before a name that asks or does something.
+const PREFIXES: [&str; 9] = [
+    "is_", "has_", "get_", "can_", "do_", "the_", "my_", "at_", "in_",
+];
+
+/// The candidate that `name` is, but for a prefix or an ending.
+fn within<'a>(name: &str, candidates: &[&'a str]) -> Option<&'a str> {
+    let bare = |prefix: &&str| name.strip_prefix(*prefix);
+    let bare = PREFIXES.iter().find_map(bare).unwrap_or(name);
+    let is = |word: &&&str| **word != name && **word == bare;
+    let longer = |word: &&&str| {
+        let ending = bare.strip_prefix(**word);
+        word.len() >= 4 && ending.is_some_and(|ending| (1..=3).contains(&ending.len()))
+    };
+    let found = candidates.iter().find(is);
+    found.or_else(|| candidates.iter().find(longer)).copied()
 }
 
 /// The only candidate that begins with `name`, if that has three letters or more.
@@ -184,6 +232,9 @@ mod tests {
         assert_eq!(nearest("ogto", words), Some("goto"));
         assert_eq!(nearest("seq", words), Some("sequence"));
         assert_eq!(nearest("wal", ["wall_at", "wall_of"]), None);
+        assert_eq!(nearest("is_full", ["full", "low"]), Some("full"));
+        assert_eq!(nearest("hauling", ["haul"]), Some("haul"));
+        assert_eq!(nearest("chanse", ["chase", "chance"]), Some("chance"));
     }
 
     #[test]

@@ -5,6 +5,7 @@ mod characters;
 mod ends;
 mod foreign;
 mod forms;
+mod places;
 mod words;
 
 pub(super) use characters::unclosed_quote;
@@ -67,6 +68,8 @@ pub(super) fn failure(
         .or_else(|| place.unclosed())
         .or_else(|| place.text())
         .or_else(|| place.effect())
+        .or_else(|| place.item_within())
+        .or_else(|| place.given_by_colon())
         .or_else(|| place.grouped_digits())
         .or_else(|| place.unit())
         .or_else(|| place.modulo())

@@ -309,6 +309,7 @@ fn name(rule: Rule) -> Option<(Rank, &'static str)> {
         | Rule::entry_line
         | Rule::margin_item
         | Rule::item_ahead
+        | Rule::held
         | Rule::junk_group
         | Rule::junk_part
         | Rule::blank

@@ -53,7 +53,7 @@ pub(super) const CALLED: [&str; 18] = [
 ];
 
 /// What other languages call what begins an item, a clause, an aspect or a line.
-pub(super) const FOREIGN: [(&str, &str); 108] = [
+pub(super) const FOREIGN: [(&str, &str); 120] = [
     ("function", "let"),
     ("fn", "let"),
     ("func", "let"),
@@ -162,6 +162,18 @@ pub(super) const FOREIGN: [(&str, &str); 108] = [
     ("then", "tick"),
     ("step", "tick"),
     ("when", "given"),
+    ("blackboard", "state"),
+    ("fluent", "state"),
+    ("observation_space", "observe"),
+    ("state_space", "observe"),
+    ("obs", "observe"),
+    ("action_space", "choose"),
+    ("max_steps", "end"),
+    ("max_episode_steps", "end"),
+    ("horizon", "end"),
+    ("time_limit", "end"),
+    ("reward_machine", "reward"),
+    ("reward_function", "reward"),
 ];
 
 /// What other languages declare, and this one does not.
@@ -170,7 +182,7 @@ pub(super) const KINDS: [&str; 8] = [
 ];
 
 /// The words that stand within an item, with what that item is and how they stand in it.
-pub(super) const INNER: [(&[&str], &str, &str); 5] = [
+pub(super) const INNER: [(&[&str], &str, &str); 7] = [
     (
         &["place", "wall", "arena", "tick", "robot"],
         "a world",
@@ -200,7 +212,34 @@ pub(super) const INNER: [(&[&str], &str, &str); 5] = [
         "a tree",
         "tree NAME = …",
     ),
+    (
+        &[
+            "method",
+            "episodes",
+            "rate",
+            "objective",
+            "discount",
+            "explore",
+            "unseen",
+            "dwell",
+            "seed",
+        ],
+        "a learner",
+        "learn TASK { … }",
+    ),
+    (
+        &["otherwise", "per"],
+        "the reward of a task",
+        "task NAME { reward { … } }",
+    ),
 ];
+
+/// The item that a word stands within, and how it stands there.
+pub fn home(word: &str) -> Option<(&'static str, &'static str)> {
+    let mut inner = INNER.iter();
+    let found = inner.find(|(words, ..)| words.contains(&word));
+    found.map(|(_, whole, example)| (*whole, *example))
+}
 
 /// The words with which a test says what a behaviour, or the tree, answers.
 pub const ANSWERS: [(&str, Answer); 3] = [

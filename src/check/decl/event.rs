@@ -127,7 +127,7 @@ impl<'a> Checker<'a> {
     pub fn on(&mut self, on: &'a ast::On) {
         self.context = Context::new(Region::Event);
         match &on.trigger {
-            Trigger::Expr(event) if self.unbound_members(event).is_some() => {}
+            Trigger::Expr(event) if self.unbound_members(event, ": ").is_some() => {}
             Trigger::Expr(event) => {
                 let scopes = match plain_ref(event) {
                     Some(reference) => self.ranges(reference),
@@ -163,9 +163,9 @@ impl<'a> Checker<'a> {
         self.coerce(typed, event, &Type::Bool, role)
     }
 
-    /// Reports `on picked` and `on picked(b)` where `picked` is a family and nothing is called `b`: what binds a member has
-    /// a type.
-    fn unbound_members(&mut self, waited_for: &'a ast::Expr) -> Option<()> {
+    /// Reports `on picked` and `on picked(b)` where `picked` is a family and nothing is called `b`: what binds a member
+    /// says its type, behind `binds`.
+    pub fn unbound_members(&mut self, waited_for: &'a ast::Expr, binds: &str) -> Option<()> {
         let reference = plain_ref(waited_for)?;
         let (Decl::Event(event), _) = self.names.value(&reference.name.name, false)? else {
             return None;
@@ -194,7 +194,7 @@ impl<'a> Checker<'a> {
         let typed = params.iter().enumerate().map(|(at, param)| {
             let name = given.get(at).copied().unwrap_or(&param.name.name);
             let factors = param.ty.factors.iter().map(|(name, _)| name.name.as_str());
-            format!("{name}: {}", factors.collect::<String>())
+            format!("{name}{binds}{}", factors.collect::<String>())
         });
         let name = &reference.name.name;
         let right = format!("{name}({})", typed.collect::<Vec<_>>().join(", "));

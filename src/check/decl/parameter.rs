@@ -95,6 +95,16 @@ impl<'a> Checker<'a> {
                     self.given = outer;
                     value
                 }
+                // A default of another type has been reported where it stands.
+                (None, Some(_)) if ty == Type::Error => {
+                    fine = false;
+                    continue;
+                }
+                // So has a second parameter of one name.
+                (None, None) if bindings.iter().any(|it| it.name.name == param.name.name) => {
+                    fine = false;
+                    continue;
+                }
                 (None, Some(default)) => {
                     let context = Context {
                         region: Region::Let,

@@ -1,6 +1,7 @@
 //! Statements of control laws and effects.
 
 use crate::check::Checker;
+use crate::check::builtin::BuiltIn;
 use crate::check::context::{Binding, Region};
 use crate::check::names::{Decl, START_WORDS, is_built_in};
 use crate::check::types::units::Dim;
@@ -289,16 +290,24 @@ impl<'a> Checker<'a> {
             }
             Some((decl, _)) => {
                 let depends = matches!(decl, Decl::Predicate(_) | Decl::Event(_) | Decl::Let(_));
-                let help = "it follows from what it reads: set a state";
+                let help = match depends {
+                    true => "it follows from what it reads: set a state",
+                    false => "what an effect sets is a `state`, what a control law sets a `local`",
+                };
                 self.error(Code::E0310, target.span, cannot)
                     .this_is(decl.what())
-                    .help_if(depends.then(|| help.to_owned()))
+                    .help(help)
                     .none()
             }
             None if START_WORDS.contains(&name) => self
                 .error(Code::E0310, target.span, cannot)
                 .label("said where an episode starts, in `start { … }`")
                 .help("what moves a robot meanwhile is its behaviour")
+                .none(),
+            None if BuiltIn::named(name).is_some_and(|it| !it.gives_way()) => self
+                .error(Code::E0310, target.span, cannot)
+                .label("this is a function of the language")
+                .help("give the state another name: `state NAME: TYPE = VALUE`")
                 .none(),
             None if is_built_in(name) => self
                 .error(Code::E0310, target.span, cannot)

@@ -92,11 +92,16 @@ impl<'a> Checker<'a> {
         self.diagnostics
             .retain(|said| said.code != Code::W0301 || said.span() != at);
         let percent = value * 100.0;
-        self.out_of_range(
+        let is_percent = typed.ty == Type::NUMBER && (1.0..=100.0).contains(&value);
+        let draft = self.out_of_range(
             at,
             format!("{role} goes from 0% to 100%"),
             &format!("this is {percent} %"),
-        )
+        );
+        match is_percent {
+            true => draft.fix("write `%`", at.after(), "%", Applicability::Unsafe),
+            false => draft,
+        }
         .none()
     }
 
@@ -154,6 +159,10 @@ impl<'a> Checker<'a> {
     }
 }
 
+/// What to do about a wall that stands for a place.
+pub const PLACE_FOR_WALL: &str =
+    "what a robot goes to is a place: `place NAME = disc((1 m, 2 m), 20 cm)`";
+
 /// How a number of one unit becomes one of another that people take for it, and a place one of a kind.
 fn conversion(typed: &Typed, expr: &Expr, wanted: &Type) -> Option<String> {
     if let (Type::Place(None), Type::Place(Some(kind))) = (&typed.ty, wanted) {
@@ -166,6 +175,23 @@ fn conversion(typed: &Typed, expr: &Expr, wanted: &Type) -> Option<String> {
         let point = print::expr(expr);
         return Some(format!("the disc around it: `disc({point}, 20 cm)`"));
     }
+    if let (Type::Point, Type::Place(_)) = (&typed.ty, wanted) {
+        let point = print::expr(expr);
+        return Some(format!(
+            "give it a name in the world: `place NAME = disc({point}, 20 cm)`"
+        ));
+    }
+    if let (Type::Wall(_), Type::Place(_)) = (&typed.ty, wanted) {
+        return Some(PLACE_FOR_WALL.to_owned());
+    }
+    if let (Type::Bool, Some(Dim::NONE), ExprKind::Ref(Ref { args: None, .. })) =
+        (&typed.ty, wanted.dim(), &expr.kind)
+    {
+        let asked = print::expr(expr);
+        return Some(format!(
+            "a number for each: `if {asked} {{ 1 }} else {{ 0 }}`"
+        ));
+    }
     if let (Type::Point, ExprKind::Ref(word)) = (wanted, &expr.kind)
         && word.name.name == "anywhere"
     {
@@ -174,6 +200,9 @@ fn conversion(typed: &Typed, expr: &Expr, wanted: &Type) -> Option<String> {
     if let (Type::Ratio, Type::Bool, ExprKind::Number(_)) = (&typed.ty, wanted, &expr.kind) {
         let odds = print::expr(expr);
         return Some(format!("in so many of all cases: `chance({odds})`"));
+    }
+    if *wanted == Type::Bool {
+        return as_condition(typed, expr);
     }
     let (is, wanted) = (typed.ty.dim()?, wanted.dim()?);
     let literal = match &expr.kind {
@@ -192,6 +221,10 @@ fn conversion(typed: &Typed, expr: &Expr, wanted: &Type) -> Option<String> {
         let unit = &literal.unit.as_ref()?.text;
         return Some(format!("per second: `{} {unit}/s`", literal.digits));
     }
+    if wanted == Dim::NONE && is.times(Dim::TIME, 1) == Dim::NONE {
+        let rate = print::expr(expr);
+        return Some(format!("so much in every tick: `{rate} * tick`"));
+    }
     if wanted == Dim::NONE {
         let unit = is.unit()?;
         return Some(format!(
@@ -199,6 +232,22 @@ fn conversion(typed: &Typed, expr: &Expr, wanted: &Type) -> Option<String> {
         ));
     }
     None
+}
+
+/// What asks whether something holds of a value that is no truth value.
+fn as_condition(typed: &Typed, expr: &Expr) -> Option<String> {
+    if matches!(expr.kind, ExprKind::Number(_)) {
+        return None;
+    }
+    let asked = print::expr(expr);
+    match &typed.ty {
+        Type::Behavior => Some(format!("whether it has ended: `success({asked})`")),
+        Type::Enum(_) => Some(format!("compare it: `{asked} == …`")),
+        Type::Place(_) => Some(format!("whether the robot is there: `inside({asked})`")),
+        Type::Sensor => Some(format!("what it measures: `distance({asked}) < …`")),
+        ty if ty.dim().is_some() => Some(format!("compare it: `{asked} > …`")),
+        _ => None,
+    }
 }
 
 /// The functions whose value is of the type of their arguments.

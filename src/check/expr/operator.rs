@@ -3,6 +3,7 @@
 use crate::check::Checker;
 use crate::check::expr::expect::is_literal;
 use crate::check::expr::plain_ref;
+use crate::check::report::listed;
 use crate::check::types::units::Dim;
 use crate::check::types::{Type, Typed};
 use crate::diagnostic::Code;
@@ -281,11 +282,21 @@ impl<'a> Checker<'a> {
             let message = format!("{} cannot be compared with {}", a.ty, b.ty);
             let target = [(a, b), (b, a)]
                 .into_iter()
-                .find(|(target, other)| target.ty.is_named_target() && other.ty == Type::LENGTH);
+                .find(|(target, other)| target.ty.is_named_target() && other.ty.dim().is_some());
+            let help = match (&a.ty, &b.ty) {
+                _ if target.is_some() => Some("how far something is: `distance(…)`".to_owned()),
+                (Type::Enum(of), _) | (_, Type::Enum(of)) => {
+                    let variants = self.variants(of);
+                    let names: Vec<String> = variants.iter().map(ToString::to_string).collect();
+                    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+                    Some(format!("`{of}` has {}", listed(&names, "and")))
+                }
+                _ => None,
+            };
             self.error(Code::E0302, b.span, message)
                 .this_is(&b.ty)
                 .also(a.span, format!("this is {}", a.ty))
-                .help_if(target.map(|_| "how far something is: `distance(…)`".to_owned()));
+                .help_if(help);
             return;
         }
         let (message, label) = match a.ty {

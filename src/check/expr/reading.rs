@@ -2,6 +2,7 @@
 
 use crate::check::Checker;
 use crate::check::builtin::Function;
+use crate::check::expr::expect::PLACE_FOR_WALL;
 use crate::check::types::{Type, Typed, Value};
 use crate::diagnostic::Code;
 use crate::geometry::{Point, Segment, Shape};
@@ -64,13 +65,19 @@ impl<'a> Checker<'a> {
             } else {
                 "a place, a wall, a robot, a point or a sensor"
             };
+            let is_wall = of_place && matches!(target.ty, Type::Wall(_));
+            let help = is_wall.then(|| PLACE_FOR_WALL.to_owned());
             return self
                 .error(
                     Code::E0302,
                     target.span,
-                    format!("`{}` is read of {wanted}", reference.name.name),
+                    format!(
+                        "what `{}` reads is {wanted}, not {}",
+                        reference.name.name, target.ty
+                    ),
                 )
                 .this_is(&target.ty)
+                .help_if(help)
                 .none();
         }
         Some(target)

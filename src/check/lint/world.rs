@@ -2,8 +2,8 @@
 
 use super::geometry::{clearance, is_free};
 use crate::check::Checker;
-use crate::diagnostic::Code;
-use crate::geometry::{Point, minus};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::geometry::{Point, Shape, minus};
 use crate::ir::Name;
 use crate::ir::task::StartLine;
 use crate::ir::world::{Place, World};
@@ -25,6 +25,7 @@ impl<'a> Checker<'a> {
                 self.walls_outside(declared, &world);
                 self.places_alike(declared, &world);
                 self.places_apart(declared, &world);
+                self.places_too_small(declared, &world);
             }
         }
     }
@@ -102,6 +103,47 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Places in which the robot is to be, or which it is to dock at, and does not fit so near to.
+    fn places_too_small(&mut self, declared: &'a ast::World, world: &World) {
+        let (low, high) = world.arena.bounds();
+        let [width, height] = minus(high, low);
+        if width.min(height) <= 2.0 * world.robot.radius {
+            return;
+        }
+        let near = |place: &Place| {
+            let behaviors = self.program.behaviors.values().map(|it| &it.name);
+            let needs = behaviors.filter_map(|name| {
+                let given: Vec<String> = name.given().map(|(_, given)| given.to_string()).collect();
+                match (name.family.as_str(), given.as_slice()) {
+                    ("goto", [at]) if *at == place.name.to_string() => Some(0.0),
+                    ("dock", [at]) if *at == place.name.to_string() => Some(REACH),
+                    _ => None,
+                }
+            });
+            needs.reduce(f64::min)
+        };
+        let wanted: Vec<_> = places(declared, world)
+            .filter_map(|(name, span, place)| Some((name, span, place, near(place)?)))
+            .collect();
+        for (name, span, place, near) in wanted {
+            let said = |it: &Diagnostic| it.span() == span;
+            if has_room(world, &place.shape, near) || self.diagnostics.iter().any(said) {
+                continue;
+            }
+            let message = format!("the robot does not fit into the place `{}`", name.name);
+            let radius = world.robot.radius * 100.0;
+            let label = match near {
+                0.0 => "its centre never lies in it: it would touch a wall".to_owned(),
+                near => format!("it comes no nearer than {} cm to it", near * 100.0),
+            };
+            self.warning(Code::W0401, span, message)
+                .label(label)
+                .help(format!(
+                    "make the place larger, or move it: the robot keeps {radius} cm from every wall"
+                ));
+        }
+    }
+
     /// Where episodes start; `None` if some may start anywhere.
     fn starts(&self) -> Option<Vec<Point>> {
         let tasks = self.program.tasks.values().map(|task| &task.start);
@@ -133,6 +175,28 @@ fn places<'a, 'w>(
         let place = places.find(|place| place.name == Name::word(&name.name))?;
         Some((name, shape.span, place))
     })
+}
+
+/// How near to a station a robot docks, unless it is said otherwise.
+const REACH: f64 = 0.25;
+
+/// Into how many steps the surroundings of a place are divided along each axis.
+const STEPS: usize = 60;
+
+/// Whether a robot fits somewhere within `near` of a shape, with a little to spare.
+fn has_room(world: &World, shape: &Shape, near: f64) -> bool {
+    let (low, high) = shape.bounds();
+    let [width, height] = minus(high, low);
+    let step = (width.max(height) + 2.0 * near) / STEPS as f64;
+    let radius = (world.robot.radius - 2.0 * step).max(0.0);
+    let middle = shape.center();
+    let along = |middle: f64, at: usize| middle + (at as f64 - STEPS as f64 / 2.0) * step;
+    let points = (0..=STEPS).flat_map(|column| {
+        (0..=STEPS).map(move |row| [along(middle[0], column), along(middle[1], row)])
+    });
+    let reaches = |at: Point| shape.contains(at) || clearance(shape, at) <= near;
+    let mut points = points.filter(|at| reaches(*at));
+    points.any(|at| is_free(world, at, radius))
 }
 
 /// A cell by its column and its row.

@@ -9,6 +9,7 @@ use crate::diagnostic::{Applicability, Code, suggest};
 use crate::ir::law::Behavior;
 use crate::ir::task::Task;
 use crate::ir::{Id, Name};
+use crate::spelling::spelled;
 use crate::syntax::ast::{Expr, ExprKind, Ident, Ref};
 
 /// The behaviours of the library.
@@ -82,8 +83,17 @@ impl<'a> Checker<'a> {
 
     /// The behaviour that a reference of the user names, with its arguments; anything else is reported.
     pub fn behavior_ref(&mut self, reference: &'a Ref) -> Option<Id<Behavior>> {
+        let help = match self.names.value(&reference.name.name, self.context.library) {
+            Some((Decl::Predicate(_), _)) => Some("predicates are listed by `observe`"),
+            Some((Decl::State(_), _)) => {
+                Some("what depends on a state is asked by a predicate, and listed by `observe`")
+            }
+            Some((Decl::Tree(_), _)) => Some("list the behaviours that the tree is made of"),
+            _ => None,
+        };
+        let help = help.map(str::to_owned);
         let (behavior, library) =
-            self.declared_as(reference, "a behaviour", None, |decl| match decl {
+            self.declared_as(reference, "a behaviour", help, |decl| match decl {
                 Decl::Behavior(behavior) => Some(behavior),
                 _ => None,
             })?;
@@ -229,6 +239,21 @@ fn hint(name: &str, what: &str) -> Option<String> {
         "sum" | "average" | "mean" if what.starts_with("function") => {
             "members are counted, `count(x in KIND: …)`; a sum is written out".to_owned()
         }
+        "default" | "otherwise" | "_" if what.ends_with("predicate") => {
+            "what is done else is the last child of a `selector`, without a guard".to_owned()
+        }
+        "reward" | "score" if what == "variable" => {
+            "a task says what is rewarded: `reward { on EVENT: NUMBER }`".to_owned()
+        }
+        "SubTree" | "Subtree" | "SubTreePlus" | "subtree" => {
+            "a tree stands in another one by its name: `NAME`, `NAME(ARGUMENT)`".to_owned()
+        }
+        "north" | "south" | "east" | "west" | "up" | "down" if what.starts_with("state") => {
+            "directions are angles: `0 deg` is along x, `90 deg` along y".to_owned()
+        }
+        "inf" | "infinity" | "Infinity" | "INF" => {
+            "no number is infinite: take one that is large enough".to_owned()
+        }
         "pi" | "PI" => "half a turn is `180 deg`".to_owned(),
         "speed" | "turn" | "velocity" if what == "variable" => {
             "a motion is commanded by `drive(speed = …, turn = …)`".to_owned()
@@ -255,6 +280,18 @@ fn hint(name: &str, what: &str) -> Option<String> {
         }
         "selector" | "sequence" | "invert" => {
             format!("the children of a node stand in braces: `{name} {{ … }}`")
+        }
+        _ if matches!(what, "predicate" | "event") => {
+            format!(
+                "if it is new, declare it: `{what} {} = CONDITION`",
+                spelled(name)
+            )
+        }
+        _ if what.starts_with("behaviour") => {
+            format!(
+                "if it is new, declare it: `behavior {} {{ … }}`",
+                spelled(name)
+            )
         }
         _ => return None,
     })

@@ -11,6 +11,7 @@ use crate::ir::task::{Discount, Learner, Method, Objective};
 use crate::ir::{Id, Name};
 use crate::source::Span;
 use crate::syntax::ast::{self, ExprKind, LearnEntry, Link, Ref, Setting};
+use crate::syntax::words::home;
 use std::collections::BTreeMap;
 
 /// The settings of a learner.
@@ -184,7 +185,20 @@ impl<'a> Checker<'a> {
             "seed" => learner.seed = self.whole(value, "`seed`", 0.0).unwrap_or(learner.seed),
             _ => {
                 let (owner, name) = ("a learner", &setting.name);
-                self.unknown_to(owner, Code::E0501, name, "setting", &SETTINGS);
+                let home = home(&name.name)
+                    .map(|(whole, example)| format!("this stands in {whole}: `{example}`"));
+                let foreign = match name.name.as_str() {
+                    "max_episode_steps" | "max_steps" | "horizon" | "time_limit" => {
+                        Some("how long an episode lasts: `episodes = 1_000 of 5 min`".to_owned())
+                    }
+                    _ => home,
+                };
+                // What is missing was likely meant by what is unknown.
+                if foreign.is_none() {
+                    self.names.lose("episodes");
+                }
+                self.unknown_to(owner, Code::E0501, name, "setting", &SETTINGS)
+                    .help_if(foreign);
             }
         }
     }

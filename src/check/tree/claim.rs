@@ -120,7 +120,15 @@ impl<'a> Checker<'a> {
             self.not_named(event, "an event", &declaration);
             return None;
         };
-        let (decl, _) = self.declared_as(reference, "an event", None, |decl| match decl {
+        let asked = print::expr(event);
+        let help = match self.names.value(&reference.name.name, false) {
+            Some((Decl::Predicate(_), _)) => Some(format!("declare one: `event NAME = {asked}`")),
+            Some((Decl::Behavior(_), _)) => {
+                Some(format!("declare one: `event NAME = success({asked})`"))
+            }
+            _ => None,
+        };
+        let (decl, _) = self.declared_as(reference, "an event", help, |decl| match decl {
             Decl::Event(decl) => Some(decl),
             _ => None,
         })?;

@@ -151,6 +151,12 @@ impl<'a> Checker<'a> {
                 let asked = print::expr(&called(reference));
                 format!("compare it, and give that a name: `predicate NAME = {asked} > …`")
             }
+            Some(Decl::State(_))
+                if (self.states.get(name)).is_some_and(|it| matches!(it.ty, Type::Enum(_))) =>
+            {
+                let asked = print::expr(&called(reference));
+                format!("compare it, and give that a name: `predicate NAME = {asked} == …`")
+            }
             None if !TRUTHS.contains(&name) => {
                 let asked = print::expr(&called(reference));
                 format!("compare it, and give that a name: `predicate NAME = {asked} > …`")

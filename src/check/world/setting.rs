@@ -6,6 +6,7 @@ use crate::check::types::Type;
 use crate::diagnostic::{Code, suggest};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, Field, Ref};
+use crate::syntax::words::home;
 
 /// The values of settings, each with its place.
 type Values<const N: usize> = [(f64, Span); N];
@@ -87,6 +88,14 @@ impl<'a> Checker<'a> {
                     let likely = suggest::nearest(called, known);
                     let form = match (called.as_str(), value) {
                         _ if likely.is_some() => None,
+                        (word, _)
+                            if home(word).is_some_and(|(whole, _)| !owner.contains(whole))
+                                && !matches!(word, "wall" | "place" | "robot" | "sensor") =>
+                        {
+                            home(word).map(|(whole, example)| {
+                                format!("this stands in {whole}: `{example}`")
+                            })
+                        }
                         ("wall" | "place" | "robot" | "sensor", _) => {
                             Some(format!("it needs a name: `{called} NAME = …`"))
                         }

@@ -6,7 +6,7 @@ use crate::source::Span;
 use crate::syntax::ast::{
     AssignOp, Binding, Block, Branch, Else, Expr, ExprKind, Ref, Stmt, StmtKind,
 };
-use crate::syntax::diagnose::no_such_unit;
+use crate::syntax::diagnose::{self, no_such_unit};
 use crate::syntax::grammar::{Node, Parts, Rule};
 use crate::syntax::tokens::Kind;
 
@@ -238,6 +238,25 @@ impl<'i> Builder<'i> {
                 meant,
                 Applicability::Unsafe,
             );
+            self.report(diagnostic);
+            return;
+        }
+        // A value that does not parse leaves the name before it alone.
+        if same_line && matches!(found, "=" | "+=" | "-=" | "*=" | "/=") {
+            let start = span.range().start;
+            let failure = self.failure(Rule::strict_stmt, start, start);
+            if failure.at > at.range().start {
+                let (until, diagnostic) =
+                    diagnose::failure(self.file, self.text, self.tokens, &failure);
+                self.failed_at = Some(until);
+                self.report(diagnostic);
+                return;
+            }
+        }
+        if name == "per" && self.goes_on(span.range().start) {
+            let diagnostic = Diagnostic::new(Code::E0101, span, "`per` cannot stand here")
+                .label("a statement ends before this")
+                .help("a rate in every tick: `battery -= 1%/s * tick`");
             self.report(diagnostic);
             return;
         }

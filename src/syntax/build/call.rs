@@ -6,7 +6,7 @@ use crate::source::Span;
 use crate::syntax::ast::{Arg, ArgKind, Expr, ExprKind, Ident, Ref};
 use crate::syntax::diagnose::no_such_unit;
 use crate::syntax::grammar::{Node, Parts, Rule};
-use crate::syntax::tokens::Kind;
+use crate::syntax::tokens::{Kind, Token};
 use crate::syntax::words::RANGING;
 
 /// What comes next of a range whose `..` is another word.
@@ -85,6 +85,9 @@ impl<'i> Builder<'i> {
         let mut is_unit = false;
         let mut range = None;
         for part in Parts::of(node) {
+            if part.as_rule() == Rule::missing_arg_comma && self.binder_is_meant(&part) {
+                return args;
+            }
             match (part.as_rule(), range) {
                 // The word that was to be `..`, then the end of the range.
                 (Rule::arg, Some(Range::Word)) => range = Some(Range::End),
@@ -130,6 +133,22 @@ impl<'i> Builder<'i> {
             }
         }
         args
+    }
+
+    /// Reports `of` and its like in `any(g of gem: …)`, where they should be `in`.
+    fn binder_is_meant(&mut self, node: &Node<'i>) -> bool {
+        let Some(word) = self.token_at(node.as_span().start()) else {
+            return false;
+        };
+        let is_binder =
+            self.ranging && matches!(word.of(self.text), "of" | "from" | "over" | "among");
+        if is_binder {
+            let span = Span::new(self.file, word.start, word.end);
+            let message = "what ranges over a kind binds a name: `x in KIND: …`".to_owned();
+            self.respell(Code::E0127, span, message, "in");
+            self.unbound = true;
+        }
+        is_binder
     }
 
     /// Reports `to` between the ends of a range.
@@ -209,6 +228,21 @@ impl<'i> Builder<'i> {
         }
     }
 
+    /// The name behind a colon, if places or walls are of a kind that is called so.
+    fn kind_after(&self, colon: Option<&Node<'i>>) -> Option<String> {
+        let kind = self.token_at(colon?.as_span().end())?.of(self.text);
+        let declares = |four: &[Token]| match four {
+            [word, _, colon, of] => {
+                matches!(word.of(self.text), "place" | "wall")
+                    && colon.of(self.text) == ":"
+                    && of.of(self.text) == kind
+            }
+            _ => false,
+        };
+        let known = self.tokens.windows(4).any(declares);
+        known.then(|| kind.to_owned())
+    }
+
     fn named(&mut self, node: Node<'i>) -> ArgKind {
         let mut parts = Parts::of(node);
         let name = self.take_name(&mut parts);
@@ -229,6 +263,15 @@ impl<'i> Builder<'i> {
                         right,
                         Applicability::Unsafe,
                     ),
+            );
+        } else if let (Some(sign), Some(kind)) = (&colon, self.kind_after(colon.as_ref())) {
+            self.unbound = true;
+            let span = self.span(sign);
+            let message = format!("all of a kind are meant by `in`: `x in {kind}`");
+            self.report(
+                Diagnostic::new(Code::E0127, span, message)
+                    .label("write `in`")
+                    .fix("write `in`", span, " in", Applicability::Unsafe),
             );
         } else if let Some(sign) = colon {
             let span = self.span(&sign);

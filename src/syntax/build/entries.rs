@@ -91,7 +91,7 @@ impl<'i> Builder<'i> {
     }
 
     /// How the text at byte `start` fails to parse as `strict` entries, read from byte `from` on.
-    fn failure(&self, strict: Rule, from: usize, start: usize) -> Failure {
+    pub(super) fn failure(&self, strict: Rule, from: usize, start: usize) -> Failure {
         let rest = |at: usize| self.text.get(at..).unwrap_or_default();
         let (at, expected) = match grammar::parse(strict, rest(from)) {
             Ok(_) => (start, Vec::new()),
@@ -153,7 +153,7 @@ impl<'i> Builder<'i> {
     }
 
     /// Whether something stands before byte `start` on its line.
-    fn goes_on(&self, start: usize) -> bool {
+    pub(super) fn goes_on(&self, start: usize) -> bool {
         let before = self.text.get(..start).unwrap_or_default();
         let line = before.rsplit('\n').next().unwrap_or_default();
         !line.chars().all(is_blank)
@@ -196,7 +196,13 @@ impl<'i> Builder<'i> {
                 let place = Span::new(self.file, before.start, before.end);
                 let word = before.of(self.text);
                 let message = format!("expected `{{` after `{word}`");
-                Diagnostic::new(Code::E0101, place, message).label("expected `{` after this")
+                let diagnostic =
+                    Diagnostic::new(Code::E0101, place, message).label("expected `{` after this");
+                if let Some(form) = self.opened(word, start) {
+                    self.report(diagnostic.help(format!("its form is `{form}`")));
+                    return;
+                }
+                diagnostic
             }
             _ => Diagnostic::new(
                 Code::E0101,
@@ -206,6 +212,25 @@ impl<'i> Builder<'i> {
             .label("expected `{`"),
         };
         self.report(diagnostic.help("a block stands in braces: `{ … }`"));
+    }
+
+    /// How what begins with `word` is written, where what follows at byte `at` on its line shows that it was meant
+    /// otherwise.
+    fn opened(&self, word: &str, at: usize) -> Option<String> {
+        let next = self.token_at(at)?;
+        let line = self.text.get(..at)?.rsplit('\n').next()?;
+        let same_line = self
+            .text
+            .get(at..next.start)
+            .is_some_and(|gap| !gap.contains('\n'));
+        let counted = matches!(word, "retry" | "repeat" | "timeout" | "parallel");
+        if counted && same_line && next.kind == Kind::Number {
+            let rest = self.text.get(next.start..)?.lines().next()?;
+            let amount = rest.split('{').next()?.trim();
+            return Some(format!("{word}({amount}) {{ … }}"));
+        }
+        let waits = line.trim_start().starts_with("on ") && next.of(self.text) == "if";
+        (waits && same_line).then(|| "on EVENT and CONDITION { … }".to_owned())
     }
 
     /// Reports that nothing closes the bracket `open` at byte `at`.
@@ -297,7 +322,16 @@ impl<'i> Builder<'i> {
         if name.is_some_and(|name| name.starts_with('`') && !name.ends_with('`')) {
             return;
         }
-        if let (Some(name), Some(before)) = (name, before)
+        // Of `full => goto` the last word is the one that lacks its arguments.
+        let last = before.map(|before| {
+            let word = self.slice(before).rsplit(' ').next().unwrap_or_default();
+            let range = before.range();
+            (
+                word,
+                Span::new(self.file, range.end - word.len(), range.end),
+            )
+        });
+        if let Some((name, before)) = last
             && what != HISTORY
             && self.missing_brackets(name, before, place)
         {
@@ -343,6 +377,7 @@ impl<'i> Builder<'i> {
         if let Some(name) = name.filter(|name| is_word(name) && is_word(self.slice(place)))
             && gap.is_some_and(|gap| !gap.contains('\n'))
             && what != HISTORY
+            && what != "variants"
         {
             let argument = self.slice(place);
             diagnostic = diagnostic.help(format!(

@@ -3,6 +3,7 @@
 use super::Place;
 use super::words::is_word;
 use crate::diagnostic::{Applicability, Diagnostic};
+use crate::source::Span;
 use crate::spelling::RESERVED;
 use crate::syntax::grammar::Rule;
 use crate::syntax::tokens::{Kind, Token};
@@ -95,6 +96,13 @@ impl Place<'_> {
             (_, _) if self.is_binder_without_parentheses() => {
                 "what ranges over a kind stands in parentheses: `any(x in KIND: …)`"
             }
+            (_, "[")
+                if self
+                    .wanted()
+                    .is_some_and(|wanted| wanted.contains("an argument")) =>
+            {
+                "there are no lists: each value is an argument of its own"
+            }
             (_, "[") if self.expects(Rule::children) => "the children of a node stand in braces",
             (_, "[") if self.expects(Rule::open_paren) => "arguments stand in parentheses",
             (Rule::strict_item, "with") if self.begins_with("claim") => {
@@ -114,6 +122,49 @@ impl Place<'_> {
             (Rule::strict_world_entry, "if") => "the condition of a door follows `when`",
             (_, "if") if self.expects(Rule::or_op) || self.expects(Rule::sum_op) => {
                 "a value is chosen by `if CONDITION { … } else { … }`"
+            }
+            (Rule::strict_item, "when" | "if") if self.begins_with("on") => {
+                "what else must hold is joined by `and`: `on EVENT and CONDITION { … }`"
+            }
+            (Rule::strict_item, ",") if self.begins_with("on") => {
+                "one of several events is waited for by `or`: `on EVENT or EVENT { … }`"
+            }
+            (Rule::strict_item, "and" | "or") if self.begins_with("claim") => {
+                "a claim says one thing: write another `claim` for the other"
+            }
+            (Rule::strict_item, "<" | "<=") if self.before() == "probability" => {
+                "a claim says how sure it is at least: `with probability >= 95%`"
+            }
+            (Rule::strict_item, "<" | "{" | "(" | "[") if !self.same_line_as_before() => {
+                "a program is made of items: `world NAME { … }`, `state NAME = VALUE`, `tree NAME = NODE`"
+            }
+            (Rule::strict_world_entry, "unless") => {
+                "a door is shut while its condition holds: `when not CONDITION`"
+            }
+            (Rule::strict_start_line, "+=" | "-=" | "*=" | "/=") => {
+                "a start says the value itself: `STATE = VALUE`"
+            }
+            (Rule::strict_child, _) if self.begins_with("if") => {
+                "a guard is followed by `=>`: `CONDITION => NODE`"
+            }
+            (_, "xor") => "one of the two, and not both: `a != b`",
+            (_, "in") | (_, "not") if self.expects(Rule::or_op) => {
+                "each comparison says what it compares: `x == a or x == b`"
+            }
+            (_, "for") if self.open_paren().is_some() => {
+                "what ranges over a kind is bound first: `any(x in KIND: …)`"
+            }
+            (_, "*") if self.before() == "(" => "all of a kind are meant by `x in KIND`",
+            (_, ")") if self.before() == ":" && self.open_is_paren() => {
+                return match self.bound_member() {
+                    Some((at, right)) => diagnostic.fix(
+                        format!("say of which kind it is: `{right}`"),
+                        at,
+                        right,
+                        Applicability::Unsafe,
+                    ),
+                    None => diagnostic.help("say of which kind it is: `x in KIND`"),
+                };
             }
             (Rule::strict_child, "then") => "a guard is followed by `=>`: `CONDITION => NODE`",
             (_, "then") => "what depends on a condition stands in braces",
@@ -143,6 +194,22 @@ impl Place<'_> {
             (Rule::strict_item, "==" | "=") if self.begins_with("claim") => {
                 Some(("a claim says it in words", "equals"))
             }
+            (Rule::strict_item, "eventually" | "achieves" | "finally" | "gets")
+                if self.begins_with("claim") =>
+            {
+                Some(("a claim says it in words", "reaches"))
+            }
+            (Rule::strict_item, "avoids" | "not") if self.begins_with("claim") => {
+                Some(("a claim says it in words", "never"))
+            }
+            (Rule::strict_item, "before" | "in" | "by" | "under" | "after")
+                if self.begins_with("claim") && self.expects(Rule::kw_within) =>
+            {
+                Some(("how soon is said by `within`", "within"))
+            }
+            (Rule::strict_child, "=") if self.expects(Rule::guards) => {
+                Some(("a guard is followed by `=>`", "=>"))
+            }
             (Rule::strict_item, ";") if self.begins_with("enum") => {
                 Some(("the values of an enum are parted by commas", ","))
             }
@@ -167,6 +234,30 @@ impl Place<'_> {
             "[" => of_node(self.found.start),
             _ => false,
         }
+    }
+
+    fn open_is_paren(&self) -> bool {
+        self.open().is_some_and(|open| open.of(self.text) == "(")
+    }
+
+    /// `grabbed(g:`: the name before the colon, and how it is bound to the members of the kind that its event is
+    /// declared for.
+    fn bound_member(&self) -> Option<(Span, String)> {
+        let open = self.open()?;
+        let index = self.tokens.partition_point(|token| token.end <= open.start);
+        let word = |at: usize| self.tokens.get(at).map(|token| token.of(self.text));
+        let family = word(index.checked_sub(1)?)?;
+        let declares = |at: &usize| {
+            word(*at) == Some("event")
+                && word(*at + 1) == Some(family)
+                && word(*at + 2) == Some("(")
+                && word(*at + 4) == Some(":")
+        };
+        let kind = word((0..self.tokens.len()).find(declares)? + 5)?;
+        let (name, colon) = (self.second_before?, self.before?);
+        let right = format!("{} in {kind}", name.of(self.text));
+        let span = self.span_of(name).to(self.span_of(colon));
+        Some((span, right))
     }
 
     /// Whether the token parts a third value from the two of a point.

@@ -33,6 +33,9 @@ const LOOK_ALIKES: [(char, &str); 20] = [
 
 impl Place<'_> {
     pub(super) fn look_alike(&self) -> Option<Diagnostic> {
+        if let Some(diagnostic) = self.single_quotes() {
+            return Some(diagnostic);
+        }
         let letter = self.found().chars().next()?;
         let (_, right) = LOOK_ALIKES.iter().find(|(look, _)| *look == letter)?;
         let span = Span::new(
@@ -54,6 +57,25 @@ impl Place<'_> {
             .note("editors for prose put such characters in")
             .fix(format!("write {meant}"), span, *right, Applicability::Safe),
         )
+    }
+
+    /// `'low'`: a text in the quotation marks of other languages.
+    fn single_quotes(&self) -> Option<Diagnostic> {
+        let wanted = self.expects(Rule::string) || self.expects(Rule::title);
+        let rest = self.text.get(self.found.start..)?.strip_prefix('\'')?;
+        let inner = rest.lines().next()?.split_once('\'')?.0;
+        let span = Span::new(
+            self.file,
+            self.found.start,
+            self.found.start + inner.len() + 2,
+        );
+        let right = format!("\"{inner}\"");
+        let message = "`'` stands where `\"` should".to_owned();
+        wanted.then(|| {
+            Diagnostic::new(Code::E0121, span, message)
+                .label(format!("write `{right}`"))
+                .fix(format!("write `{right}`"), span, right, Applicability::Safe)
+        })
     }
 
     pub(super) fn unclosed(&self) -> Option<Diagnostic> {

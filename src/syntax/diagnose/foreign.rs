@@ -8,7 +8,7 @@ use crate::source::Span;
 use crate::spelling::quoted;
 use crate::syntax::grammar::Rule;
 use crate::syntax::tokens::Kind;
-use crate::syntax::words::{INNER, KINDS};
+use crate::syntax::words::{KINDS, home};
 
 /// What begins a comment elsewhere.
 const COMMENTS: [&str; 4] = ["#", "/*", "--", "<!--"];
@@ -149,8 +149,7 @@ impl Place<'_> {
                     .help(of_kind(kind)),
             );
         }
-        let mut inner = INNER.iter();
-        let (_, whole, example) = inner.find(|(words, ..)| words.contains(&word))?;
+        let (whole, example) = home(word)?;
         Some(
             diagnostic
                 .label(format!("this stands in {whole}"))

@@ -127,7 +127,7 @@ impl Place<'_> {
         rest.get(..end.unwrap_or(rest.len())).unwrap_or_default()
     }
 
-    fn form_of(&self, word: &str) -> Option<&'static str> {
+    pub(super) fn form_of(&self, word: &str) -> Option<&'static str> {
         match self.failure.strict {
             Rule::strict_item => {
                 let item = ITEMS.iter().find(|(begins, _)| *begins == word);

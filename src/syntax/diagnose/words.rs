@@ -7,7 +7,7 @@ use crate::spelling::RESERVED;
 use crate::syntax::expected;
 use crate::syntax::grammar::Rule;
 use crate::syntax::tokens::{Kind, Token};
-use crate::syntax::words::{FOREIGN, ITEMS, KINDS, UNITS};
+use crate::syntax::words::{FOREIGN, ITEMS, UNITS};
 
 impl Place<'_> {
     pub(super) fn unit(&self) -> Option<Diagnostic> {
@@ -69,77 +69,12 @@ impl Place<'_> {
         )
     }
 
-    /// A word that should begin an entry of a world or of a robot, before the name that it declares.
-    pub(super) fn entry_word(&self) -> Option<Diagnostic> {
-        let word = self.before?;
-        let first = word.start == self.failure.start && word.kind == Kind::Word;
-        let declares = matches!(self.found.kind, Kind::Word | Kind::Name);
-        let (what, known): (_, &[&str]) = match self.failure.strict {
-            Rule::strict_world_entry => ("an entry of a world", &["place", "wall", "robot"]),
-            Rule::strict_robot_entry => ("an entry of a robot", &["sensor"]),
-            _ => return None,
-        };
-        let name = word.of(self.text);
-        if !first || !declares || known.contains(&name) || !self.same_line_as_before() {
-            return None;
-        }
-        if KINDS.contains(&name) {
-            let kind = self.found();
-            let message = format!("`{name}` does not begin {what}");
-            return Some(
-                Diagnostic::new(Code::E0123, self.span_of(word), message)
-                    .label("a kind needs no declaration")
-                    .help(of_kind(kind)),
-            );
-        }
-        if name == "sensor" {
-            let message = format!("`{name}` does not begin {what}");
-            return Some(
-                Diagnostic::new(Code::E0123, self.span_of(word), message)
-                    .label("this stands in a robot")
-                    .help("put it there: `robot NAME { sensor … }`"),
-            );
-        }
-        let meant = match name {
-            "obstacle" | "block" | "box" | "barrier" | "fence" | "door" | "gate" => Some("wall"),
-            "location" | "zone" | "region" | "area" | "goal" | "spot" | "target" | "waypoint"
-            | "point" | "station" | "site" | "object" | "landmark" => Some("place"),
-            "agent" | "enemy" | "npc" | "player" | "vehicle" | "bot" | "actor" | "drone" => {
-                Some("robot")
-            }
-            "lidar" | "laser" | "camera" | "sonar" | "scanner" | "range_finder" | "beacon" => {
-                Some("sensor")
-            }
-            _ => None,
-        };
-        let meant = meant.filter(|meant| known.contains(meant));
-        if meant.is_none() && matches!(self.after_found(), "" | "(") {
-            return None;
-        }
-        let diagnostic = Diagnostic::new(
-            Code::E0123,
-            self.span_of(word),
-            format!("`{name}` does not begin {what}"),
-        );
-        let diagnostic = self.meant(
-            diagnostic,
-            word,
-            meant.or_else(|| suggest::nearest(name, known.iter().copied())),
-        );
-        let diagnostic = match name {
-            "door" | "gate" => {
-                diagnostic.help("a door is a wall with a condition: `wall NAME = … when CONDITION`")
-            }
-            _ => diagnostic,
-        };
-        let listed: Vec<String> = known.iter().map(|word| format!("`{word}`")).collect();
-        Some(diagnostic.note(format!(
-            "what has a name of its own begins with {}",
-            either(&listed)
-        )))
-    }
-
-    fn meant(&self, diagnostic: Diagnostic, word: Token, meant: Option<&str>) -> Diagnostic {
+    pub(super) fn meant(
+        &self,
+        diagnostic: Diagnostic,
+        word: Token,
+        meant: Option<&str>,
+    ) -> Diagnostic {
         match meant {
             Some(meant) => diagnostic.label(format!("did you mean `{meant}`?")).fix(
                 format!("write `{meant}`"),
@@ -248,6 +183,9 @@ impl Place<'_> {
             _ => return None,
         };
         let after = self.after_found();
+        if at_item && let Some(diagnostic) = self.no_item(code) {
+            return Some(diagnostic);
+        }
         if at_item && ITEMS.contains(&after) {
             let diagnostic = Diagnostic::new(
                 code,
@@ -260,15 +198,31 @@ impl Place<'_> {
                 .to(Span::new(self.file, self.found.end, self.next()?.start));
             return Some(diagnostic.fix(format!("drop `{word}`"), drop, "", Applicability::Unsafe));
         }
-        if at_item && let Some(diagnostic) = self.no_item(code) {
-            return Some(diagnostic);
-        }
-        let near = (FOREIGN.iter())
+        let foreign = (FOREIGN.iter())
             .filter(|(foreign, _)| *foreign == word)
             .map(|(_, meant)| *meant)
-            .find(|meant| candidates.contains(meant))
-            .or_else(|| suggest::nearest(word, candidates.iter().copied()));
-        if self.failure.strict == Rule::strict_reward && near.is_none() && after == ":" {
+            .find(|meant| candidates.contains(meant));
+        if foreign.is_none()
+            && let Some((whole, example)) = self.entry_of_another(word)
+        {
+            let message = format!("`{word}` does not begin {begins}");
+            return Some(
+                Diagnostic::new(code, self.span(), message)
+                    .label(format!("this stands in {whole}"))
+                    .help(format!("put it there: `{example}`")),
+            );
+        }
+        let near = foreign.or_else(|| suggest::nearest(word, candidates.iter().copied()));
+        let in_reward = self.failure.strict == Rule::strict_reward && near.is_none();
+        if in_reward && matches!(after, "+=" | "-=" | "*=") {
+            let message = format!("`{word}` does not begin {begins}");
+            return Some(
+                Diagnostic::new(code, self.span(), message)
+                    .label("nothing is set here")
+                    .help("a line of `reward` says a number, which is added: `on EVENT: -5`"),
+            );
+        }
+        if in_reward && matches!(after, ":" | "=" | "=>" | "->") {
             return Some(
                 Diagnostic::new(
                     code,
@@ -329,6 +283,11 @@ impl Place<'_> {
             ),
             None => diagnostic.label("not known here"),
         };
+        // Who has another word for it may write it otherwise, too.
+        let diagnostic = match foreign.and_then(|meant| self.form_of(meant)) {
+            Some(form) => diagnostic.help(format!("its form is `{form}`")),
+            None => diagnostic,
+        };
         Some(diagnostic.note(format!("{begins} begins with {}", either(&listed))))
     }
 }
@@ -339,7 +298,7 @@ pub(super) fn of_kind(kind: &str) -> String {
 }
 
 /// "a, b or c"
-fn either(words: &[String]) -> String {
+pub(super) fn either(words: &[String]) -> String {
     match words.split_last() {
         Some((last, [])) => last.clone(),
         Some((last, first)) => format!("{} or {last}", first.join(", ")),
@@ -383,8 +342,20 @@ pub(in crate::syntax) fn no_such_unit(span: Span, word: &str, others: &[&str]) -
     let foreign = match word {
         "step" | "steps" | "frame" | "frames" | "iterations" => Some("ticks"),
         "secs" | "second" | "seconds" => Some("s"),
+        "kmh" | "kph" | "kmph" => Some("km/h"),
+        "mps" => Some("m/s"),
+        "dps" => Some("deg/s"),
         _ => None,
     };
+    if matches!(
+        word,
+        "kg" | "g" | "N" | "Nm" | "V" | "A" | "W" | "J" | "lb" | "lbs" | "mAh" | "Wh"
+    ) {
+        return diagnostic
+            .label("this follows a number")
+            .help("there are lengths, times and angles, and what is made of them: no masses, no forces, no currents")
+            .note(units_note());
+    }
     let near = foreign
         .or_else(|| suggest::nearest(word, units.chain(others.iter().copied())))
         .or_else(|| {
