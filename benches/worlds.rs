@@ -133,7 +133,8 @@ fn row(world: &Path, seed: u64, arguments: &Arguments) -> String {
     };
     let metrics = learned.file("metrics.json").unwrap();
     let metrics: serde_json::Value = serde_json::from_str(metrics).unwrap();
-    let ticks = ["/ticks", "/grown/ticks"].map(|at| metrics.pointer(at)?.as_u64());
+    let ticks =
+        ["/ticks", "/improved/ticks", "/grown/ticks"].map(|at| metrics.pointer(at)?.as_u64());
     let ticks: u64 = ticks.iter().flatten().sum();
     format!(
         "| {name} | {seed} | {} | {} | {} | {ratio} | {:.2} | {:.1} | {seconds:.1} |",

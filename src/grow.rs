@@ -154,9 +154,10 @@ fn improve_from<W: World>(
     }
 }
 
-/// The part of the effort of learning that a search for a tree gets.
-pub fn growing(effort: u64) -> u64 {
-    share(effort, GROWING)
+/// The part of the effort of learning that a search for a tree gets, with what the policy has left of its own.
+pub fn growing(effort: u64, improved: &Improved) -> u64 {
+    let policy = share(effort, ITERATING + IMPROVING);
+    share(effort, GROWING) + policy.saturating_sub(improved.ticks)
 }
 
 fn share(effort: u64, part: f64) -> u64 {

@@ -3,6 +3,7 @@
 mod attempts;
 mod climb;
 mod covers;
+mod detours;
 mod sprouts;
 
 use super::evidence::{Evidence, Visits};
@@ -77,7 +78,7 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
         progress: &'g (dyn Fn(Progress) + Sync),
     ) -> Self {
         Self {
-            judge: Judge::new(ground),
+            judge: Judge::new(ground, settings.effort),
             ground,
             settings,
             progress,
@@ -111,6 +112,7 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
                 Step::Sprout(round) => self.sprout(base, round, starts),
                 Step::Climb(stage) => self.climb(base, stage),
                 Step::Attempted => self.again(base),
+                Step::Detour(detour) => self.detour(base, detour),
                 Step::Refine(stage) => self.refine(base, stage),
                 Step::Done => (base, Step::Done),
             };

@@ -1,6 +1,8 @@
 //! Races: trees against another on common seeds that nothing was chosen by before.
 
 use super::ground::{self, Ground};
+use crate::ir::Id;
+use crate::ir::law::Behavior;
 use crate::ir::tree::Node;
 use crate::learn::process::World;
 use crate::learn::simulated::Purpose;
@@ -13,6 +15,8 @@ use serde::{Deserialize, Serialize};
 const STAGES: [(usize, usize); 4] = [(2, 14), (8, 6), (24, 3), (64, 2)];
 /// The episodes of the last stage where harm is dear and was met: it is rare.
 const RARE: usize = 160;
+/// The least effort that is not spared.
+pub const ENOUGH: u64 = 1_000_000;
 /// The ticks that an episode of a stage should have at least, on average.
 const LENGTH: u64 = 1000;
 /// A tree leaves a race when its gain is below zero by this many standard errors.
@@ -23,6 +27,11 @@ const CHEAP: f64 = 1.0;
 /// What it costs where a tree is to be taken.
 const DEAR: f64 = 20.0;
 
+/// The part of its ticks in which a tree does what it has to use.
+const USED: f64 = 0.03;
+/// For each stage of a race without a base, the episodes up to which its trees play, and the most that stay after it.
+const WITHOUT_BASE: [(usize, usize); 3] = [(2, 12), (8, 4), (24, 1)];
+
 /// What a tree is charged for in a race.
 #[derive(Clone, Copy, Debug)]
 pub struct Terms {
@@ -30,17 +39,33 @@ pub struct Terms {
     pub price: f64,
     /// What an episode with harm costs, in returns.
     pub harm: f64,
+    /// A behaviour that it has to use.
+    pub kept: Option<Id<Behavior>>,
 }
 
 impl Terms {
     /// Those of a search that goes on.
     pub fn searching(price: f64) -> Self {
-        Self { price, harm: CHEAP }
+        Self {
+            price,
+            harm: CHEAP,
+            kept: None,
+        }
     }
 
     /// Those of a search whose tree is taken.
     pub fn taking(price: f64) -> Self {
-        Self { price, harm: DEAR }
+        Self {
+            price,
+            harm: DEAR,
+            kept: None,
+        }
+    }
+
+    /// Whether a tree has used what it has to use.
+    fn allow(&self, entrant: &Entrant) -> bool {
+        let used = |kept| entrant.contender.driven(kept) >= USED;
+        self.kept.is_none_or(used)
     }
 }
 
@@ -82,13 +107,16 @@ pub struct Judge<'g, 'w, W> {
     pub ground: &'g Ground<'w, W>,
     /// What was seen so far.
     pub seen: Seen,
+    /// Whether the effort is so small that no race begins with many episodes.
+    sparing: bool,
 }
 
 impl<'g, 'w, W: World> Judge<'g, 'w, W> {
-    /// One that has not judged.
-    pub fn new(ground: &'g Ground<'w, W>) -> Self {
+    /// One that has not judged, with so many ticks to spend.
+    pub fn new(ground: &'g Ground<'w, W>, effort: u64) -> Self {
         Self {
             ground,
+            sparing: effort < ENOUGH,
             seen: Seen {
                 ticks: 0,
                 races: 0,
@@ -168,6 +196,26 @@ impl<'g, 'w, W: World> Judge<'g, 'w, W> {
         gain.mean + HOPELESS * error(&gain).max(0.2 * least) > 0.0
     }
 
+    /// The best of these trees on these terms.
+    pub fn best(&mut self, trees: &[Node], terms: Terms) -> Option<Entrant> {
+        let race = self.fresh();
+        let trials = self.ground.trials(Purpose::Grow, race);
+        let ready = trees.iter().filter_map(|root| self.entrant(&trials, root));
+        let mut entrants: Vec<Entrant> = ready.collect();
+        for (episodes, stay) in WITHOUT_BASE {
+            let episodes = self.scaled(episodes);
+            self.play(&trials, &mut entrants, episodes, None);
+            entrants.retain(|entrant| terms.allow(entrant));
+            let worth = |entrant: &Entrant| {
+                let harm = terms.harm * entrant.scale() * self.harm_rate(entrant);
+                entrant.contender.returns().mean - harm - terms.price * entrant.nodes as f64
+            };
+            entrants.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
+            entrants.truncate(stay);
+        }
+        entrants.into_iter().next()
+    }
+
     /// The best of these trees that is surely better than the base on these terms.
     pub fn race(&mut self, base: &Node, trees: Vec<Node>, terms: Terms) -> Option<Entrant> {
         let race = self.fresh();
@@ -179,12 +227,18 @@ impl<'g, 'w, W: World> Judge<'g, 'w, W> {
         if self.seen.harmed && terms.harm > CHEAP {
             stages.push((RARE, 2));
         }
-        for (episodes, stay) in stages {
+        // Stages that need not send anybody away are left out: few episodes may send away the best.
+        let last = stages.len().saturating_sub(1);
+        let due = stages.into_iter().enumerate();
+        for (number, (episodes, stay)) in due {
+            if number < last && entrants.len() <= stay && !self.sparing {
+                continue;
+            }
             let episodes = self.scaled(episodes);
             self.play(&trials, &mut base, episodes, None);
             let base = base.first()?;
             self.play(&trials, &mut entrants, episodes, Some(base));
-            entrants.retain(|entrant| self.hopes(entrant, base, terms));
+            entrants.retain(|entrant| self.hopes(entrant, base, terms) && terms.allow(entrant));
             let gain = |entrant: &Entrant| self.gain(entrant, base, terms).mean;
             entrants.sort_by(|a, b| gain(b).total_cmp(&gain(a)));
             entrants.truncate(stay);

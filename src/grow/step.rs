@@ -3,6 +3,8 @@
 use super::evidence::{Evidence, Visits};
 use super::grower::Visited;
 use super::race::Seen;
+use crate::ir::Id;
+use crate::ir::law::Behavior;
 use crate::ir::tree::Node;
 use crate::learn::process::Key;
 use crate::random::Random;
@@ -37,6 +39,8 @@ pub(super) enum Step {
     Sprout(usize),
     /// It has ended an attempt with the base.
     Attempted,
+    /// It changes a tree beside the base.
+    Detour(Detour),
     /// It changes the base.
     Climb(Stage),
     /// It looks for smaller trees that cost something.
@@ -54,6 +58,21 @@ pub(super) struct Attempts {
     pub(super) begun: u64,
     /// What came of those before: the best trees of their time, the best one last.
     pub(super) found: Vec<Vec<Visited>>,
+}
+
+/// Changes of a tree beside the best one.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(super) struct Detour {
+    /// The behaviours that were put into the best tree so far, by their numbers.
+    pub(super) tried: Vec<usize>,
+    /// The tree; none before the first and between two.
+    pub(super) tree: Option<Node>,
+    /// The behaviour that it must keep.
+    pub(super) kept: Option<Id<Behavior>>,
+    /// The ticks that had been simulated when it began.
+    pub(super) begun: u64,
+    /// How far it has come.
+    pub(super) stage: Stage,
 }
 
 /// The trees that cover the base so far.

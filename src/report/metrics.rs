@@ -8,6 +8,7 @@ use super::{grown, words};
 use crate::ir::{Name, task};
 use crate::learn::agreement::Disputed;
 use crate::learn::binomial::upper95;
+use crate::learn::improve::Improved;
 use crate::learn::statistics::Summary;
 use crate::learn::train::Counts;
 use crate::policy::Minterm;
@@ -43,6 +44,8 @@ struct Metrics<'a> {
     seed: Option<u64>,
     #[serde(flatten)]
     counts: Counts,
+    /// What simulation changed in the policy, and the ticks that it took.
+    improved: Improved,
     roll_outs: u64,
     method: Method,
     care: Care,
@@ -193,6 +196,7 @@ impl<'a> Writer<'a> {
             learning: experiment.learner.method,
             seed: run.map(|run| run.seed),
             counts: run.map_or_else(Counts::default, |run| run.counts),
+            improved: results.improved,
             roll_outs: request.roll_outs,
             method: request.method,
             care: request.care,

@@ -1,6 +1,8 @@
 //! Trees compared on the same seeds.
 
 use super::trace::{Paths, Recorded, Trace};
+use crate::ir::Id;
+use crate::ir::law::Behavior;
 use crate::ir::tree::{Atom, Node};
 use crate::learn::episode::{Episode, play as play_episode};
 use crate::learn::process::World;
@@ -59,6 +61,13 @@ impl Contender {
     pub fn length(&self) -> u64 {
         let ticks: u64 = self.each(|episode| episode.ticks).into_iter().sum();
         ticks.checked_div(self.episodes() as u64).unwrap_or(0)
+    }
+
+    /// The part of its ticks in which a behaviour was ticked and did not fail.
+    pub fn driven(&self, behavior: Id<Behavior>) -> f64 {
+        let driven = self.played.iter().map(|p| p.trace.driven(behavior));
+        let ticks: u64 = self.each(|episode| episode.ticks).into_iter().sum();
+        driven.sum::<u64>() as f64 / ticks.max(1) as f64
     }
 
     /// The mean return.

@@ -29,6 +29,18 @@ pub struct Trace {
     met: Vec<(Met, u64)>,
 }
 
+impl Trace {
+    /// The ticks in which a behaviour was ticked and did not fail.
+    pub fn driven(&self, behavior: Id<Behavior>) -> u64 {
+        let drives = |met: &Met| {
+            let mut calls = met.calls.iter();
+            calls.any(|(id, status)| *id == behavior && *status != Status::Failure)
+        };
+        let met = self.met.iter().filter(|(met, _)| drives(met));
+        met.map(|(_, ticks)| ticks).sum()
+    }
+}
+
 /// A tree that is recorded.
 #[derive(Clone, Debug)]
 pub struct Recorded {

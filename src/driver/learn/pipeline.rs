@@ -101,7 +101,7 @@ pub fn learn<'e, W: World>(
         Shape::Grown => Some(grown(
             experiment,
             (exact, &policy),
-            (options, seed),
+            (options, seed, grow::growing(options.effort, &improved)),
             progress,
         )?),
     };
@@ -162,7 +162,7 @@ fn publish(keeper: &dyn Keeper, policy: &Policy, program: &Program) {
 fn grown<W: World>(
     experiment: &Experiment<W>,
     (exact, policy): (&Node, &Policy),
-    (options, seed): (&Options, u64),
+    (options, seed, effort): (&Options, u64, u64),
     progress: &(dyn Fn(Stage) + Sync),
 ) -> Result<Grown, Unlearned> {
     let Experiment {
@@ -190,7 +190,7 @@ fn grown<W: World>(
     };
     let requirements = grow::requirements(program, task);
     let settings = grow::Settings {
-        effort: grow::growing(options.effort),
+        effort,
         requirements: &requirements,
         choice: options.choice,
         front: options.front || options.choice != Choice::Knee,

@@ -4,8 +4,8 @@
 //! 45 nodes and of 150. So there are several, each of which knows what was counted before, and what came of them races.
 
 use super::{Grower, Visited};
-use crate::grow::race::Terms;
-use crate::grow::step::{Stage, Step};
+use crate::grow::race::{ENOUGH, Terms};
+use crate::grow::step::{Detour, Step};
 use crate::ir::tree::Node;
 use crate::learn::process::World;
 use std::mem;
@@ -13,8 +13,6 @@ use std::mem;
 /// The attempts, and the part of the effort that they take.
 const ATTEMPTS: usize = 2;
 const ATTEMPTED: f64 = 0.7;
-/// The least effort that is divided among them.
-const ENOUGH: u64 = 1_000_000;
 /// The trees that are kept of an attempt that was not the best.
 const KEPT: usize = 3;
 
@@ -79,6 +77,6 @@ impl<W: World> Grower<'_, '_, '_, W> {
             trees.into_iter().skip(from)
         });
         self.visited = kept.collect();
-        (base, Step::Climb(Stage::default()))
+        (base, Step::Detour(Detour::default()))
     }
 }

@@ -20,7 +20,7 @@ const CLIMBS: [(f64, bool); 3] = [(1.0, false), (0.5, false), (1.0, true)];
 /// Races without a better tree before a stage ends.
 const FAILURES: usize = 3;
 /// The part of the effort that is kept for choosing and measuring.
-const KEPT: f64 = 0.2;
+const KEPT: f64 = 0.12;
 /// The prices, in parts of a node's, at which smaller trees are looked for that cost something.
 const DEARER: [f64; 4] = [3.0, 10.0, 30.0, 100.0];
 
@@ -91,7 +91,8 @@ impl<W: World> Grower<'_, '_, '_, W> {
         Some(found.map_or(single, |found| found.root))
     }
 
-    fn proposals(
+    /// Trees one change away: those of which the counts promise most, and others.
+    pub(super) fn proposals(
         &mut self,
         base: &Node,
         price: f64,
