@@ -259,16 +259,21 @@ fn chosen<W: World>(
 }
 
 /// The place of the tree that returns most for its nodes and its harm, of those that are as good as the exact one without
-/// regard to nodes.
+/// regard to nodes, with and without regard to harm.
 fn knee<W: World>(
     judge: &Judge<'_, '_, W>,
     safe: &[(usize, &Entrant)],
     (exact, base): (usize, &Entrant),
     price: f64,
 ) -> usize {
+    // Less harm alone does not make a tree as good: one that does nothing has none.
     let as_good = |entrant: &Entrant| {
-        let gain = judge.gain(entrant, base, Terms::taking(0.0));
-        gain.mean >= -error(&gain)
+        [Terms::taking(0.0), Terms::free()]
+            .into_iter()
+            .all(|terms| {
+                let gain = judge.gain(entrant, base, terms);
+                gain.mean >= -error(&gain)
+            })
     };
     let good = safe.iter().filter(|(_, entrant)| as_good(entrant));
     let gains = good.map(|(at, entrant)| {

@@ -62,6 +62,15 @@ impl Terms {
         }
     }
 
+    /// Those of returns alone.
+    pub fn free() -> Self {
+        Self {
+            price: 0.0,
+            harm: 0.0,
+            kept: None,
+        }
+    }
+
     /// Whether a tree has used what it has to use.
     fn allow(&self, entrant: &Entrant) -> bool {
         let used = |kept| entrant.contender.driven(kept) >= USED;
@@ -227,13 +236,11 @@ impl<'g, 'w, W: World> Judge<'g, 'w, W> {
         if self.seen.harmed && terms.harm > CHEAP {
             stages.push((RARE, 2));
         }
-        // Stages that need not send anybody away are left out: few episodes may send away the best.
-        let last = stages.len().saturating_sub(1);
-        let due = stages.into_iter().enumerate();
-        for (number, (episodes, stay)) in due {
-            if number < last && entrants.len() <= stay && !self.sparing {
-                continue;
-            }
+        // A tree that races alone is not sent away after a few episodes.
+        if let ([_], Some(last), false) = (entrants.as_slice(), stages.last(), self.sparing) {
+            stages = vec![*last];
+        }
+        for (episodes, stay) in stages {
             let episodes = self.scaled(episodes);
             self.play(&trials, &mut base, episodes, None);
             let base = base.first()?;
