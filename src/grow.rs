@@ -154,6 +154,9 @@ fn improve_from<W: World>(
     }
 }
 
+/// The part of the effort of a search that is kept for choosing among its trees, and for testing the one that is chosen.
+const CHOOSING: f64 = 0.2;
+
 /// The part of the effort of learning that a search for a tree gets, with what the policy has left of its own.
 pub fn growing(effort: u64, improved: &Improved) -> u64 {
     let policy = share(effort, ITERATING + IMPROVING);
@@ -191,7 +194,11 @@ pub fn grow<W: World>(
         return Ok(grown);
     }
     let part = Part::new(keeper, "tree");
-    let found = Grower::new(ground, settings, progress).run(starts, &part)?;
+    let searching = Settings {
+        effort: share(settings.effort, 1.0 - CHOOSING),
+        ..settings.clone()
+    };
+    let found = Grower::new(ground, &searching, progress).run(starts, &part)?;
     let grown = front::choose(found, starts, settings)?;
     whole.save(|| &grown);
     Ok(grown)

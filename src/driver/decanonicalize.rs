@@ -233,6 +233,7 @@ fn called(name: &str) -> String {
 /// The tree is refuted, which is a bug of btc.
 pub fn decanonicalize(asked: Asked, options: &Options) -> Result<Made, Refused> {
     let wanted = decanonicalise::Options {
+        tight: true,
         method: options.method,
         care: Care::Seen,
         order: options.order,

@@ -6,14 +6,19 @@ use super::ground::Ground;
 use crate::ir::tree::Node;
 use crate::learn::process::{Key, World};
 use crate::policy::{Minterm, Policy, Row};
-use crate::tree::decanonicalise::{Options, decanonicalise};
+use crate::tree::decanonicalise::{Options, Order, decanonicalise};
+use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 /// The effort of the search for one of many trees.
 const EFFORT: u64 = 1;
 
-/// The smallest tree that is found for these decisions alone; `None` without any.
-pub fn tree<W: World>(ground: &Ground<W>, kept: &FxHashMap<Key, usize>) -> Option<Node> {
+/// The orders of units: in the others a tree is larger, but goes on otherwise where nothing was decided.
+const ORDERS: [Order; 3] = [Order::Learned, Order::Rarest, Order::Given];
+
+/// Trees for these decisions alone, the smallest that is found first; none without any. Their rules stand one after another
+/// where they can, so that a change in one of them does not reach the others.
+pub fn trees<W: World>(ground: &Ground<W>, kept: &FxHashMap<Key, usize>) -> Vec<Node> {
     let mut rows: Vec<Row> = kept
         .iter()
         .filter_map(|(key, choice)| {
@@ -34,13 +39,17 @@ pub fn tree<W: World>(ground: &Ground<W>, kept: &FxHashMap<Key, usize>) -> Optio
         rows,
         ..Policy::default()
     };
-    let options = Options {
-        effort: EFFORT,
-        ..Options::default()
+    let in_order = |order: Order| {
+        let options = Options {
+            effort: EFFORT,
+            order,
+            tight: false,
+            ..Options::default()
+        };
+        let found = decanonicalise(&policy, &options).ok()?;
+        Some(found.root)
     };
-    decanonicalise(&policy, &options)
-        .ok()
-        .map(|found| found.root)
+    ORDERS.into_par_iter().filter_map(in_order).collect()
 }
 
 /// The decisions of `wanted` that are worth most against what a tree does, at most so many: by key, with the choice.

@@ -7,7 +7,7 @@ use super::ground::Ground;
 use crate::learn::discount::Discounting;
 use crate::learn::episode::Controller;
 use crate::learn::process::{End, Key, World};
-use crate::learn::solve::Problem;
+use crate::learn::solve::{Problem, Solution};
 use crate::world::Start;
 use rustc_hash::FxHashMap;
 use serde::{Deserialize, Serialize};
@@ -210,12 +210,13 @@ impl Evidence {
         }
     }
 
-    /// A problem of these counts with each reward less by so many standard errors of what the choice is worth.
-    pub fn cautious(&self, problem: &Problem, care: f64, sight: Sight) -> Problem {
+    /// A problem of these counts with each reward less by so many standard errors of what the choice is worth, and its solution.
+    pub fn cautious(&self, problem: &Problem, care: f64, sight: Sight) -> (Problem, Solution) {
         let mut cautious = problem.clone();
+        let mut solution = cautious.solve();
         for _ in 0..CAUTIONS {
-            let values = cautious.solve().values;
-            cautious.unknown = problem.low(&values);
+            let values = &solution.values;
+            cautious.unknown = problem.low(values);
             let worth = |row: usize| match problem.states.get(row) {
                 Some(state) if !state.is_empty() => values.get(row).copied(),
                 _ => None,
@@ -232,8 +233,9 @@ impl Evidence {
                     outlook.reward = plain.reward - care * error;
                 }
             }
+            solution = cautious.solve_from(solution);
         }
-        cautious
+        (cautious, solution)
     }
 
     /// What each choice is worth under the best policy of the counts, with the variance of one decision, by row and

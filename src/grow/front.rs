@@ -18,7 +18,7 @@ const STAGES: [(usize, usize); 3] = [(60, 7), (160, 3), (500, 3)];
 /// The standard errors by which a tree does surely more harm than another.
 const SURE: f64 = 2.0;
 /// The most trees that are looked at for the front.
-const LOOKED_AT: usize = 16;
+const LOOKED_AT: usize = 12;
 /// Fresh episodes that measure the tree that was chosen.
 const FRESH: usize = 500;
 /// The effort that these numbers are for; for less of it they are less.
@@ -27,6 +27,10 @@ const WHOLE: f64 = 36e6;
 const FEWEST: usize = 40;
 /// A tree that is proved gives way to one that is only tested for a gain of so many prices of a node.
 const PROVED: f64 = 3.4;
+
+/// What a tree may return less than one with at least so many times its nodes, as a part of what that returns.
+const LESS: f64 = 0.01;
+const LARGER: usize = 2;
 
 /// Which tree of the front is wanted.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -266,13 +270,18 @@ fn knee<W: World>(
     (exact, base): (usize, &Entrant),
     price: f64,
 ) -> usize {
+    let mean = |entrant: &Entrant| entrant.contender.returns().mean;
     // Less harm alone does not make a tree as good: one that does nothing has none.
     let as_good = |entrant: &Entrant| {
+        let less = match entrant.nodes * LARGER <= base.nodes {
+            true => LESS * mean(base).abs(),
+            false => 0.0,
+        };
         [Terms::taking(0.0), Terms::free()]
             .into_iter()
             .all(|terms| {
                 let gain = judge.gain(entrant, base, terms);
-                gain.mean >= -error(&gain)
+                gain.mean >= -error(&gain).max(less)
             })
     };
     let good = safe.iter().filter(|(_, entrant)| as_good(entrant));

@@ -258,8 +258,9 @@ impl<W: World> Iteration<'_, '_, W> {
     /// The best decisions that do not fail at once, by the counts, in place of those that do.
     fn acting(&self, evidence: &Evidence, mut choices: Choices) -> Choices {
         let problem = evidence.problem(Sight::Far);
-        let policy = evidence.cautious(&problem, 1.0, Sight::Far).solve().policy;
-        let rows = evidence.keys().iter().zip(&problem.states).zip(&policy);
+        let (_, solution) = evidence.cautious(&problem, 1.0, Sight::Far);
+        let rows = evidence.keys().iter().zip(&problem.states);
+        let rows = rows.zip(&solution.policy);
         for (row, ((key, state), taken)) in rows.enumerate() {
             let Some(now) = choices.get_mut(key) else {
                 continue;
@@ -281,32 +282,16 @@ impl<W: World> Iteration<'_, '_, W> {
         random: &mut Random,
     ) -> Vec<Candidate> {
         let mut found: Vec<Choices> = Vec::new();
-        for sight in [Sight::Far, Sight::Learner] {
-            for doubt in DOUBTS {
-                let problem = evidence.doubted(sight, doubt);
-                for care in CARES {
-                    let cautious = evidence.cautious(&problem, care, sight);
-                    let policy = cautious.solve().policy;
-                    let rows = evidence.keys().iter().zip(&cautious.states).zip(&policy);
-                    let mut changes: Vec<(Key, usize)> = rows
-                        .filter_map(|((key, state), taken)| {
-                            let (choice, _) = state.get((*taken)?)?;
-                            let new = now.get(key) != Some(choice);
-                            (new && self.is_known(evidence, *key)).then_some((*key, *choice))
-                        })
-                        .collect();
-                    changes.sort_unstable();
-                    // All of them, or a few.
-                    let all = f64::from(u8::from(random.chance(0.25)));
-                    let few = |random: &mut Random| 0.03 + 0.6 * random.unit() * random.unit();
-                    for part in [all, few(random), few(random)] {
-                        let mut mixed = now.clone();
-                        let taken = changes.iter().filter(|_| random.chance(part));
-                        mixed.extend(taken.copied());
-                        if mixed != *now && !found.contains(&mixed) {
-                            found.push(mixed);
-                        }
-                    }
+        for changes in self.changes(evidence, now) {
+            // All of them, or a few.
+            let all = f64::from(u8::from(random.chance(0.25)));
+            let few = |random: &mut Random| 0.03 + 0.6 * random.unit() * random.unit();
+            for part in [all, few(random), few(random)] {
+                let mut mixed = now.clone();
+                let taken = changes.iter().filter(|_| random.chance(part));
+                mixed.extend(taken.copied());
+                if mixed != *now && !found.contains(&mixed) {
+                    found.push(mixed);
                 }
             }
         }
@@ -315,6 +300,30 @@ impl<W: World> Iteration<'_, '_, W> {
             played: Vec::new(),
         });
         candidates.collect()
+    }
+
+    /// What is decided otherwise by the counts, near-sighted and far-sighted, doubted in several degrees, with more care and less.
+    fn changes(&self, evidence: &Evidence, now: &Choices) -> Vec<Vec<(Key, usize)>> {
+        let sights = [Sight::Far, Sight::Learner].into_iter();
+        let doubted = sights.flat_map(|sight| DOUBTS.map(|doubt| (sight, doubt)));
+        let ways = doubted.flat_map(|(sight, doubt)| CARES.map(|care| (sight, doubt, care)));
+        let ways: Vec<(Sight, f64, f64)> = ways.collect();
+        let changes = ways.into_par_iter().map(|(sight, doubt, care)| {
+            let problem = evidence.doubted(sight, doubt);
+            let (cautious, solution) = evidence.cautious(&problem, care, sight);
+            let rows = evidence.keys().iter().zip(&cautious.states);
+            let mut changes: Vec<(Key, usize)> = rows
+                .zip(&solution.policy)
+                .filter_map(|((key, state), taken)| {
+                    let (choice, _) = state.get((*taken)?)?;
+                    let new = now.get(key) != Some(choice);
+                    (new && self.is_known(evidence, *key)).then_some((*key, *choice))
+                })
+                .collect();
+            changes.sort_unstable();
+            changes
+        });
+        changes.collect()
     }
 
     fn is_known(&self, evidence: &Evidence, key: Key) -> bool {

@@ -17,8 +17,11 @@ const STAGES: [(usize, usize); 4] = [(2, 14), (8, 6), (24, 3), (64, 2)];
 const RARE: usize = 160;
 /// The least effort that is not spared.
 pub const ENOUGH: u64 = 1_000_000;
-/// The ticks that an episode of a stage should have at least, on average.
-const LENGTH: u64 = 1000;
+/// The ticks that an episode of a stage should have, on average.
+const LENGTH: [u64; 2] = [1000, 2000];
+/// The most by which shorter episodes are more, and the least part to which longer ones are fewer.
+const SHORT: u64 = 8;
+const LONG: usize = 2;
 /// A tree leaves a race when its gain is below zero by this many standard errors.
 const HOPELESS: f64 = 2.0;
 /// What an episode with harm costs in a search, in returns: little, since a tree that returns much and does harm at times is
@@ -150,10 +153,13 @@ impl<'g, 'w, W: World> Judge<'g, 'w, W> {
         })
     }
 
-    /// The episodes of a stage: more where they are short.
+    /// The episodes of a stage: more where they are short, fewer where they are long.
     pub fn scaled(&self, episodes: usize) -> usize {
-        let factor = LENGTH.div_ceil(self.seen.length.max(1)).clamp(1, 8);
-        episodes * factor as usize
+        let [short, long] = LENGTH;
+        let length = self.seen.length.max(1);
+        let more = short.div_ceil(length).clamp(1, SHORT) as usize;
+        let fewer = (episodes as u64 * long).div_ceil(length) as usize;
+        (episodes * more).min(fewer.max(episodes.div_ceil(LONG)))
     }
 
     /// Lets trees play up to a number of episodes.

@@ -63,6 +63,11 @@ const IMPROVEMENTS: usize = 200;
 /// The least gain that counts as better, above the noise of the elimination.
 const BETTER: f64 = 1e-9;
 
+/// While many states have a policy that still gets better: the change below which sweeps end, and the least gain that counts, in
+/// parts of the greatest value.
+const ROUGH: f64 = 1e-7;
+const ROUGHLY_BETTER: f64 = 1e-5;
+
 /// What may be left to come of the expected meetings of all states.
 const LEFT: f64 = 1e-3;
 
@@ -120,19 +125,40 @@ impl Problem {
 
     /// Policy iteration: evaluates exactly, takes what is better, until nothing is.
     pub fn solve(&self) -> Solution {
-        let mut policy = self.first();
-        let mut values = self.evaluate(&policy);
+        self.solve_from(Solution {
+            policy: self.first(),
+            values: vec![self.unknown; self.states.len()],
+        })
+    }
+
+    /// The same from the solution of a problem with the same states and choices.
+    pub fn solve_from(&self, near: Solution) -> Solution {
+        let Solution { mut policy, values } = near;
+        // Where states are many, values are rough until nothing seems better by them.
+        let mut rough = if self.states.len() > ELIMINATED {
+            ROUGH
+        } else {
+            0.0
+        };
+        let mut values = self.evaluate_from(&policy, values, rough);
         for _ in 0..IMPROVEMENTS {
-            if !self.improve(&mut policy, &values) {
-                break;
+            let better = match rough > 0.0 {
+                true => ROUGHLY_BETTER * largest(&values),
+                false => BETTER,
+            };
+            if !self.improve(&mut policy, &values, better) {
+                if rough == 0.0 {
+                    break;
+                }
+                rough = 0.0;
             }
-            values = self.evaluate_from(&policy, values);
+            values = self.evaluate_from(&policy, values, rough);
         }
         Solution { policy, values }
     }
 
-    /// Takes the best choice wherever it is better than the one that is taken; whether there was any.
-    fn improve(&self, policy: &mut [Option<usize>], values: &[f64]) -> bool {
+    /// Takes the best choice wherever it is better by so much than the one that is taken; whether there was any.
+    fn improve(&self, policy: &mut [Option<usize>], values: &[f64], better: f64) -> bool {
         let mut improved = false;
         for (choices, taken) in self.states.iter().zip(policy) {
             let Some(now) = taken else { continue };
@@ -140,10 +166,10 @@ impl Problem {
                 let found = choices.get(at);
                 found.map_or(f64::NEG_INFINITY, |(_, o)| self.worth(o, values))
             };
-            let mut best = worth(*now) + BETTER;
+            let mut best = worth(*now) + better;
             for at in 0..choices.len() {
                 if worth(at) > best {
-                    (best, *now) = (worth(at) + BETTER, at);
+                    (best, *now) = (worth(at) + better, at);
                     improved = true;
                 }
             }
@@ -154,14 +180,14 @@ impl Problem {
     /// The value of every state under a policy, v = r + P v: by elimination, or by sweeps where there are too many
     /// states for it or the equations have no single solution, as without a discount and without an end.
     pub fn evaluate(&self, policy: &[Option<usize>]) -> Vec<f64> {
-        self.evaluate_from(policy, vec![self.unknown; self.states.len()])
+        self.evaluate_from(policy, vec![self.unknown; self.states.len()], 0.0)
     }
 
-    /// The same, where sweeps are needed from values that may be near.
-    fn evaluate_from(&self, policy: &[Option<usize>], values: Vec<f64>) -> Vec<f64> {
+    /// The same, where sweeps are needed from values that may be near, until changes are below this part of the greatest value.
+    fn evaluate_from(&self, policy: &[Option<usize>], values: Vec<f64>, settled: f64) -> Vec<f64> {
         let taken = |state| policy.get(state).copied().flatten();
         if self.states.len() > ELIMINATED {
-            return self.settle(taken, values);
+            return self.settle(taken, values, settled);
         }
         self.eliminate(policy)
             .unwrap_or_else(|| self.sweep_all(taken, vec![self.unknown; self.states.len()]))
@@ -226,6 +252,11 @@ impl Problem {
         self.outlook(state, taken)
             .map_or(0.0, |outlook| outlook.back(state))
     }
+}
+
+/// The greatest of these values, whatever its sign.
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most: f64, v| most.max(v.abs()))
 }
 
 #[cfg(test)]

@@ -75,6 +75,9 @@ pub struct Options {
     /// The work that the search may do, in units of about a tenth of a second. It is counted in words of sets of rows that
     /// are read, never timed.
     pub effort: u64,
+    /// Whether rules stand in groups behind a common guard, and small parts are solved exactly. It makes trees smaller, but
+    /// a change in such a tree reaches further.
+    pub tight: bool,
 }
 
 impl Default for Options {
@@ -84,6 +87,7 @@ impl Default for Options {
             care: Care::default(),
             order: Order::default(),
             effort: 20,
+            tight: true,
         }
     }
 }
@@ -157,7 +161,7 @@ pub fn decanonicalise(policy: &Policy, options: &Options) -> Result<Decanonicali
                 unfinished: Vec::new(),
             }
         }
-        (Method::Search, Order::Learned) => search::tree(&problem, &account),
+        (Method::Search, Order::Learned) => search::tree(&problem, options.tight, &account),
         (Method::Search, order) => Found {
             tree: search::ordered(&problem, order, &account),
             paper: None,

@@ -15,12 +15,11 @@ use rustc_hash::FxHashSet;
 const BEST: usize = 20;
 const RANDOM: usize = 20;
 const MEMORIES: usize = 8;
-/// The stages of climbing: the part of a node's price, and whether trees only get smaller.
-const CLIMBS: [(f64, bool); 3] = [(1.0, false), (0.5, false), (1.0, true)];
+/// The stages of climbing: the part of a node's price, whether trees only get smaller, and the part of the effort after which
+/// the stage ends.
+const CLIMBS: [(f64, bool, f64); 3] = [(1.0, false, 0.78), (0.5, false, 0.94), (1.0, true, 1.0)];
 /// Races without a better tree before a stage ends.
 const FAILURES: usize = 3;
-/// The part of the effort that is kept for choosing and measuring.
-const KEPT: f64 = 0.12;
 /// The prices, in parts of a node's, at which smaller trees are looked for that cost something.
 const DEARER: [f64; 4] = [3.0, 10.0, 30.0, 100.0];
 
@@ -30,10 +29,10 @@ impl<W: World> Grower<'_, '_, '_, W> {
         if self.is_attempting() && (stage.failures >= FAILURES || self.has_spent(1.0)) {
             return (base, Step::Attempted);
         }
-        let Some((factor, only)) = CLIMBS.get(stage.number) else {
+        let Some((factor, only, until)) = CLIMBS.get(stage.number) else {
             return (base, Step::Refine(Stage::default()));
         };
-        if stage.failures >= FAILURES || self.spent(1.0 - KEPT) {
+        if stage.failures >= FAILURES || self.spent(*until) {
             return (base, Step::Climb(Stage::of(stage.number + 1)));
         }
         self.report(&base);

@@ -4,6 +4,7 @@ use super::{Grower, add};
 use crate::grow::cover;
 use crate::grow::evidence::Sight;
 use crate::grow::field::{Aim, Field};
+use crate::grow::race::Terms;
 use crate::grow::step::{Cover, Step};
 use crate::ir::tree::Node;
 use crate::learn::process::World;
@@ -13,6 +14,8 @@ use rustc_hash::FxHashMap;
 /// The fewest nodes of a tree that is covered by smaller ones, and the part of an attempt after which no more are made.
 const COVERED: usize = 20;
 const COVERS: f64 = 0.2;
+/// The most nodes of a base: to change a larger one takes too long, so the best tree that covers it takes its place, better or not.
+const LARGE: usize = 150;
 /// The races of the trees that cover another.
 const RUNS: usize = 2;
 
@@ -34,15 +37,27 @@ impl<W: World> Grower<'_, '_, '_, W> {
         (base, Step::Cover(cover))
     }
 
-    /// One more tree that decides as the base does where it matters, from few of its decisions to all; then a race.
+    /// More trees that decide as the base does where it matters, from few of its decisions to all; then a race.
     pub(super) fn cover(&mut self, base: Node, mut cover: Cover) -> (Node, Step) {
         if !self.has_spent(COVERS) && self.covers_more(&base, &mut cover) {
             return (base, Step::Cover(cover));
         }
-        (self.best_of(base, cover.trees, RUNS), Step::Sprout(0))
+        let mut best = self.best_of(base, cover.trees.clone(), RUNS);
+        if Size::of(&best).nodes > LARGE {
+            best = self.best_small(cover.trees).unwrap_or(best);
+        }
+        (best, Step::Sprout(0))
     }
 
-    /// Adds a tree, if there is one more to add.
+    /// The best of these trees that are not large.
+    fn best_small(&mut self, mut trees: Vec<Node>) -> Option<Node> {
+        trees.retain(|tree| Size::of(tree).nodes <= LARGE);
+        let terms = Terms::searching(self.price);
+        let found = self.judge.best(&trees, terms)?;
+        Some(self.taken(found))
+    }
+
+    /// Adds trees, if there are more to add.
     fn covers_more(&mut self, base: &Node, cover: &mut Cover) -> bool {
         self.report(&cover.tree);
         let aim = Aim::Of(base);
@@ -54,10 +69,11 @@ impl<W: World> Grower<'_, '_, '_, W> {
         if cover.kept.len() == before {
             return false;
         }
-        let Some(next) = cover::tree(self.ground, &cover.kept) else {
+        let next = cover::trees(self.ground, &cover.kept);
+        let Some(smallest) = next.first() else {
             return false;
         };
-        cover.tree = next;
+        cover.tree = smallest.clone();
         if Size::of(&cover.tree).nodes * 5 > Size::of(base).nodes * 4 {
             return false;
         }
@@ -65,8 +81,10 @@ impl<W: World> Grower<'_, '_, '_, W> {
         cover.visits.values_mut().for_each(|weight| *weight *= 0.6);
         let met = self.collect(&cover.tree, 0.05);
         add(&mut cover.visits, met);
-        if !cover.trees.contains(&cover.tree) {
-            cover.trees.push(cover.tree.clone());
+        for tree in next {
+            if !cover.trees.contains(&tree) {
+                cover.trees.push(tree);
+            }
         }
         true
     }

@@ -1,6 +1,6 @@
 //! Values of a policy by sweeps over the states, each from the newest values of the others.
 
-use super::Problem;
+use super::{Problem, largest};
 use nalgebra::{DMatrix, DVector};
 
 /// The most sweeps, and the change below which they end.
@@ -27,9 +27,9 @@ impl Problem {
         values: Vec<f64>,
         unknown: f64,
     ) -> Vec<f64> {
-        let largest = values.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+        let near = NEAR * largest(&values);
         let taken = |state| policy.get(state).copied().flatten();
-        self.sweep(taken, values, unknown, (NEAR_SWEEPS, NEAR * largest))
+        self.sweep(taken, values, unknown, (NEAR_SWEEPS, near))
     }
 
     /// Values by sweeps as they are, at most [`SWEEPS`] of them.
@@ -77,13 +77,14 @@ impl Problem {
         change
     }
 
-    /// Values by sweeps until nothing changes. Where little is discounted, what is left to change shrinks by a small part in
+    /// Values by sweeps until nothing changes, or less than this part of the greatest value. Where little is discounted, what is left to change shrinks by a small part in
     /// each sweep; so after every few sweeps comes a step ahead, to where their changes would cancel best (reduced rank
     /// extrapolation, Eddy 1979). A step that leads nowhere better is taken back.
     pub(super) fn settle(
         &self,
         taken: impl Fn(usize) -> Option<usize>,
         mut values: Vec<f64>,
+        settled: f64,
     ) -> Vec<f64> {
         let mut before = (f64::INFINITY, values.clone());
         for _ in 0..SWEEPS / AHEAD {
@@ -98,8 +99,7 @@ impl Problem {
                 }
                 seen.push(values.clone());
             }
-            let largest = values.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
-            if change < SETTLED.max(ROUNDING * largest) {
+            if change < SETTLED.max(settled.max(ROUNDING) * largest(&values)) {
                 break;
             }
             before = (change, values.clone());
@@ -137,7 +137,7 @@ fn ahead(seen: &[Vec<f64>]) -> Option<Vec<f64>> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Outlook, Problem};
+    use super::super::{Outlook, Problem, largest};
 
     /// States on a ring, each of which leads on, stays or leaps; little is lost on the way.
     fn ring(kept: f64) -> Problem {
@@ -166,8 +166,8 @@ mod tests {
             let policy = problem.first();
             let exact = problem.eliminate(&policy).unwrap();
             let taken = |state: usize| policy.get(state).copied().flatten();
-            let settled = problem.settle(taken, vec![0.0; exact.len()]);
-            let largest = exact.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+            let settled = problem.settle(taken, vec![0.0; exact.len()], 0.0);
+            let largest = largest(&exact);
             for (settled, exact) in settled.iter().zip(&exact) {
                 let apart = (settled - exact).abs() / largest;
                 assert!(apart < 1e-7, "{kept}: {settled} for {exact}");
@@ -180,7 +180,7 @@ mod tests {
         let problem = ring(1.0);
         let policy = problem.first();
         let taken = |state: usize| policy.get(state).copied().flatten();
-        let settled = problem.settle(taken, vec![0.0; 90]);
+        let settled = problem.settle(taken, vec![0.0; 90], 0.0);
         assert!(settled.iter().all(|value| value.is_finite()));
     }
 }

@@ -56,12 +56,12 @@ pub(super) fn held(problem: &Problem, account: &Account) -> Held {
     }
 }
 
-/// Trees that are right on all rows.
-pub(super) fn trees(problem: &Problem, held: &Held, account: &Account) -> Vec<Node> {
+/// Trees that are right on all rows, with groups if they are to be tight.
+pub(super) fn trees(problem: &Problem, held: &Held, tight: bool, account: &Account) -> Vec<Node> {
     let mut known = Known::default();
     if problem.policy.rows.len() <= WHOLE || problem.wide {
         let mut found = divided(problem, held, account);
-        found.extend(searched(problem, &mut known, account));
+        found.extend(searched(problem, &mut known, tight, account));
         return found;
     }
     let mut core = Core::first(problem);
@@ -72,7 +72,8 @@ pub(super) fn trees(problem: &Problem, held: &Held, account: &Account) -> Vec<No
     if let Some(lists) = &listed {
         let listed = |list: &List| Children::listed(problem, list).node();
         found.extend(lists.iter().map(listed));
-        found.extend(in_groups(problem, lists, &mut known, account).map(|(node, _)| node));
+        let grouped = tight.then(|| in_groups(problem, lists, &mut known, account));
+        found.extend(grouped.flatten().map(|(node, _)| node));
     }
     // A list of classes looks at a core of its own for each class.
     let minimiser = Minimiser::new(problem, account.part(3));
@@ -87,7 +88,7 @@ pub(super) fn trees(problem: &Problem, held: &Held, account: &Account) -> Vec<No
     while core.rows.count() <= SEARCHED {
         let policy = core.policy();
         let part = account.part(2);
-        let mut best = searched(&Problem::new(&policy), &mut known, &part);
+        let mut best = searched(&Problem::new(&policy), &mut known, tight, &part);
         account.settle(&part);
         best.sort_by_key(Size::of);
         best.truncate(TRIED);
@@ -233,13 +234,14 @@ impl<'a, 'p> Core<'a, 'p> {
 }
 
 /// Trees by all methods at once.
-fn searched(problem: &Problem, known: &mut Known, account: &Account) -> Vec<Node> {
+fn searched(problem: &Problem, known: &mut Known, tight: bool, account: &Account) -> Vec<Node> {
     let subunits = behaviors(problem);
     let part = account.part(2);
     let (columns, classes) = (problem.columns(), problem.classes());
     let ruled: Vec<List> = lists(columns, &classes, REACH, THOROUGH, known, &part);
     account.settle(&part);
-    let in_groups = in_groups(problem, &ruled, known, account);
+    let in_groups = tight.then(|| in_groups(problem, &ruled, known, account));
+    let in_groups = in_groups.flatten();
     let orders = [Order::Learned, Order::Given, Order::Rarest];
     let minimisers = orders.map(|_| Minimiser::new(problem, account.part(6)));
     let in_orders = minimisers.into_iter().zip(orders);

@@ -50,8 +50,8 @@ pub(super) fn ordered(problem: &Problem, order: Order, account: &Account) -> Opt
     smallest(problem, found)
 }
 
-/// The smallest tree that was found and proved.
-pub(super) fn tree(problem: &Problem, account: &Account) -> Found {
+/// The smallest tree that was found and proved, with groups and solved windows if it is to be tight.
+pub(super) fn tree(problem: &Problem, is_tight: bool, account: &Account) -> Found {
     let mut unfinished = Vec::new();
     let held = alone::held(problem, account);
     let mut trees = held.trees.clone();
@@ -81,7 +81,7 @@ pub(super) fn tree(problem: &Problem, account: &Account) -> Found {
         true => account.part(1),
         false => account.part(2),
     };
-    trees.extend(alone::trees(problem, &held, &half));
+    trees.extend(alone::trees(problem, &held, is_tight, &half));
     account.settle(&half);
     let parts: Vec<(&Vec<Subunit>, Account)> = with_memory
         .iter()
@@ -96,7 +96,11 @@ pub(super) fn tree(problem: &Problem, account: &Account) -> Found {
     if half.is_spent() || parts.iter().any(|(_, part)| part.is_spent()) {
         unfinished.push(Stage::Search);
     }
-    let mut tree = smallest(problem, tight(problem, trees, account));
+    let sized = match is_tight {
+        true => tightened(problem, trees, account),
+        false => sized(trees),
+    };
+    let mut tree = smallest(problem, sized);
     if tree.is_none() {
         // No partition of rows that leave atoms free.
         let minimiser = Minimiser::new(problem, Account::unlimited());
@@ -111,10 +115,14 @@ pub(super) fn tree(problem: &Problem, account: &Account) -> Found {
     }
 }
 
+fn sized(trees: Vec<Node>) -> Vec<(Size, Node)> {
+    let trees = trees.into_iter();
+    trees.map(|node| (Size::of(&node), node)).collect()
+}
+
 /// The trees with their sizes, and the smallest of them with smaller windows.
-fn tight(problem: &Problem, trees: Vec<Node>, account: &Account) -> Vec<(Size, Node)> {
-    let sized = |node: Node| (Size::of(&node), node);
-    let mut found: Vec<(Size, Node)> = trees.into_iter().map(sized).collect();
+fn tightened(problem: &Problem, trees: Vec<Node>, account: &Account) -> Vec<(Size, Node)> {
+    let mut found = sized(trees);
     found.sort_by_key(|(size, _)| *size);
     found.dedup_by(|a, b| a.1 == b.1);
     let part = account.part(4);
@@ -124,7 +132,7 @@ fn tight(problem: &Problem, trees: Vec<Node>, account: &Account) -> Vec<(Size, N
         .filter_map(|(_, tree)| windows.tightened(tree))
         .collect();
     account.settle(&part);
-    found.extend(tight.into_iter().map(sized));
+    found.extend(sized(tight));
     found
 }
 
