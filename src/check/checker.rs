@@ -1,6 +1,7 @@
 //! The state that all passes share, and the order of the passes.
 
 use super::body::Bodies;
+use super::clash::Clash;
 use super::context::{Bound, Context, Region};
 use super::decl::behavior::BehaviorId;
 use super::decl::event::EventId;
@@ -40,6 +41,8 @@ pub struct Checker<'a> {
     pub context: Context<'a>,
     /// The bodies that have been checked or are being checked.
     pub bodies: Bodies<'a>,
+    /// The uses of states that do not agree with their types.
+    pub clashes: Vec<Clash<'a>>,
     /// The parameters whose type and default do not agree.
     pub unsure: Vec<Span>,
     /// How many expressions are being checked within one another.
@@ -105,6 +108,7 @@ impl<'a> Checker<'a> {
             diagnostics,
             context: Context::new(Region::World),
             bodies: Bodies::default(),
+            clashes: Vec::new(),
             unsure: Vec::new(),
             depth: 0,
             kept: None,
@@ -209,6 +213,7 @@ impl<'a> Checker<'a> {
 
     /// The program with every mistake and warning, in the order of the text.
     pub fn checked(mut self) -> Checked {
+        self.settle_clashes();
         diagnostic::sort(&mut self.diagnostics);
         report::merge(&mut self.diagnostics, |name| {
             self.meanings.declaration(name)

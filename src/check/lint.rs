@@ -13,6 +13,7 @@ mod interval;
 mod mentions;
 mod predicates;
 mod ranges;
+mod reach;
 mod regions;
 mod rewards;
 mod same;

@@ -8,6 +8,7 @@
 mod body;
 mod builtin;
 mod checker;
+mod clash;
 mod context;
 mod decl;
 mod expr;

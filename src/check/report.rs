@@ -152,7 +152,11 @@ impl<'a> Checker<'a> {
             known => format!("it has {}", listed(known, "and")),
         };
         let message = format!("{owner} has no {what} `{}`", name.name);
-        let likely = suggest::nearest(&name.name, known.iter().copied());
+        let only = match known {
+            [only] => Some(*only),
+            _ => None,
+        };
+        let likely = suggest::nearest(&name.name, known.iter().copied()).or(only);
         // That one is not missing as well.
         if let Some(likely) = likely {
             self.names.lose(likely);
@@ -233,22 +237,52 @@ pub fn merge(sorted: &mut Vec<Diagnostic>, declared: impl Fn(Span) -> Option<Spa
     let mut further: BTreeMap<usize, Vec<Span>> = BTreeMap::new();
     for found in sorted.drain(..) {
         let about = match found.code {
+            // The sensors that a robot lacks for one use are one mistake.
+            Code::E0406
+                if merged
+                    .last()
+                    .is_some_and(|last| last.code == found.code && last.span() == found.span()) =>
+            {
+                if let Some(last) = merged.last_mut() {
+                    last.notes.push(format!("and {}", found.message));
+                }
+                continue;
+            }
+            // `x` and `y` of a start are one place.
+            Code::E0202
+                if found
+                    .help
+                    .iter()
+                    .any(|help| help.contains("where it starts")) =>
+            {
+                String::new()
+            }
             Code::E0202 | Code::E0406 | Code::W0603 => found.message.clone(),
             Code::E0305 if found.message.contains(" needs its argument ") => found.message.clone(),
-            Code::E0407 => String::new(),
-            // One name, taken again and again for what it is not.
-            Code::E0302 if declared(found.span()).is_some() => {
-                let wanted = found.message.rsplit(" is ").next().unwrap_or_default();
-                format!("{:?} {wanted}", declared(found.span()))
-            }
-            // The same of what stands side by side: the coordinates of a point, the arguments of a shape.
-            Code::E0301 | Code::E0302 | Code::E0601
+            Code::E0407 | Code::W0301 => String::new(),
+            // What the world, or the length of an episode or of a tick, makes of several things.
+            Code::W0512 => String::new(),
+            Code::E0309 if found.message.ends_with(" is at least one tick") => String::new(),
+            Code::E0404 | Code::W0401 => match about_places(&found.message) {
+                Some(about) => about,
+                None => {
+                    merged.push(found);
+                    continue;
+                }
+            },
+            // The same of what stands side by side: the coordinates of a point, the arguments of a call.
+            Code::E0301 | Code::E0302 | Code::E0305 | Code::E0403 | Code::E0601
                 if merged.last().is_some_and(|last| is_beside(last, &found)) =>
             {
                 if let Some(last) = merged.last_mut() {
                     join(last, found);
                 }
                 continue;
+            }
+            // One name, taken again and again for what it is not.
+            Code::E0302 if declared(found.span()).is_some() => {
+                let wanted = found.message.rsplit(" is ").next().unwrap_or_default();
+                format!("{:?} {wanted}", declared(found.span()))
             }
             Code::E0203
                 if merged
@@ -270,7 +304,14 @@ pub fn merge(sorted: &mut Vec<Diagnostic>, declared: impl Fn(Span) -> Option<Spa
             }
         };
         match first.get(&(found.code, about.clone())) {
-            Some(at) => further.entry(*at).or_default().push(found.span()),
+            Some(at) => {
+                if found.code == Code::W0301
+                    && let Some(first) = merged.get_mut(*at)
+                {
+                    join_fixes(first, &found);
+                }
+                further.entry(*at).or_default().push(found.span());
+            }
             None => {
                 first.insert((found.code, about), merged.len());
                 merged.push(found);
@@ -303,7 +344,11 @@ fn is_beside(last: &Diagnostic, found: &Diagnostic) -> bool {
     let end = last.labels.last().map_or(last.span(), |label| label.span);
     let start = found.span();
     let plain = found.labels.len() == 1;
-    last.message == found.message
+    let alike = last.message == found.message
+        || lack_units(last) && lack_units(found)
+        || last.code == found.code
+            && owner(&last.message).is_some_and(|it| owner(&found.message) == Some(it));
+    alike
         && plain
         && end.file == start.file
         && start.start >= end.end
@@ -316,13 +361,56 @@ fn join(last: &mut Diagnostic, found: Diagnostic) {
         span: found.span(),
         message: "and here".to_owned(),
     });
+    join_fixes(last, &found);
+}
+
+/// Adds the changes that mend another mistake of the same kind; without them the mistake is not mended.
+fn join_fixes(last: &mut Diagnostic, found: &Diagnostic) {
+    let (units, percent) = (lack_units(found), found.code == Code::W0301);
     match (last.fixes.as_mut_slice(), found.fixes.as_slice()) {
-        ([one], [other]) if one.title == other.title => {
+        ([one], [other]) => {
             one.edits.extend(other.edits.iter().cloned());
             one.applicability = one.applicability.max(other.applicability);
+            if one.title != other.title {
+                one.title = match (units, percent) {
+                    (true, _) => "give each its unit".to_owned(),
+                    (_, true) => "write each with `%`".to_owned(),
+                    _ => {
+                        let words: Vec<&str> = one.edits.iter().map(|(_, it)| it.trim()).collect();
+                        format!("write {}", listed(&words, "and"))
+                    }
+                };
+            }
         }
         _ => last.fixes.clear(),
     }
+}
+
+/// Whether a number lacks its unit, as the fix says.
+fn lack_units(found: &Diagnostic) -> bool {
+    let mut fixes = found.fixes.iter();
+    found.code == Code::E0301 && fixes.any(|fix| fix.title.starts_with("give "))
+}
+
+/// What has no setting, or no parameter, of a name.
+fn owner(message: &str) -> Option<&str> {
+    let parts = [" has no setting ", " has no parameter "];
+    parts
+        .iter()
+        .find_map(|part| Some(message.split_once(part)?.0))
+}
+
+/// What is said of places, each for itself, where one wall or one robot is the reason.
+fn about_places(message: &str) -> Option<String> {
+    let of_wall = message.split_once(" lies in the wall ");
+    let of_robot = [
+        "no way leads to the place",
+        "the robot does not fit into the place",
+    ];
+    let of_robot = of_robot.iter().find(|begin| message.starts_with(**begin));
+    of_wall
+        .map(|(_, wall)| wall.to_owned())
+        .or_else(|| of_robot.map(|begin| (*begin).to_owned()))
 }
 
 /// Names in a sentence: `a`, `b` and `c`.

@@ -142,11 +142,14 @@ impl<'a> Checker<'a> {
                 *position += 1;
                 Some(*position - 1)
             }
-            (ArgKind::Binder { .. }, _) => self
-                .error(Code::E0305, arg.span, format!("{owner} takes no `in`"))
+            (ArgKind::Binder { name, .. }, _) => {
+                // What it would have bound is told of here.
+                self.names.lose(&name.name);
+                self.error(Code::E0305, arg.span, format!("{owner} takes no `in`"))
                 .label("nothing ranges over a kind here")
                 .help("`any`, `all`, `count`, `nearest` range over a kind, and so do the lines of `observe`, `choose` and `reward`")
-                .none(),
+                .none()
+            }
             (ArgKind::Range(..), _) => self
                 .error(Code::E0305, arg.span, format!("{owner} takes no range"))
                 .label("only `tune` takes one")
@@ -232,6 +235,9 @@ impl<'a> Checker<'a> {
                     format!("`{name}` is a function"),
                 )
                 .label(format!("call it: `{name}(…)`"))
+                .help_if(
+                    (name == "pose").then(|| "where the robot at hand is: `position`".to_owned()),
+                )
                 .none();
         };
         let signature = Signature {

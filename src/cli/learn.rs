@@ -200,7 +200,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
         "written to {}",
         render::visible(&place.to_string_lossy())
     ));
-    printed.and(super::verify::verdict(&claims))
+    printed.and(super::verify::together(&claims))
 }
 
 /// Learns, and tunes what was learned if that is asked for. The tree that is written is that of the values in use.

@@ -1,13 +1,14 @@
 //! `btc verify`
 
 use super::files::File;
-use super::report::{Reporter, tell};
+use super::report::{Format as Form, Reporter, tell};
 use super::{Failure, files};
 use crate::driver::load::Loaded;
 use crate::driver::table::Format;
 use crate::driver::table::Recorded;
 use crate::driver::verify::{self, Proved};
 use crate::facade::Answer;
+use crate::report::verdict::{self, Told};
 use clap::Args;
 
 #[derive(Debug, Args)]
@@ -28,6 +29,9 @@ pub(super) struct Arguments {
     /// The minterms in which episodes start, if the transitions do not say.
     #[arg(long, value_name = "FILE", requires = "transitions")]
     start: Option<String>,
+    /// How to write the answers.
+    #[arg(long, value_name = "FORM", default_value = "human")]
+    format: Form,
 }
 
 pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {
@@ -52,14 +56,36 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
             return Err(Failure::Usage);
         }
     };
-    for result in &results {
-        files::print(&format!("{}\n", result.text))?;
+    match arguments.format {
+        Form::Human => {
+            for result in &results {
+                files::print(&format!("{}\n", result.text))?;
+            }
+        }
+        Form::Json => files::print(&verdict::json(&told(&loaded, arguments, &results)))?,
     }
-    verdict(&results)
+    together(&results)
+}
+
+/// The answers with what they answer; of a program that claims nothing there are none.
+fn told<'r>(loaded: &Loaded, arguments: &Arguments, results: &'r [Proved]) -> Vec<Told<'r>> {
+    let asked: Vec<(String, bool)> = match arguments.sides.as_slice() {
+        [left, right] => vec![(format!("claim {left} equals {right}"), true)],
+        _ => verify::claimed(&loaded.program)
+            .map(|(claim, there)| (claim.to_owned(), there))
+            .collect(),
+    };
+    let told = asked.into_iter().zip(results);
+    told.map(|((claim, there), result)| Told {
+        claim,
+        answer: there.then_some(result.answer),
+        text: &result.text,
+    })
+    .collect()
 }
 
 /// What the answers say together: one that fails counts before one that is undecided.
-pub(super) fn verdict(results: &[Proved]) -> Result<(), Failure> {
+pub(super) fn together(results: &[Proved]) -> Result<(), Failure> {
     let any = |answer| results.iter().any(|result| result.answer == answer);
     if any(Answer::Fails) {
         Err(Failure::Input)

@@ -159,6 +159,7 @@ codes! {
     E0826 "a table of values",
 
     W0101 "a character that is not seen",
+    W0102 "a sign that is not what it looks like",
 
     W0201 "a name that nothing reads",
     W0202 "a state that is set and never read",
@@ -170,6 +171,7 @@ codes! {
     W0303 "one thing said twice",
 
     W0401 "a part of the world that does nothing",
+    W0402 "a station that is out of reach",
 
     W0501 "a setting without effect",
     W0502 "a behaviour that never succeeded",

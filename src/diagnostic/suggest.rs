@@ -3,7 +3,7 @@
 use strsim::osa_distance;
 
 /// What people who come from other languages and tools write, and what it is called here, where that is known at all.
-const FOREIGN: [(&str, &str); 139] = [
+const FOREIGN: [(&str, &str); 185] = [
     // shapes and worlds
     ("circle", "disc"),
     ("disk", "disc"),
@@ -148,6 +148,54 @@ const FOREIGN: [(&str, &str); 139] = [
     ("trials", "episodes"),
     ("lr", "rate"),
     ("default", "unseen"),
+    // types of messages
+    ("uint8", "number"),
+    ("uint16", "number"),
+    ("uint32", "number"),
+    ("uint64", "number"),
+    ("int8", "number"),
+    ("int16", "number"),
+    ("int32", "number"),
+    ("int64", "number"),
+    ("float32", "number"),
+    ("float64", "number"),
+    ("uint", "number"),
+    ("long", "number"),
+    ("size_t", "number"),
+    // worlds, sensors and motions of ROS and of game engines
+    ("rate", "tick"),
+    ("frequency", "tick"),
+    ("fps", "tick"),
+    ("hz", "tick"),
+    ("delta", "tick"),
+    ("deltaTime", "tick"),
+    ("max_vel", "max_speed"),
+    ("max_velocity", "max_speed"),
+    ("max_linear", "max_speed"),
+    ("max_lin_vel", "max_speed"),
+    ("linear_velocity", "max_speed"),
+    ("max_angular", "max_turn"),
+    ("max_rotation", "max_turn"),
+    ("max_ang_vel", "max_turn"),
+    ("linear", "speed"),
+    ("rotation", "turn"),
+    ("angle", "at"),
+    ("direction", "at"),
+    ("max_range", "range"),
+    ("distance", "range"),
+    ("min_angle", "from"),
+    ("angle_min", "from"),
+    ("max_angle", "to"),
+    ("angle_max", "to"),
+    ("sleep", "wait"),
+    ("delay", "wait"),
+    ("Wait", "wait"),
+    ("LaserScan", "scanner"),
+    ("laserscan", "scanner"),
+    ("lidar2d", "scanner"),
+    ("ultrasound", "range_finder"),
+    ("footprint", "body"),
+    ("radius", "within"),
 ];
 
 /// The candidate that `name` is called elsewhere, or else the nearest one, if it is near enough to be what was meant; the

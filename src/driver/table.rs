@@ -107,18 +107,22 @@ pub fn environment(loaded: &Loaded, file: FileId, task: Id<Task>) -> Result<Poli
     };
     match transitions::read(text, program, &mut policy) {
         Ok(()) => Ok(policy),
-        Err(error) => Err(Refused::program(loaded, located_all(file, &[error]))),
+        Err(error) => Err(Refused::program(loaded, located_all(file, text, &[error]))),
     }
 }
 
 /// Mistakes of one table.
 pub(super) fn refused(text: Text, errors: &[TableError]) -> Refused {
-    Refused::text(text, |file| located_all(file, errors))
+    let shown = std::str::from_utf8(text.bytes).unwrap_or_default();
+    Refused::text(text, |file| located_all(file, shown, errors))
 }
 
 /// Mistakes at their places in a file; the last says so if the reading stopped there.
-fn located_all(file: FileId, errors: &[TableError]) -> Vec<Diagnostic> {
-    let mut found: Vec<Diagnostic> = errors.iter().map(|error| located(file, error)).collect();
+fn located_all(file: FileId, text: &str, errors: &[TableError]) -> Vec<Diagnostic> {
+    let mut found: Vec<Diagnostic> = errors
+        .iter()
+        .map(|error| located(file, text, error))
+        .collect();
     if found.len() >= table::MISTAKES
         && let Some(last) = found.pop()
     {
@@ -127,7 +131,7 @@ fn located_all(file: FileId, errors: &[TableError]) -> Vec<Diagnostic> {
     found
 }
 
-fn located(file: FileId, error: &TableError) -> Diagnostic {
+fn located(file: FileId, text: &str, error: &TableError) -> Diagnostic {
     let span = |range: &std::ops::Range<usize>| Span::new(file, range.start, range.end);
     let found = Diagnostic::new(code(&error.kind), span(&error.span), error.to_string());
     match &error.kind {
@@ -145,6 +149,16 @@ fn located(file: FileId, error: &TableError) -> Diagnostic {
             likely: Some(likely),
             ..
         } => found.help(format!("is it `{likely}`?")),
+        TableErrorKind::MissingColumn { name, .. }
+            if name == "behavior" && text.starts_with(".i ") =>
+        {
+            found.help("this is a PLA: `btc minimize` reads it")
+        }
+        TableErrorKind::MissingColumn { name, .. }
+            if name == "behavior" && text.starts_with('#') =>
+        {
+            found.help("a remark above the header begins with `## `")
+        }
         TableErrorKind::MissingColumn { name, .. } if name == "behavior" => {
             found.help("what is done stands under `behavior`, `behaviour` or `action`")
         }
@@ -170,6 +184,15 @@ fn located(file: FileId, error: &TableError) -> Diagnostic {
                 None => found,
             }
         }
+        TableErrorKind::UnknownValue { found: cell, expected } if expected.starts_with("a number") => {
+            match number_help(cell) {
+                Some(help) => found.help(help),
+                None => found,
+            }
+        }
+        TableErrorKind::Malformed(_) if text.starts_with(['{', '[']) => {
+            found.help("JSON Lines has an object a line: `{\"low\": true, \"action\": \"charge\"}`")
+        }
         TableErrorKind::Foreign { help: Some(help), .. } => found.help(*help),
         TableErrorKind::SharedInput(_) => {
             found.help("the language has one name for one thing: rename the column, or the behaviour")
@@ -179,6 +202,22 @@ fn located(file: FileId, error: &TableError) -> Diagnostic {
         }
         _ => found,
     }
+}
+
+/// What to do about a cell that is to be a number and has more in it.
+fn number_help(cell: &str) -> Option<&'static str> {
+    let digits = |text: &str| text.trim().parse::<f64>().is_ok();
+    let unit = cell.trim_end_matches(|c: char| c.is_ascii_alphabetic() || matches!(c, '%' | '/'));
+    if unit.len() < cell.len() && digits(unit) {
+        return Some(
+            "the unit stands in the header, `x:number m`, and the cells are plain numbers",
+        );
+    }
+    let decimal = cell.replace(',', ".");
+    if cell.contains(',') && digits(&decimal) {
+        return Some("a decimal number has a point: `0.5`");
+    }
+    (cell.contains('_') && digits(&cell.replace('_', ""))).then_some("digits are not grouped here")
 }
 
 fn code(kind: &TableErrorKind) -> Code {

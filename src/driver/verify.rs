@@ -4,7 +4,7 @@ mod claims;
 mod rows;
 mod values;
 
-pub use claims::{claims, claims_of_learned};
+pub use claims::{claimed, claims, claims_of_learned};
 pub use rows::table;
 
 use super::load::Loaded;

@@ -157,6 +157,9 @@ impl fmt::Display for TableError {
                 write!(f, "columns are parted by commas, not by `{other}`")
             }
             TableErrorKind::Nameless => write!(f, "a column without a name"),
+            TableErrorKind::UnusableName { name, why } if name.is_empty() => {
+                write!(f, "a name is missing: {why}")
+            }
             TableErrorKind::UnusableName { name, why } => {
                 write!(f, "`{name}` cannot be a name: {why}")
             }

@@ -94,6 +94,9 @@ pub(super) fn atoms(program: &Program) -> BTreeMap<AtomName, Atom> {
 pub(super) fn check(name: &str) -> Result<(), TableErrorKind> {
     let why = match name {
         Atom::DONE | Atom::FAILED => Some("it asks the history, in the language as in a table"),
+        _ if name.starts_with("done(") || name.starts_with("failed(") => {
+            Some("it would ask the history, and its parenthesis is never closed")
+        }
         _ => spelling::unusable(name),
     };
     why.map_or(Ok(()), |why| {

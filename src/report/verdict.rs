@@ -1,14 +1,17 @@
 //! The verdict on two trees, in words.
 
+use super::json::document;
 use super::words;
 use crate::ir::law::Behavior;
 use crate::ir::task::History;
 use crate::ir::{Id, Name, Program};
 use crate::tree::equivalence::{Environment, Means, Onward, Parted, Trace, Verdict};
+use serde::Serialize;
 use std::fmt::Display;
 
 /// What a proof or a test says.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Answer {
     /// It holds, on evidence.
     Holds,
@@ -16,6 +19,26 @@ pub enum Answer {
     Fails,
     /// There is too much to explore, or too little that was recorded.
     Undecided,
+}
+
+/// What was asked, with the answer to it.
+#[derive(Clone, Debug, Serialize)]
+pub struct Told<'t> {
+    /// The claim as the language writes it.
+    pub claim: String,
+    /// The answer; `None` of a tree that is not learned yet.
+    pub answer: Option<Answer>,
+    /// The answer in words.
+    pub text: &'t str,
+}
+
+/// Answers as a JSON document.
+pub fn json(claims: &[Told]) -> String {
+    #[derive(Serialize)]
+    struct Document<'t> {
+        claims: &'t [Told<'t>],
+    }
+    document(&Document { claims })
 }
 
 /// The verdict on two trees as an answer. Where greedy transitions were recorded but the trees take none of them, that

@@ -6,6 +6,7 @@ mod call;
 mod choice;
 mod entries;
 mod expr;
+mod field;
 mod item;
 mod learn;
 mod lost;
@@ -42,6 +43,8 @@ pub(super) struct Builder<'i> {
     unbound: bool,
     /// How many words stand where units should, as statements of their own.
     units_missed: usize,
+    /// Whether the expression at hand is a node of a tree.
+    in_tree: bool,
 }
 
 impl<'i> Builder<'i> {
@@ -63,6 +66,7 @@ impl<'i> Builder<'i> {
             ranging: false,
             unbound: false,
             units_missed: 0,
+            in_tree: false,
         }
     }
 

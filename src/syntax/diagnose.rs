@@ -6,6 +6,7 @@ mod ends;
 mod foreign;
 mod forms;
 mod places;
+mod rewrite;
 mod words;
 
 pub(super) use characters::unclosed_quote;
@@ -56,6 +57,9 @@ pub(super) fn failure(
         second_before,
     };
     if let Some(diagnostic) = place.comment() {
+        return (failure.at, diagnostic);
+    }
+    if let Some(diagnostic) = place.rewritten() {
         return (failure.at, diagnostic);
     }
     if let Some((last, diagnostic)) = place.cut_line().or_else(|| place.cut_value()) {
@@ -180,7 +184,7 @@ impl Place<'_> {
         };
         let diagnostic = self.advised(diagnostic);
         let plain = diagnostic.help.is_empty() && diagnostic.fixes.is_empty();
-        let form = self.wanted().filter(|_| plain);
+        let form = plain.then(|| self.wanted().unwrap_or_default());
         let diagnostic = match form.and_then(|wanted| self.form(&wanted)) {
             Some(form) => diagnostic.help(form),
             None => diagnostic,

@@ -14,7 +14,9 @@ pub(super) fn left_out(text: &str, tree: &mut File, sorted: Vec<Diagnostic>) -> 
         .iter()
         .map(|span| lines(text, *span))
         .collect();
-    let wide = |found: &&Diagnostic| is_bracket(found.code) && slice(text, found) != "(";
+    let wide = |found: &&Diagnostic| {
+        is_bracket(found.code) && slice(text, found) != "(" || opens_no_node(found)
+    };
     let brackets = sorted.iter().filter(wide);
     let regions: Vec<Span> = brackets.map(|found| region(tree, found)).collect();
     let place_of = |found: &Diagnostic| {
@@ -33,6 +35,9 @@ pub(super) fn left_out(text: &str, tree: &mut File, sorted: Vec<Diagnostic>) -> 
             let within = next.span().start < place.end;
             let goes_on = lines(text, next.span()).start <= place.end + 1
                 && is_rest(text, next)
+                && !together
+                    .last()
+                    .is_some_and(|last| is_beside(text, last, next))
                 && together.iter().any(|found| found.code != Code::E0118);
             if !within && !goes_on {
                 break;
@@ -56,6 +61,7 @@ fn causes(text: &str, together: Vec<Diagnostic>) -> Vec<Diagnostic> {
     let shown = together
         .iter()
         .any(|found| found.code == Code::E0102 && found.labels.len() > 2);
+    let bracket = bracket.or_else(|| together.iter().position(opens_no_node));
     let slip = together
         .iter()
         .take_while(|found| found.code != Code::E0103)
@@ -143,6 +149,13 @@ fn is_slip(code: Code) -> bool {
     matches!(code, Code::E0101 | Code::E0126)
 }
 
+/// Whether a node has its children in other brackets than braces.
+fn opens_no_node(found: &Diagnostic) -> bool {
+    let mut help = found.help.iter();
+    found.code == Code::E0101
+        && help.any(|help| help.starts_with("the children of a node stand in braces"))
+}
+
 fn is_bracket(code: Code) -> bool {
     matches!(code, Code::E0102 | Code::E0103)
 }
@@ -156,6 +169,19 @@ fn is_rest(text: &str, found: &Diagnostic) -> bool {
         Code::E0105 | Code::E0123 => found.fixes.is_empty(),
         _ => false,
     }
+}
+
+/// Whether two entries that nobody knows stand one below the other: neither is the rest of the other.
+fn is_beside(text: &str, last: &Diagnostic, next: &Diagnostic) -> bool {
+    let unknown = |found: &Diagnostic| matches!(found.code, Code::E0105 | Code::E0123);
+    let margin = |found: &Diagnostic| {
+        let at = found.span();
+        let line = lines(text, at).start;
+        let before = text.get(line as usize..at.range().start)?;
+        before.trim().is_empty().then_some(before)
+    };
+    let (upper, lower) = (margin(last), margin(next));
+    unknown(last) && unknown(next) && upper.is_some() && upper == lower
 }
 
 /// What a mistake in brackets may have taken along: its item, for a bracket that closes nothing the one before it, and

@@ -53,7 +53,7 @@ pub(super) const CALLED: [&str; 18] = [
 ];
 
 /// What other languages call what begins an item, a clause, an aspect or a line.
-pub(super) const FOREIGN: [(&str, &str); 120] = [
+pub(super) const FOREIGN: [(&str, &str); 124] = [
     ("function", "let"),
     ("fn", "let"),
     ("func", "let"),
@@ -174,6 +174,10 @@ pub(super) const FOREIGN: [(&str, &str); 120] = [
     ("time_limit", "end"),
     ("reward_machine", "reward"),
     ("reward_function", "reward"),
+    ("subtree", "tree"),
+    ("param", "let"),
+    ("parameter", "let"),
+    ("update_rule", "each"),
 ];
 
 /// What other languages declare, and this one does not.
@@ -267,7 +271,7 @@ pub const NODES: [(&str, Word); 9] = [
 ];
 
 /// What other languages call the composites and decorators.
-pub(super) const FOREIGN_NODES: [(&str, Word); 18] = [
+pub(super) const FOREIGN_NODES: [(&str, Word); 30] = [
     ("fallback", Word::Selector),
     ("priority", Word::Selector),
     ("select", Word::Selector),
@@ -286,6 +290,18 @@ pub(super) const FOREIGN_NODES: [(&str, Word); 18] = [
     ("force_failure", Word::Fail),
     ("loop", Word::Repeat),
     ("deadline", Word::Timeout),
+    ("retryuntilsuccessful", Word::Retry),
+    ("retry_until_successful", Word::Retry),
+    ("forcesuccess", Word::Succeed),
+    ("forcefailure", Word::Fail),
+    ("failer", Word::Fail),
+    ("alwaysfailure", Word::Fail),
+    ("keeprunninguntilfailure", Word::Repeat),
+    ("reactiveselector", Word::Selector),
+    ("priorityselector", Word::Selector),
+    ("negation", Word::Invert),
+    ("timer", Word::Timeout),
+    ("parallelall", Word::Parallel),
 ];
 
 impl Word {

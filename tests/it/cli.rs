@@ -450,3 +450,33 @@ fn writing_changes_the_text_of_a_file_and_nothing_else() {
         assert!(kind.is_fifo());
     }
 }
+
+#[test]
+fn the_answers_of_verify_are_a_document() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("trees.bt");
+    let program = "predicate p\nbehavior a\nbehavior b\n\
+        tree one = selector { p => a, b }\ntree same = selector { p => a, b }\ntree other = selector { p => b, a }\n\
+        claim one equals same\nclaim one equals other\n";
+    fs::write(&path, program).unwrap();
+    let output = btc(&["verify", path.to_str().unwrap(), "--format", "json"]);
+    assert_eq!(output.status.code(), Some(1), "{}", err(&output));
+    let document: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let claims = document["claims"].as_array().unwrap();
+    let told: Vec<_> = (claims.iter())
+        .map(|claim| {
+            (
+                claim["claim"].as_str().unwrap(),
+                claim["answer"].as_str().unwrap(),
+            )
+        })
+        .collect();
+    let expected = [
+        ("claim one equals same", "holds"),
+        ("claim one equals other", "fails"),
+    ];
+    assert_eq!(told, expected);
+    let learned = btc(&["verify", SMALL, "--format", "json"]);
+    let document: serde_json::Value = serde_json::from_slice(&learned.stdout).unwrap();
+    assert!(document["claims"][0]["answer"].is_null(), "{document}");
+}

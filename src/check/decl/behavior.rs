@@ -83,7 +83,13 @@ impl<'a> Checker<'a> {
         locals: Table<Local>,
     ) -> Option<Option<Law>> {
         match &behavior.body {
-            BehaviorBody::Declared => Some(None),
+            BehaviorBody::Declared => {
+                // Whoever runs it reads what it is given.
+                for param in behavior.params.iter().flat_map(|params| &params.params) {
+                    self.reads(param.name.span);
+                }
+                Some(None)
+            }
             BehaviorBody::Alias(target) => {
                 self.context.region = Region::Tree;
                 let target = self.alias(target)?;

@@ -27,7 +27,8 @@ impl<'a> Checker<'a> {
     /// `input name: type` or `input name: {a, b}`
     pub fn input(&mut self, input: &'a ast::Input) {
         let name = &input.name;
-        if self.has_world {
+        // Where the world was not understood, neither was what else may be there.
+        if self.has_world && !self.names.lost_world {
             let message = format!("`{}` is an input, and the program has a world", name.name);
             self.error(Code::E0410, name.span, message)
                 .label("what is known here comes from the world")

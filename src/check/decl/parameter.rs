@@ -120,13 +120,15 @@ impl<'a> Checker<'a> {
                     // If another argument is wrong, it may be the missing one.
                     let known = !param.ty.factors.is_empty();
                     if fine && known {
+                        let help = self.one_or_all(name, &param.name.name, &ty, params);
                         self.error(
                             Code::E0305,
                             reference.span,
                             format!("`{name}` needs its argument `{}`", param.name.name),
                         )
                         .label(format!("{ty} is missing"))
-                        .also(param.span, "it is declared here");
+                        .also(param.span, "it is declared here")
+                        .help_if(help);
                     }
                     fine = false;
                     continue;
@@ -143,6 +145,28 @@ impl<'a> Checker<'a> {
             self.swapped(params, library, args, told);
         }
         fine.then_some(bindings)
+    }
+
+    /// How one member of a family is named, and all of them, for who has named the family alone.
+    fn one_or_all(
+        &mut self,
+        family: &str,
+        param: &str,
+        ty: &Type,
+        params: &[Param],
+    ) -> Option<String> {
+        let kind = match ty {
+            Type::Place(Some(kind)) | Type::Wall(Some(kind)) | Type::Enum(kind) => kind,
+            _ => return None,
+        };
+        if params.len() > 1 {
+            return None;
+        }
+        let first = self.members(ty)?.into_iter().next()?;
+        let first = self.name_of(ty, &first)?;
+        Some(format!(
+            "one of them is `{family}({first})`; where a list or a line may range over all, they are `{family}({param} in {kind})`"
+        ))
     }
 
     /// Makes one mistake of two arguments of which each is of the type of the other's parameter. What has been told of

@@ -137,11 +137,14 @@ impl<'a> Checker<'a> {
                 format!("{role} is {ty}, which is not a number"),
             )
             .label("arithmetic needs a number; `=` sets it");
-            self.expr(value);
+            let typed = self.expr(value);
+            self.clashes_with(&target.name, op.span, &typed.ty);
             return None;
         }
         let value = match op.node {
-            AssignOp::Set | AssignOp::Add | AssignOp::Sub => self.expect(value, &ty, &role),
+            AssignOp::Set | AssignOp::Add | AssignOp::Sub => {
+                self.set_to(&target.name, value, &ty, &role)
+            }
             AssignOp::Mul | AssignOp::Div => {
                 let typed = self.expr(value);
                 if self.number(&typed)? != Dim::NONE {
@@ -329,11 +332,11 @@ impl<'a> Checker<'a> {
         if name.name == "drive" {
             return self.drive_stmt(call);
         }
-        for arg in call.args.iter().flatten() {
-            self.stray_argument(arg);
-        }
         match self.value_of(name) {
             Some((decl, _)) => {
+                for arg in call.args.iter().flatten() {
+                    self.stray_argument(arg);
+                }
                 let help = matches!(decl, Decl::Behavior(_))
                     .then(|| "a task chooses it, or a tree runs it".to_owned());
                 self.error(

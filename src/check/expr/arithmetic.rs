@@ -85,11 +85,25 @@ impl<'a> Checker<'a> {
                 let low = pool.unary(Unary::Neg, limit);
                 clamped(pool, x, low, limit)
             })),
+            [_, low, high] if self.is_more(low, high) => self
+                .out_of_range(
+                    low.span.to(high.span),
+                    "`clamp` goes from less to more",
+                    "this goes from more to less",
+                )
+                .help("exchange the two")
+                .none(),
             [x, low, high] => Some(self.lift(ty, span, [x, low, high], |pool, [x, low, high]| {
                 clamped(pool, x, low, high)
             })),
             _ => None,
         }
+    }
+
+    /// Whether one constant is more than another.
+    fn is_more(&self, one: &Typed, other: &Typed) -> bool {
+        let constant = |it: &Typed| it.scalar().and_then(|id| self.program.pool.constant(id));
+        matches!((constant(one), constant(other)), (Some(one), Some(other)) if one > other)
     }
 
     /// Numbers, all of the unit of the first.

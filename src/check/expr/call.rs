@@ -24,8 +24,12 @@ impl<'a> Checker<'a> {
             C::Visits => return Some(self.leaf(Expr::Visits, Type::NUMBER, span)),
             C::Progress => return Some(self.leaf(Expr::Progress, Type::NUMBER, span)),
             C::Elapsed if !region.in_behavior() && region != Region::Let => {
-                let why = "how long a behaviour runs, known to it alone";
-                return self.out_of_scope(name, span, why);
+                let message = format!("`{name}` cannot be asked in {}", region.name());
+                return self
+                    .error(Code::E0307, span, message)
+                    .label("how long a behaviour runs, known to it alone")
+                    .help("time is counted in a state: `each tick { waited += tick }`")
+                    .none();
             }
             _ => {}
         }

@@ -22,20 +22,25 @@ impl<'a> Checker<'a> {
         let (value, robot) = self.one_by(reference)?;
         let region = self.context.region;
         if matches!(function, Function::Done | Function::Failed) {
-            return self.out_of_scope(
-                function.name(),
-                reference.name.span,
-                "the history window is asked in the guards of trees",
-            );
+            let name = function.name();
+            let message = format!("`{name}` cannot be asked in {}", region.name());
+            return self
+                .error(Code::E0307, reference.name.span, message)
+                .label("the history window is asked in the guards of trees")
+                .help(format!(
+                    "a tree asks it: `{name}(…) => …`; an event asks for the end itself"
+                ))
+                .none();
         }
         // What runs is known from the tick before.
         let runs = function == Function::Running && region == Region::EachTick;
         if !region.sees_events() && !runs && !matches!(region, Region::StartHistory | Region::Let) {
-            return self.out_of_scope(
-                function.name(),
-                reference.name.span,
-                "only events, effects and rewards see a behaviour end",
-            );
+            let message = format!("`{}` cannot be asked in {}", function.name(), region.name());
+            return self
+                .error(Code::E0307, reference.name.span, message)
+                .label("only events, effects and rewards see a behaviour end")
+                .help("remember it in a state: `on success(…) { seen = true }`")
+                .none();
         }
         if function == Function::Running && region == Region::StartHistory {
             let why = "a history holds what has ended";

@@ -1,12 +1,15 @@
 //! Expressions of an expected type, constants and numbers.
 
 use crate::check::Checker;
-use crate::check::report::Draft;
+use crate::check::expr::plain_ref;
+use crate::check::names::Decl;
+use crate::check::report::{Draft, listed};
 use crate::check::types::units::Dim;
 use crate::check::types::{Type, Typed};
-use crate::diagnostic::{Applicability, Code};
+use crate::diagnostic::{Applicability, Code, suggest};
 use crate::ir::expr::ExprId;
 use crate::source::Span;
+use crate::spelling::spelled;
 use crate::syntax::ast::{ArgKind, Expr, ExprKind, Ref};
 use crate::syntax::print;
 
@@ -23,7 +26,9 @@ impl<'a> Checker<'a> {
             self.warn_plain_ratio(expr, wanted);
             return typed;
         }
-        self.mismatch(&typed, expr, wanted, role).typed()
+        let found = self.mismatch(&typed, expr, wanted, role).typed();
+        self.clashes(expr, typed.span, wanted);
+        found
     }
 
     /// Checks an expression that has to be of the type of another one.
@@ -40,11 +45,56 @@ impl<'a> Checker<'a> {
 
     fn mismatch(&mut self, typed: &Typed, expr: &Expr, wanted: &Type, role: &str) -> Draft<'_> {
         let message = format!("{role} is {wanted}, not {}", typed.ty);
-        let help = conversion(typed, expr, wanted);
-        self.unlike(typed, wanted, message)
+        let help = conversion(typed, expr, wanted).or_else(|| self.values_of(wanted));
+        let kind = self.misspelt_kind(expr, &typed.ty, wanted);
+        let place = (&typed.ty, wanted) == (&Type::Robot, &Type::Point);
+        let draft = self
+            .unlike(typed, wanted, message)
             .this_is(&typed.ty)
             .help_if(help)
-            .unit_for(expr, wanted.dim().filter(|_| typed.ty.dim().is_some()))
+            .unit_for(expr, wanted.dim().filter(|_| typed.ty.dim().is_some()));
+        if let Some((kind, meant)) = kind {
+            let title = format!("did you mean the kind `{meant}`?");
+            return draft.also(kind, "its kind is said here").fix(
+                title,
+                kind,
+                spelled(&meant),
+                Applicability::Unsafe,
+            );
+        }
+        if place {
+            let right = format!("pose({})", print::expr(expr));
+            let title = format!("where it is: write `{right}`");
+            return draft.fix(title, typed.span, right, Applicability::Unsafe);
+        }
+        draft
+    }
+
+    /// The values of an enum, as advice.
+    fn values_of(&self, wanted: &Type) -> Option<String> {
+        let Type::Enum(of) = wanted else { return None };
+        let names: Vec<String> = self.variants(of).iter().map(ToString::to_string).collect();
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        (!names.is_empty()).then(|| format!("`{of}` has {}", listed(&names, "and")))
+    }
+
+    /// Where the kind of a place or a wall is said, and the kind that was likely meant by it.
+    fn misspelt_kind(&self, expr: &Expr, is: &Type, wanted: &Type) -> Option<(Span, String)> {
+        let (
+            Type::Place(Some(said)) | Type::Wall(Some(said)),
+            Type::Place(Some(meant)) | Type::Wall(Some(meant)),
+        ) = (is, wanted)
+        else {
+            return None;
+        };
+        let name = &plain_ref(expr)?.name.name;
+        let (Decl::Place(_, Some(kind)) | Decl::Wall(_, Some(kind)), _) =
+            self.names.value(name, false)?
+        else {
+            return None;
+        };
+        suggest::nearest(said, [meant.as_str()])?;
+        Some((kind.span, meant.clone()))
     }
 
     /// Reports an expression whose unit, or else whose type, is not that of `wanted`.
@@ -183,6 +233,18 @@ fn conversion(typed: &Typed, expr: &Expr, wanted: &Type) -> Option<String> {
     }
     if let (Type::Wall(_), Type::Place(_)) = (&typed.ty, wanted) {
         return Some(PLACE_FOR_WALL.to_owned());
+    }
+    if let (Type::Robot, Type::Place(_)) = (&typed.ty, wanted) {
+        let robot = print::expr(expr);
+        return Some(format!(
+            "a robot is no place: `chase({robot})` and `approach({robot})` go after it"
+        ));
+    }
+    if let (Type::Place(_), Type::Point) = (&typed.ty, wanted) {
+        let place = print::expr(expr);
+        return Some(format!(
+            "a start in a place is `pose = {place}`; `distance({place})` measures to it"
+        ));
     }
     if let (Type::Bool, Some(Dim::NONE), ExprKind::Ref(Ref { args: None, .. })) =
         (&typed.ty, wanted.dim(), &expr.kind)

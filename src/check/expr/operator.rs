@@ -11,6 +11,7 @@ use crate::ir::Pool;
 use crate::ir::expr::{Binary, ExprId, Unary};
 use crate::source::Span;
 use crate::syntax::ast::{self, BinaryOp, Expr, ExprKind, UnaryOp};
+use crate::syntax::print;
 
 /// Whether an operator makes a sum or a product.
 pub(super) fn is_arithmetic(op: BinaryOp) -> bool {
@@ -25,6 +26,9 @@ impl<'a> Checker<'a> {
     pub fn unary(&mut self, op: UnaryOp, operand: &'a Expr, span: Span) -> Option<Typed> {
         if op == UnaryOp::Not {
             let operand = self.expect(operand, &Type::Bool, "what `not` negates");
+            if operand.ty == Type::Error {
+                return None;
+            }
             return Some(self.lift(Type::Bool, span, [&operand], |pool, [a]| pool.not(a)));
         }
         let operand = self.expr(operand);
@@ -54,15 +58,9 @@ impl<'a> Checker<'a> {
         span: Span,
     ) -> Option<Typed> {
         self.same_operands(op, left, right);
-        let both = |checker: &mut Self, word: &str, op: Binary| {
-            let role = format!("each side of `{word}`");
-            let a = checker.expect(left, &Type::Bool, &role);
-            let b = checker.expect(right, &Type::Bool, &role);
-            Some(checker.lift_binary(op, Type::Bool, &a, &b, span))
-        };
         match op.node {
-            BinaryOp::And => both(self, "and", Binary::And),
-            BinaryOp::Or => both(self, "or", Binary::Or),
+            BinaryOp::And => self.junction(op, Binary::And, [left, right], span),
+            BinaryOp::Or => self.junction(op, Binary::Or, [left, right], span),
             BinaryOp::Eq
             | BinaryOp::Ne
             | BinaryOp::Lt
@@ -75,6 +73,57 @@ impl<'a> Checker<'a> {
                 self.step(op, (left, a), right, span)
             }
         }
+    }
+
+    /// `a and b`, `a or b`
+    fn junction(
+        &mut self,
+        sign: ast::Spanned<BinaryOp>,
+        op: Binary,
+        [left, right]: [&'a Expr; 2],
+        span: Span,
+    ) -> Option<Typed> {
+        let word = sign.node.spelling();
+        let (a, b) = (self.expr(left), self.expr(right));
+        if !a.ty.fits(&Type::Bool) && !b.ty.fits(&Type::Bool) {
+            return self.joins_no_truths(sign, [(left, &a), (right, &b)]);
+        }
+        let role = format!("each side of `{word}`");
+        let a = self.coerce(a, left, &Type::Bool, &role);
+        let b = self.coerce(b, right, &Type::Bool, &role);
+        if a.ty == Type::Error || b.ty == Type::Error {
+            return None;
+        }
+        Some(self.lift_binary(op, Type::Bool, &a, &b, span))
+    }
+
+    /// Reports `0 or 3`: neither side holds or does not.
+    fn joins_no_truths<T>(
+        &mut self,
+        sign: ast::Spanned<BinaryOp>,
+        [(left, a), (right, b)]: [(&Expr, &Typed); 2],
+    ) -> Option<T> {
+        let word = sign.node.spelling();
+        let alike = a.ty == b.ty;
+        let help = match alike && sign.node == BinaryOp::Or && self.context.region.draws() {
+            true => {
+                let (left, right) = (print::expr(left), print::expr(right));
+                Some(format!(
+                    "one of several values is drawn: `one_of({left}, {right})`"
+                ))
+            }
+            false => Some("each side is a condition, such as a comparison".to_owned()),
+        };
+        self.error(
+            Code::E0302,
+            sign.span,
+            format!("`{word}` joins conditions, and neither side is one"),
+        )
+        .label("neither side holds or does not")
+        .also(a.span, format!("this is {}", a.ty))
+        .also(b.span, format!("this is {}", b.ty))
+        .help_if(help)
+        .none()
     }
 
     /// Sums and products, which lean to the left: from the left, one operation after the other, however many there are.
@@ -176,6 +225,8 @@ impl<'a> Checker<'a> {
             self.same_dimension(op, (left, a), (right, b))
         } else {
             self.incomparable(op.span, &a, &b);
+            self.clashes(left, b.span, &b.ty);
+            self.clashes(right, b.span, &a.ty);
             None
         };
         let Some((a, b)) = operands else {
@@ -269,11 +320,15 @@ impl<'a> Checker<'a> {
         } else {
             (&b, right, &a, x)
         };
-        self.error(Code::E0301, wrong.span, message)
+        let at = wrong.span;
+        self.error(Code::E0301, at, message)
             .this_is(&wrong.ty)
             .also(fine.span, format!("this is {}", fine.ty))
             .unit_for(expr, Some(dim))
-            .none()
+            .emit();
+        self.clashes(left, at, &b.ty);
+        self.clashes(right, at, &a.ty);
+        None
     }
 
     /// Reports why two values are not compared: they are of different types, or such values are never compared.

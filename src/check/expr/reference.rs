@@ -51,6 +51,10 @@ impl<'a> Checker<'a> {
             let place = reference.name.span.after().to(span.after());
             return match args.is_empty() {
                 true => draft.fix("drop the parentheses", place, "", Applicability::Safe),
+                false if name == "position" => {
+                    let title = "if it is of a robot, write `pose`";
+                    draft.fix(title, reference.name.span, "pose", Applicability::Unsafe)
+                }
                 false => draft,
             }
             .none();

@@ -8,7 +8,10 @@ use crate::ir::expr::{Expr, ExprId};
 use crate::ir::task::{Discount, Learner, Objective, Task};
 use crate::ir::{Id, Name};
 use crate::source::Span;
-use crate::syntax::ast::{self, AspectKind, Item, ItemKind, LearnEntry, Paid, RewardLine};
+use crate::syntax::ast::{
+    self, AspectKind, BinaryOp, ExprKind, Item, ItemKind, LearnEntry, Paid, RewardLine,
+};
+use crate::syntax::print;
 
 impl<'a> Checker<'a> {
     /// Warns of what a task says about rewards, ends and times without any effect.
@@ -116,22 +119,41 @@ impl<'a> Checker<'a> {
 
     /// `on battery_low: -1`: what holds for a while is paid in every tick of it.
     fn pays_again_and_again(&mut self, condition: &ast::Expr) {
-        let Some(asked) = plain_ref(condition) else {
-            return;
-        };
-        let name = &asked.name.name;
-        let mut predicates = self.program.predicates.values();
-        if !predicates.any(|predicate| predicate.name.is(name)) {
+        if !self.lasts(condition) {
             return;
         }
-        let message =
-            format!("`{name}` is a predicate: this is paid in every tick in which it holds");
+        let name = print::expr(condition);
+        let message = match plain_ref(condition) {
+            Some(_) => {
+                format!("`{name}` is a predicate: this is paid in every tick in which it holds")
+            }
+            None => "predicates alone are no event: this is paid in every tick in which they hold"
+                .to_owned(),
+        };
         self.warning(Code::W0519, condition.span, message)
             .label("an event happens, a predicate lasts")
             .help(format!(
                 "a price for the time is written `while {name}, per 1 s: …`"
             ))
             .help("what happens once is an event, such as the success of a behaviour");
+    }
+
+    /// Whether a condition asks nothing but predicates.
+    fn lasts(&self, condition: &ast::Expr) -> bool {
+        match &condition.kind {
+            ExprKind::Paren(inner) => self.lasts(inner),
+            ExprKind::Unary { operand, .. } => self.lasts(operand),
+            ExprKind::Binary { op, left, right } => {
+                matches!(op.node, BinaryOp::And | BinaryOp::Or)
+                    && self.lasts(left)
+                    && self.lasts(right)
+            }
+            ExprKind::Ref(asked) => {
+                let mut predicates = self.program.predicates.values();
+                predicates.any(|predicate| predicate.name.is(&asked.name.name))
+            }
+            _ => false,
+        }
     }
 
     /// Whether what a line of `reward` waits for is an event, whose own condition is told.

@@ -26,6 +26,7 @@ impl<'a> Checker<'a> {
                 self.places_alike(declared, &world);
                 self.places_apart(declared, &world);
                 self.places_too_small(declared, &world);
+                self.stations_out_of_reach(places(declared, &world), &world);
             }
         }
     }
@@ -111,12 +112,13 @@ impl<'a> Checker<'a> {
             return;
         }
         let near = |place: &Place| {
-            let behaviors = self.program.behaviors.values().map(|it| &it.name);
-            let needs = behaviors.filter_map(|name| {
-                let given: Vec<String> = name.given().map(|(_, given)| given.to_string()).collect();
-                match (name.family.as_str(), given.as_slice()) {
-                    ("goto", [at]) if *at == place.name.to_string() => Some(0.0),
-                    ("dock", [at]) if *at == place.name.to_string() => Some(REACH),
+            let needs = self.program.behaviors.values().filter_map(|behavior| {
+                let given = behavior.name.given().next();
+                let at = given.map(|(_, given)| given.to_string())?;
+                match behavior.name.family.as_str() {
+                    _ if at != place.name.to_string() => None,
+                    "goto" => Some(0.0),
+                    "dock" => self.reach_of(behavior),
                     _ => None,
                 }
             });
@@ -176,9 +178,6 @@ fn places<'a, 'w>(
         Some((name, shape.span, place))
     })
 }
-
-/// How near to a station a robot docks, unless it is said otherwise.
-const REACH: f64 = 0.25;
 
 /// Into how many steps the surroundings of a place are divided along each axis.
 const STEPS: usize = 60;

@@ -91,7 +91,14 @@ impl<'a> Checker<'a> {
             Some((Decl::Tree(_), _)) => Some("list the behaviours that the tree is made of"),
             _ => None,
         };
-        let help = help.map(str::to_owned);
+        let place = match self.names.value(&reference.name.name, self.context.library) {
+            Some((Decl::Place(..), _)) => {
+                let place = spelled(&reference.name.name);
+                Some(format!("what brings the robot there: `goto({place})`"))
+            }
+            _ => None,
+        };
+        let help = help.map(str::to_owned).or(place);
         let (behavior, library) =
             self.declared_as(reference, "a behaviour", help, |decl| match decl {
                 Decl::Behavior(behavior) => Some(behavior),
@@ -135,6 +142,16 @@ impl<'a> Checker<'a> {
                 .label("one is needed here")
                 .help(help);
         }
+        if let Some((is, help)) = self.of_another_space(&name.name, what) {
+            return self
+                .error(
+                    Code::E0203,
+                    name.span,
+                    format!("`{}` is {is}, not a {what}", name.name),
+                )
+                .label(format!("a {what} is needed here"))
+                .help_if(help);
+        }
         let place = self.names.value(&name.name, false);
         let place = place.filter(|(decl, _)| matches!(decl, Decl::Place(..) | Decl::Wall(..)));
         // A kind of targets is no misspelt name.
@@ -156,6 +173,32 @@ impl<'a> Checker<'a> {
         .label(format!("no {what} has this name"))
         .likely(name, likely)
         .help_if(hint)
+    }
+
+    /// What a name stands for in another space than that in which a `what` is looked for, and what to do about it.
+    fn of_another_space(&self, name: &str, what: &str) -> Option<(&'static str, Option<String>)> {
+        match what {
+            "tree" if self.names.tasks.contains_key(name) => {
+                let mut trees = self.names.values(|decl| match decl {
+                    Decl::Tree(tree) => tree.task.as_ref().is_some_and(|task| task.name == name),
+                    _ => false,
+                });
+                let tree = trees
+                    .next()
+                    .map(|tree| format!("a tree for it is `{tree}`"));
+                Some(("a task", tree))
+            }
+            "task" => {
+                let (decl, _) = self.names.value(name, false)?;
+                let mut tasks = self.names.tasks.keys();
+                let task = tasks.next().filter(|_| self.names.tasks.len() == 1);
+                Some((
+                    decl.what(),
+                    task.map(|task| format!("the task is `{task}`")),
+                ))
+            }
+            _ => None,
+        }
     }
 
     /// Reports an undeclared name where a declaration that `fits` is expected.
@@ -236,6 +279,26 @@ fn hint(name: &str, what: &str) -> Option<String> {
         "see" | "can_see" | "detect" | "detected" if what.starts_with("function") => {
             "whether something is in sight: `visible(PLACE)`".to_owned()
         }
+        "print" | "println" | "printf" | "log" | "debug" | "rospy" | "echo"
+            if what == "statement" =>
+        {
+            "a program prints nothing: `btc run FILE --trace -` shows what happens".to_owned()
+        }
+        "stop" | "halt" | "brake" if what == "statement" => {
+            "in a tick without `drive` the robot stands".to_owned()
+        }
+        "x" | "y" if what.starts_with("state") && what.ends_with("name") || what == "state" => {
+            "where the robot is: `position.x`; where it starts: `position = (1 m, 2 m)`".to_owned()
+        }
+        "x" | "y" if what.starts_with("state") => "where the robot is: `position.x`".to_owned(),
+        "scanner" | "range_finder" | "beacon" | "SCANNER" | "RANGE_FINDER" | "BEACON"
+        | "Scanner" | "Beacon" | "RangeFinder"
+            if what.starts_with("state") =>
+        {
+            "a sensor is read by the name that the robot gives it: `sensor NAME = …`".to_owned()
+        }
+        "Vector2" | "Vec2" | "vec2" | "Point" | "Vector" | "vector" | "Vector3" | "Pose2D"
+        | "Pose" => "a point is written `(1 m, 2 m)`".to_owned(),
         "sum" | "average" | "mean" if what.starts_with("function") => {
             "members are counted, `count(x in KIND: …)`; a sum is written out".to_owned()
         }

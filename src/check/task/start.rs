@@ -193,7 +193,8 @@ impl<'a> Checker<'a> {
             }
         };
         let (ty, variables) = self.state_variables(state, &line.target)?;
-        let value = self.expect(&line.value, &ty, &format!("`{name}`"));
+        let role = format!("`{name}`");
+        let value = self.set_to(&line.target.name, &line.value, &ty, &role);
         let parts = self.held_parts(&value.value);
         if parts.is_empty() {
             return None;

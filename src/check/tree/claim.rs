@@ -57,6 +57,10 @@ impl<'a> Checker<'a> {
             // Declared, with mistakes that were reported.
             Some((Decl::Tree(tree), _)) if tree.params.is_none() => {}
             _ if known => {}
+            // Its parameters are told of where they stand.
+            Some((Decl::Tree(tree), _))
+                if (tree.params.iter().flat_map(|params| &params.params))
+                    .any(|param| param.ty.factors.is_empty()) => {}
             Some((Decl::Tree(_), _)) => self
                 .error(
                     Code::E0203,
@@ -126,6 +130,9 @@ impl<'a> Checker<'a> {
             Some((Decl::Behavior(_), _)) => {
                 Some(format!("declare one: `event NAME = success({asked})`"))
             }
+            Some((Decl::Place(..), _)) => Some(format!(
+                "declare one: `event NAME = success(goto({asked}))`"
+            )),
             _ => None,
         };
         let (decl, _) = self.declared_as(reference, "an event", help, |decl| match decl {

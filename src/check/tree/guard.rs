@@ -19,11 +19,31 @@ impl<'a> Checker<'a> {
             ExprKind::Bool(value) => Some(Guard::Const(*value)),
             ExprKind::Paren(inner) => self.guard(inner),
             ExprKind::Unary { op, operand } if op.node == UnaryOp::Not => {
+                if let Some(node) = self.node_named(operand) {
+                    let help =
+                        format!("success and failure are exchanged by `invert {{ {node} }}`");
+                    return self.no_guard(operand, help);
+                }
                 self.guard(operand).map(|guard| Guard::Not(Box::new(guard)))
             }
             ExprKind::Binary { op, left, right }
                 if matches!(op.node, BinaryOp::And | BinaryOp::Or) =>
             {
+                if let (Some(first), Some(second)) = (self.node_named(left), self.node_named(right))
+                {
+                    let (word, what) = match op.node {
+                        BinaryOp::And => ("sequence", "nodes that follow each other"),
+                        _ => ("selector", "one node, and another if it fails"),
+                    };
+                    let help = format!("{what}: `{word} {{ {first}, {second} }}`");
+                    return self.no_guard(left, help);
+                }
+                if let (BinaryOp::And, None, Some(node)) =
+                    (op.node, self.node_named(left), self.node_named(right))
+                {
+                    let help = format!("what a condition guards follows `=>`: `… => {node}`");
+                    return self.no_guard(right, help);
+                }
                 self.same_operands(*op, left, right);
                 let (left, right) = (self.guard(left), self.guard(right));
                 Some(joined(op.node == BinaryOp::And, left?, right?))
@@ -52,6 +72,19 @@ impl<'a> Checker<'a> {
                         right,
                         Applicability::Unsafe,
                     )
+                    .none()
+            }
+            ExprKind::Binary { op, left, right }
+                if matches!(op.node, BinaryOp::Eq | BinaryOp::Ne)
+                    && let Some(asked) = self.outcome_asked(left, right) =>
+            {
+                let right = match op.node {
+                    BinaryOp::Eq => asked,
+                    _ => format!("not {asked}"),
+                };
+                self.error(Code::E0601, expr.span, "a guard asks predicates by name")
+                    .label("what a behaviour answers is no value")
+                    .help(format!("the history says what has ended: `{right}`"))
                     .none()
             }
             ExprKind::Binary { op, .. } if op.node <= BinaryOp::Ge => {
@@ -92,7 +125,7 @@ impl<'a> Checker<'a> {
                 let label = format!("`{name}` is {}", decl.what());
                 self.no_predicate(reference.span, &label, help)
             }
-            None if is_built_in(name) => {
+            None if is_built_in(name) || matches!(name, "running" | "pose") => {
                 let label = format!("`{name}` is built in");
                 let help = self.predicate_of(reference);
                 self.no_predicate(reference.span, &label, help)
@@ -109,7 +142,7 @@ impl<'a> Checker<'a> {
     pub fn predicate_of(&self, reference: &Ref) -> Option<String> {
         let name = reference.name.name.as_str();
         let decl = self.names.value(name, self.context.library);
-        if decl.is_none() && !is_built_in(name) {
+        if decl.is_none() && !is_built_in(name) && name != "running" {
             return None;
         }
         let is_number = |ty: &Type| ty.dim().is_some();
@@ -192,6 +225,34 @@ impl<'a> Checker<'a> {
             Outcome::Success => Atom::Done(id),
             Outcome::Failure => Atom::Failed(id),
         })
+    }
+
+    /// The behaviour or tree that an expression names, as it is written.
+    fn node_named(&self, expr: &Expr) -> Option<String> {
+        let reference = plain_ref(expr)?;
+        let (decl, _) = self
+            .names
+            .value(&reference.name.name, self.context.library)?;
+        matches!(decl, Decl::Behavior(_) | Decl::Tree(_)).then(|| print::expr(expr))
+    }
+
+    /// Reports a node that stands where a guard asks.
+    fn no_guard<T>(&mut self, node: &'a Expr, help: String) -> Option<T> {
+        let reference = plain_ref(node)?;
+        let (decl, _) = self.value_of(&reference.name)?;
+        let label = format!("`{}` is {}", reference.name.name, decl.what());
+        self.no_predicate(node.span, &label, Some(help))
+    }
+
+    /// `goto(A) == FAILURE`: what asks the history for it.
+    fn outcome_asked(&self, left: &Expr, right: &Expr) -> Option<String> {
+        let node = self.node_named(left)?;
+        let outcome = plain_ref(right)?.name.name.to_ascii_lowercase();
+        match outcome.as_str() {
+            "success" | "succeeded" => Some(format!("done({node})")),
+            "failure" | "failed" => Some(format!("failed({node})")),
+            _ => None,
+        }
     }
 
     fn no_predicate<T>(&mut self, span: Span, label: &str, help: Option<String>) -> Option<T> {

@@ -124,6 +124,16 @@ impl<'a> Checker<'a> {
                     self.ticks(value, "a timeout")
                 }
                 ArgKind::Positional(value) => self.times(name, value),
+                ArgKind::Named(parameter, value) => {
+                    let until_value = Span {
+                        end: value.span.start,
+                        ..parameter.span
+                    };
+                    self.error(Code::E0606, arg.span, format!("`{name}` takes a number"))
+                        .label("it has no name here")
+                        .fix("drop the name", until_value, "", Applicability::Unsafe)
+                        .none()
+                }
                 _ => self
                     .error(Code::E0606, arg.span, format!("`{name}` takes a number"))
                     .label("not a number")

@@ -75,6 +75,12 @@ impl<'a> Checker<'a> {
                 let [(range, far), (sector, width), noise] = settings?;
                 self.positive("a range", range, far)?;
                 self.positive("a sector", sector, width)?;
+                if sector > TAU + 1e-9 {
+                    let message = "a sector is at most once round";
+                    return self
+                        .out_of_range(width, message, "this is more than 360 deg")
+                        .none();
+                }
                 let kind = SensorKind::Beacon {
                     target,
                     range,

@@ -55,6 +55,19 @@ pub fn claims(loaded: &Loaded) -> Result<Vec<Proved>, Refused> {
     Ok(results)
 }
 
+/// The claims of a program as the language writes them, each with whether its trees are there, in the order of their
+/// answers.
+pub fn claimed(program: &Program) -> impl Iterator<Item = (&str, bool)> {
+    program.claims.iter().map(|claim| {
+        let other = match &claim.kind {
+            ClaimKind::Equals(other) => *other,
+            ClaimKind::Never(_) | ClaimKind::Reaches(_) => claim.tree,
+        };
+        let is_there = |tree| matches!(tree, TreeRef::Tree(_));
+        (claim.text.as_str(), is_there(claim.tree) && is_there(other))
+    })
+}
+
 fn not_learned(claim: &str) -> Proved {
     Proved {
         answer: Answer::Holds,

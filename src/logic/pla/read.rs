@@ -19,8 +19,9 @@ const MISTAKES: usize = 20;
 /// Every mistake, with its place; no more than a screenful.
 pub fn read(text: &str) -> Result<Pla, Vec<PlaError>> {
     let mut reader = Reader::default();
-    let mut at = 0;
-    for line in text.split_inclusive('\n') {
+    // A byte order mark says nothing.
+    let mut at = text.len() - text.trim_start_matches('\u{FEFF}').len();
+    for line in text.get(at..).unwrap_or_default().split_inclusive('\n') {
         reader.line(line, at);
         at += line.len();
         if reader.ended || reader.mistakes.len() >= MISTAKES {

@@ -12,24 +12,29 @@ use crate::policy::valued::{Builder, Decimal, Valued};
 use rustc_hash::FxHashMap;
 use std::ops::Range;
 
-/// Whether a text is of this kind.
+/// Whether a text is of this kind: one of its first lines says so, all of which begin with `#`.
 pub(super) fn is_one(text: &[u8]) -> bool {
-    let line = text.split(|b| *b == b'\n').next().unwrap_or_default();
-    [
+    let words = [
         &b"#PERMISSIVE"[..],
         b"#NON-PERMISSIVE",
         b"#BEGIN",
         b"#CATEGORICAL",
-    ]
-    .iter()
-    .any(|word| line.trim_ascii().starts_with(word))
+    ];
+    let lines = text.split(|b| *b == b'\n').map(<[u8]>::trim_ascii);
+    let mut head = lines.take(HEAD).take_while(|line| line.starts_with(b"#"));
+    head.any(|line| words.iter().any(|word| line.starts_with(word)))
 }
+
+/// In how many lines a file says of what kind it is.
+const HEAD: usize = 4;
 
 /// What the lines before the rows say.
 #[derive(Default)]
 struct Head {
     permissive: Option<bool>,
     categorical: Vec<usize>,
+    /// Where these are listed.
+    listed: Option<Range<usize>>,
     /// The columns of the state and of what is done, with the place.
     sizes: Option<(usize, usize, Range<usize>)>,
 }
@@ -61,6 +66,15 @@ pub(super) fn read(text: &[u8]) -> Result<Valued, Vec<TableError>> {
         }
         return builder.finish(from..from);
     };
+    let (unknown, listed) = (
+        head.categorical.iter().find(|column| **column >= state),
+        head.listed.clone().unwrap_or(from..from),
+    );
+    if let Some(column) = unknown {
+        let message = format!("there is no column {column}: the state has {state}, counted from 0");
+        builder.report(&listed, foreign(message));
+        return builder.finish(place);
+    }
     let columns = (0..state).map(|column| {
         let name = format!("x_{column}");
         match head.categorical.contains(&column) {
@@ -128,7 +142,10 @@ impl Head {
         match (word, numbers.as_deref()) {
             ("PERMISSIVE", _) => self.permissive = Some(true),
             ("NON-PERMISSIVE", _) => self.permissive = Some(false),
-            ("CATEGORICAL", Some(numbers)) => self.categorical = numbers.to_vec(),
+            ("CATEGORICAL", Some(numbers)) => {
+                self.categorical = numbers.to_vec();
+                self.listed = Some(place.clone());
+            }
             ("BEGIN", Some(&[state @ 1..=4096, done @ 1..=64])) => {
                 self.sizes = Some((state, done, place.clone()));
             }
@@ -141,9 +158,21 @@ impl Head {
                 };
                 builder.report(place, foreign(message));
             }
+            // Whatever else stands behind a `#` is a remark, unless it was to be one of these.
+            (word, _) if is_meant(word) => {
+                let message = format!("`#{word}` says nothing of a controller");
+                builder.report(place, foreign(message));
+            }
             _ => {}
         }
     }
+}
+
+/// Whether a word in capitals was likely to be one of the words before the rows.
+fn is_meant(word: &str) -> bool {
+    let ends = ["PERMI", "NON", "BEG", "CATEG"];
+    let capital = word.chars().all(|c| c.is_ascii_uppercase() || c == '-');
+    capital && ends.iter().any(|begin| word.starts_with(begin))
 }
 
 /// What is done, by its numbers.
@@ -155,9 +184,9 @@ fn called(numbers: &[Decimal]) -> String {
     }
 }
 
-fn foreign(message: &str) -> TableErrorKind {
+fn foreign(message: impl Into<String>) -> TableErrorKind {
     TableErrorKind::Foreign {
-        message: message.to_owned(),
+        message: message.into(),
         help: Some("a file of dtControl begins with `#NON-PERMISSIVE` and `#BEGIN 2 1`"),
     }
 }

@@ -152,11 +152,10 @@ impl<'i> Builder<'i> {
             "/=" => AssignOp::Div,
             _ => AssignOp::Set,
         };
-        StmtKind::Assign {
-            target,
-            op: self.spanned(&sign, op),
-            value: self.take_expr(&mut parts),
-        }
+        let op = self.spanned(&sign, op);
+        let value = self.take_expr(&mut parts);
+        self.odd_assignment(op.span, value.span);
+        StmtKind::Assign { target, op, value }
     }
 
     /// Reports the word at `span` as no unit, where it follows a number on its line.

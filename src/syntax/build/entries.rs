@@ -13,7 +13,11 @@ use crate::syntax::words::{CALLED, NODES};
 pub(super) const HISTORY: &str = "the ends of a history";
 
 /// What other notations put before the nodes of a tree.
-const BEFORE_NODES: [&str; 10] = [
+const BEFORE_NODES: [&str; 14] = [
+    "subtree",
+    "SubTree",
+    "Subtree",
+    "SubTreePlus",
     "when",
     "action",
     "condition",
@@ -318,6 +322,9 @@ impl<'i> Builder<'i> {
         let comma = before.map_or(place.before(), Span::after);
         let message = format!("a comma is missing before `{}`", self.slice(place));
         let name = before.map(|before| self.slice(before));
+        if self.linked(place, before) {
+            return;
+        }
         // What a quote that is not closed has taken is reported there.
         if name.is_some_and(|name| name.starts_with('`') && !name.ends_with('`')) {
             return;
@@ -385,5 +392,68 @@ impl<'i> Builder<'i> {
             ));
         }
         self.report(diagnostic);
+    }
+
+    /// Reports words that other languages join nodes and conditions by, and arguments that stand outside of parentheses; what
+    /// begins at `place` follows what stands at `before`. Of both commas that seem to miss there, none is told.
+    fn linked(&mut self, place: Span, before: Option<Span>) -> bool {
+        let Some(before) = before else {
+            return false;
+        };
+        let next = self.slice(place);
+        // Of `full => wait 2 s` the last word lacks its arguments.
+        let name = self.slice(before).rsplit(' ').next().unwrap_or_default();
+        let gap = self.text.get(before.range().end..place.range().start);
+        if gap.is_none_or(|gap| gap.contains('\n')) {
+            return false;
+        }
+        if matches!(name, "then" | "xor") {
+            return true;
+        }
+        let diagnostic = match next {
+            "then" => {
+                let message = "what a condition guards follows `=>`";
+                Diagnostic::new(Code::E0116, place, message)
+                    .label("write `=>`")
+                    .fix("write `=>`", place, "=>", Applicability::Safe)
+            }
+            "xor" => Diagnostic::new(Code::E0110, place, "there is no `xor`")
+                .label("conditions are joined by `and`, `or` and `not`")
+                .help("one of the two, and not both: `a and not b or b and not a`"),
+            _ => {
+                let is_word = name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+                let rest = self.text.get(place.range().start..).unwrap_or_default();
+                let rest = rest.split(['\n', ',', '}']).next().unwrap_or_default();
+                let rest = rest.split("//").next().unwrap_or_default().trim_end();
+                let mut letters =
+                    rest.trim_start_matches(|c: char| c.is_ascii_alphanumeric() || c == '_');
+                letters = letters.trim_start();
+                let named = letters.starts_with('=')
+                    && !letters.starts_with("=>")
+                    && !letters.starts_with("==");
+                let number = next.starts_with(|c: char| c.is_ascii_digit());
+                if !is_word || !(named || number) || rest.contains(['(', ')', '{', '>']) {
+                    return false;
+                }
+                let start = place.range().start;
+                let right = format!("({rest})");
+                let span = Span::new(self.file, before.range().end, start + rest.len());
+                self.failed_at = Some(start + rest.len());
+                Diagnostic::new(
+                    Code::E0101,
+                    place,
+                    format!("the arguments of `{name}` stand in parentheses"),
+                )
+                .label(format!("write `{name}{right}`"))
+                .fix(
+                    format!("write `{name}{right}`"),
+                    span,
+                    right,
+                    Applicability::Unsafe,
+                )
+            }
+        };
+        self.report(diagnostic);
+        true
     }
 }

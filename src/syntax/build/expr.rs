@@ -89,6 +89,9 @@ impl<'i> Builder<'i> {
         while let Some(sign) = parts.next() {
             let op = self.binary(&sign);
             let right = self.take_expr(&mut parts);
+            if matches!(op.node, BinaryOp::Add | BinaryOp::Sub) {
+                self.odd_sign(left.span, op.span, right.span);
+            }
             let span = left.span.to(right.span);
             if compares && let Some(first) = first {
                 self.comparisons(first, op, span);
@@ -278,76 +281,25 @@ impl<'i> Builder<'i> {
         let otherwise = self.take_expr(&mut parts);
         let span = cond.span.to(otherwise.span);
         let [c, a, b] = [cond.span, then.span, otherwise.span].map(|span| self.slice(span));
-        let right = format!("if {c} {{ {a} }} else {{ {b} }}");
-        let place = self.span(sign);
-        let diagnostic = Diagnostic::new(
-            Code::E0110,
-            place,
-            "`? :` is written `if … { … } else { … }`",
-        )
-        .label("not an operator here")
-        .fix(format!("write `{right}`"), span, right, Applicability::Safe);
-        self.report(diagnostic);
-        self.error_expr(span)
-    }
-
-    /// `a.b`, which reads nothing but the coordinates of a point.
-    pub(super) fn wrong_field(&mut self, of: Expr, node: Node<'i>) -> Expr {
-        let place = self.span(&node);
-        let span = of.span.to(place);
-        if matches!(of.kind, ExprKind::Error) {
-            return self.error_expr(span);
-        }
-        let mark = if node.as_str().starts_with("::") {
-            "::"
-        } else {
-            "."
-        };
-        let mut parts = Parts::of(node);
-        let name = parts
-            .maybe(Rule::field_name)
-            .map_or("", |node| node.as_str());
-        let is_call = parts.has(Rule::args);
-        if matches!(name, "x" | "y") && !is_call {
-            let owner = self.slice(of.span);
-            let diagnostic = Diagnostic::new(Code::E0310, place, "a coordinate is not set alone")
-                .label("a point is set as a whole")
-                .help(format!("write `{owner} = (…, …)`"));
-            self.report(diagnostic);
-            return self.error_expr(span);
-        }
-        let owner = self.slice(of.span);
-        let is_name = matches!(&of.kind, ExprKind::Ref(reference) if reference.args.is_none());
-        let reads = [
-            "distance",
-            "direction",
-            "bearing",
-            "visible",
-            "inside",
-            "facing",
-        ];
-        let ends = ["success", "failure", "running"];
-        let called = reads.contains(&name) || ends.contains(&name) || is_call;
-        let right = if called || self.declares_family(name) {
-            format!("{name}({owner})")
-        } else if matches!(name, "position" | "pose") && !matches!(owner, "robot" | "self" | "this")
-        {
-            format!("pose({owner})")
-        } else {
-            name.to_owned()
-        };
-        let diagnostic =
-            Diagnostic::new(Code::E0133, place, format!("nothing has a field `{name}`"))
-                .label(format!("`{mark}` reads only `x` and `y` of a point"));
-        let diagnostic = match is_name || right.contains('(') {
-            true => diagnostic.fix(
-                format!("write `{right}`"),
-                span,
-                right,
-                Applicability::Unsafe,
+        let (right, form) = match self.in_tree {
+            true => (
+                format!("selector {{ {c} => {a}, {b} }}"),
+                "selector { … => …, … }",
             ),
-            false => diagnostic,
+            false => (
+                format!("if {c} {{ {a} }} else {{ {b} }}"),
+                "if … { … } else { … }",
+            ),
         };
+        // A selector goes on to its last child where the first one fails, too.
+        let applicability = match self.in_tree {
+            true => Applicability::Unsafe,
+            false => Applicability::Safe,
+        };
+        let place = self.span(sign);
+        let diagnostic = Diagnostic::new(Code::E0110, place, format!("`? :` is written `{form}`"))
+            .label("not an operator here")
+            .fix(format!("write `{right}`"), span, right, applicability);
         self.report(diagnostic);
         self.error_expr(span)
     }

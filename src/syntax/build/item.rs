@@ -224,10 +224,10 @@ impl<'i> Builder<'i> {
                 format!("the parameter `{}` has no type", name.name),
             )
             .label("a type goes after it")
-            .help(format!(
-                "write `{}: length`, or whichever type it has",
-                name.name
-            ));
+            .help(match self.declares_task(&name.name) {
+                true => format!("if it is the task: `tree NAME for {} = …`", name.name),
+                false => format!("write `{}: length`, or whichever type it has", name.name),
+            });
             self.report(diagnostic);
         }
         let default = self.take_is(&mut parts).then(|| self.take_expr(&mut parts));

@@ -78,6 +78,12 @@ impl Builder<'_> {
         else {
             return;
         };
+        // `near goal`
+        if left.end == previous.range().end && self.is_name(&left) && self.is_name(&mark) {
+            self.lost
+                .names
+                .push([self.bare(&left), self.bare(&mark)].join("_"));
+        }
         let touching = left.end == mark.start && mark.end == right.start;
         if !touching || left.end != previous.range().end || right.kind != Kind::Word {
             return;
@@ -93,7 +99,7 @@ impl Builder<'_> {
     }
 
     fn bare(&self, token: &Token) -> String {
-        token.of(self.text).trim_matches('`').to_owned()
+        token.of(self.text).trim_matches(['`', '"']).to_owned()
     }
 
     /// Notes what the text at `span` seems to declare.
@@ -112,6 +118,17 @@ impl Builder<'_> {
         let mut names: Vec<&Token> = code.iter().take(FIRST).filter(is_name).copied().collect();
         if first == Some("enum") {
             names.extend(code.iter().filter(is_name));
+            names.extend(code.iter().filter(|token| token.kind == Kind::Text));
+        }
+        // A name of two words is likely used as one.
+        if let [declares, left, right, ..] = code.as_slice()
+            && DECLARING.contains(&word(declares))
+            && self.is_name(left)
+            && self.is_name(right)
+        {
+            self.lost
+                .names
+                .push([self.bare(left), self.bare(right)].join("_"));
         }
         // However it is said, what brings the library brings names.
         let mut unnamed = first == Some("use")
@@ -126,7 +143,12 @@ impl Builder<'_> {
                 unnamed |= !self.is_name(name);
             }
         }
-        let world = code.iter().any(|token| IN_WORLDS.contains(&word(token)));
+        let world = code.windows(2).any(|pair| match pair {
+            [begins, name] => {
+                IN_WORLDS.contains(&word(begins)) && (self.is_name(name) || word(name) == "{")
+            }
+            _ => false,
+        });
         // The kinds of places and walls stand behind their names.
         for pair in code.windows(2).filter(|_| world) {
             if let [colon, kind] = pair

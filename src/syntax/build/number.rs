@@ -248,6 +248,14 @@ impl<'i> Builder<'i> {
     }
 
     /// Whether the file declares a family of that name.
+    pub(super) fn declares_task(&self, name: &str) -> bool {
+        self.tokens.windows(2).any(|pair| match pair {
+            [word, of] => word.of(self.text) == "task" && of.of(self.text) == name,
+            _ => false,
+        })
+    }
+
+    /// Whether a family of that name is declared.
     pub(super) fn declares_family(&self, name: &str) -> bool {
         let families = ["state", "event", "predicate", "let"];
         self.tokens.windows(3).any(|three| match three {

@@ -72,7 +72,9 @@ impl<'i> Builder<'i> {
             self.wrong_branch(branch);
             return NodeKind::Error;
         }
+        let outer = std::mem::replace(&mut self.in_tree, true);
         let expr = self.take_expr(&mut parts);
+        self.in_tree = outer;
         let Some(arrow) = parts.maybe(Rule::guards) else {
             return NodeKind::Leaf(expr);
         };
@@ -91,18 +93,34 @@ impl<'i> Builder<'i> {
         };
         let span = self.span(&word);
         let guard = self.take_expr(&mut parts);
+        let children = parts.maybe(Rule::children);
+        let body = children.as_ref().map(|children| self.span(children));
+        let children = children.map(|children| self.children(children));
+        let only = match children.as_deref() {
+            Some([only]) => Some(only.span),
+            _ => None,
+        };
+        let guarded = body.zip(only).map(|(body, only)| {
+            let right = format!("{} => {}", self.slice(guard.span), self.slice(only));
+            (span.to(body), right)
+        });
         let guard = self.slice(guard.span);
         let diagnostic = Diagnostic::new(
             Code::E0116,
             span,
             "a tree has no `if`: what a condition guards follows `=>`",
         )
-        .label("not a kind of node")
-        .help(format!("write `{guard} => …`"));
+        .label("not a kind of node");
+        let diagnostic = match guarded {
+            Some((place, right)) => diagnostic.fix(
+                format!("write `{right}`"),
+                place,
+                right,
+                Applicability::Unsafe,
+            ),
+            None => diagnostic.help(format!("write `{guard} => …`")),
+        };
         self.report(diagnostic);
-        if let Some(children) = parts.maybe(Rule::children) {
-            self.children(children);
-        }
     }
 
     /// Reports an arrow other than `=>`; `before` says what stands before it.

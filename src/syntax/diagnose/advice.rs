@@ -9,6 +9,11 @@ use crate::syntax::grammar::Rule;
 use crate::syntax::tokens::{Kind, Token};
 use crate::syntax::words::{CALLED, NODES, RANGING};
 
+/// Whether a word comes next.
+fn is_word_next(next: Option<Token>) -> bool {
+    next.is_some_and(is_word)
+}
+
 impl Place<'_> {
     /// Advice on a token that does not fit.
     pub(super) fn advised(&self, diagnostic: Diagnostic) -> Diagnostic {
@@ -29,6 +34,11 @@ impl Place<'_> {
         let wants_block = self.wanted().is_some_and(|wanted| wanted.contains("`{`"));
         let follows = |token: Token| matches!(token.kind, Kind::Word | Kind::Number);
         let is_mark = matches!(found, ":" | "=" | ":=") && self.before.is_some_and(follows);
+        let answers = self.failure.strict == Rule::strict_test_entry && self.expects(Rule::guards);
+        if is_mark && answers && self.line_begins_with("tick") {
+            let title = "what the tree does follows `=>`";
+            return diagnostic.fix(title, self.span(), " =>", Applicability::Unsafe);
+        }
         if is_mark && wants_block && (ends_line || self.after_found() == "{") {
             let help = "a block stands in braces: `{ … }`";
             return match self.after_found() {
@@ -53,6 +63,21 @@ impl Place<'_> {
         if let Some((title, right)) = self.respelled() {
             return diagnostic.fix(title, self.span(), right, Applicability::Unsafe);
         }
+        if self.before() == "with"
+            && self.line_begins_with("claim")
+            && self.found.kind == Kind::Number
+        {
+            let title = "say that it is as probable or more";
+            let before = self.span().before();
+            return diagnostic.fix(title, before, "probability >= ", Applicability::Unsafe);
+        }
+        if self.before() == "history"
+            && self.expects(Rule::kw_last)
+            && self.found.kind == Kind::Number
+        {
+            let title = "a history keeps the last ends";
+            return diagnostic.fix(title, self.span().before(), "last ", Applicability::Safe);
+        }
         if self.before() == "probability" && self.found.kind == Kind::Number {
             let title = "say that it is as probable or more";
             let before = self.span().before();
@@ -67,6 +92,41 @@ impl Place<'_> {
             }
             (_, "{") if self.before() == "*" => {
                 "a node that goes on where it was is a `memory sequence { … }`"
+            }
+            (Rule::strict_child, "<") if self.expects(Rule::node) => {
+                "a tree is not written in XML: `sequence { goto(A), dock(A) }`"
+            }
+            (Rule::strict_child, "[") if self.expects(Rule::node) => {
+                "the children of a node stand in braces: `sequence { …, … }`"
+            }
+            (Rule::strict_child, "else") => {
+                "what is done else is the last child of a `selector`, without a guard"
+            }
+            (Rule::strict_stmt, "|" | "&") if self.after_found() == "=" => {
+                "the state stands on both sides: `STATE = STATE or CONDITION`"
+            }
+            (Rule::strict_item, "{")
+                if self.line_begins_with("behavior") && self.before() != "=" =>
+            {
+                "nodes make a tree: `tree NAME = sequence { … }`"
+            }
+            (Rule::strict_robot_entry, "{") => {
+                "the tree has a name: `tree NAME = …`, and then `runs = NAME`"
+            }
+            (Rule::strict_reward, "on") => {
+                "events are joined by `and` alone: `on EVENT and EVENT: …`"
+            }
+            (Rule::strict_reward, "each") => "what each tick costs is a price: `per 1 s: …`",
+            (Rule::strict_reward, "while") => {
+                "the condition goes first: `while CONDITION, per TIME: NUMBER`"
+            }
+            (Rule::strict_test_entry, "returns" | "==" | "is" | "." | "answers")
+                if self.line_begins_with("tick") =>
+            {
+                "what a behaviour answers is `succeeds`, `fails` or `runs`"
+            }
+            (Rule::strict_test_entry, _) if self.found.kind == Kind::Number => {
+                "several ticks are `tick … for 20 ticks => …`"
             }
             (_, "else") if self.after_found() == "=>" => {
                 "what is done else is the last child of a `selector`, without a guard"
@@ -105,8 +165,11 @@ impl Place<'_> {
             }
             (_, "[") if self.expects(Rule::children) => "the children of a node stand in braces",
             (_, "[") if self.expects(Rule::open_paren) => "arguments stand in parentheses",
-            (Rule::strict_item, "with") if self.begins_with("claim") => {
+            (Rule::strict_item, "with") if self.line_begins_with("claim") => {
                 "how sure it is follows last: `… within TIME with probability >= 95%`"
+            }
+            (_, found) if found.starts_with('.') && found.len() > 1 => {
+                "a value from a range is drawn by `uniform(low, high)`"
             }
             (_, "..") => "a value from a range is drawn by `uniform(low, high)`",
             (Rule::strict_start_line, "for") => {
@@ -129,7 +192,7 @@ impl Place<'_> {
             (Rule::strict_item, ",") if self.begins_with("on") => {
                 "one of several events is waited for by `or`: `on EVENT or EVENT { … }`"
             }
-            (Rule::strict_item, "and" | "or") if self.begins_with("claim") => {
+            (Rule::strict_item, "and" | "or") if self.line_begins_with("claim") => {
                 "a claim says one thing: write another `claim` for the other"
             }
             (Rule::strict_item, "<" | "<=") if self.before() == "probability" => {
@@ -148,6 +211,9 @@ impl Place<'_> {
                 "a guard is followed by `=>`: `CONDITION => NODE`"
             }
             (_, "xor") => "one of the two, and not both: `a != b`",
+            (_, "in") if self.expects(Rule::or_op) && is_word_next(self.next()) => {
+                "whether the robot is in a place: `inside(PLACE)`, another robot: `inside(PLACE, by = ROBOT)`"
+            }
             (_, "in") | (_, "not") if self.expects(Rule::or_op) => {
                 "each comparison says what it compares: `x == a or x == b`"
             }
@@ -191,19 +257,55 @@ impl Place<'_> {
             (Rule::strict_child | Rule::strict_item, ":") if self.expects(Rule::guards) => {
                 Some(("a guard is followed by `=>`", "=>"))
             }
-            (Rule::strict_item, "==" | "=") if self.begins_with("claim") => {
+            (Rule::strict_item, "==" | "=") if self.line_begins_with("claim") => {
                 Some(("a claim says it in words", "equals"))
             }
             (Rule::strict_item, "eventually" | "achieves" | "finally" | "gets")
-                if self.begins_with("claim") =>
+                if self.line_begins_with("claim") =>
             {
                 Some(("a claim says it in words", "reaches"))
             }
-            (Rule::strict_item, "avoids" | "not") if self.begins_with("claim") => {
+            (Rule::strict_item, "is" | "same") if self.line_begins_with("claim") => {
+                Some(("a claim says it in words", "equals"))
+            }
+            (Rule::strict_item, "of") if self.line_begins_with("learn") => {
+                Some(("a learner is for a task", "for"))
+            }
+            (Rule::strict_item, "of") if self.line_begins_with("tree") => {
+                Some(("a tree is for a task", "for"))
+            }
+            (Rule::strict_item, ":")
+                if self.line_begins_with("tree") && self.expects(Rule::kw_for) =>
+            {
+                Some(("a tree is for a task", " for"))
+            }
+            (Rule::strict_item, "for")
+                if self.line_begins_with("test") && self.expects(Rule::kw_of) =>
+            {
+                Some(("a test is of a tree", "of"))
+            }
+            (Rule::strict_aspect, "in" | "at" | "within") if self.before() == "end" => Some((
+                "how long an episode lasts at most is said by `after`",
+                "after",
+            )),
+            (Rule::strict_clause, "if" | "once") if matches!(self.before(), "fail" | "succeed") => {
+                Some(("a clause asks by `when`", "when"))
+            }
+            (Rule::strict_test_entry, "SUCCESS" | "Success" | "Succeeded" | "ok") => {
+                Some(("what a behaviour answers is said by a verb", "succeeds"))
+            }
+            (Rule::strict_test_entry, "FAILURE" | "Failure") => {
+                Some(("what a behaviour answers is said by a verb", "fails"))
+            }
+            (Rule::strict_test_entry, "RUNNING" | "Running") => {
+                Some(("what a behaviour answers is said by a verb", "runs"))
+            }
+            (Rule::strict_item, "avoids" | "not") if self.line_begins_with("claim") => {
                 Some(("a claim says it in words", "never"))
             }
             (Rule::strict_item, "before" | "in" | "by" | "under" | "after")
-                if self.begins_with("claim") && self.expects(Rule::kw_within) =>
+                if self.line_begins_with("claim")
+                    && (self.expects(Rule::kw_within) || self.expects(Rule::within)) =>
             {
                 Some(("how soon is said by `within`", "within"))
             }

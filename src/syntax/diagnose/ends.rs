@@ -47,6 +47,9 @@ impl Place<'_> {
         if let Some(open) = self.open_paren() {
             return Some((last, self.unclosed_by(open)));
         }
+        if let Some(diagnostic) = self.cut_form() {
+            return Some((last, diagnostic));
+        }
         let wanted = self.wanted()?;
         let diagnostic = self.after(last, &wanted);
         Some(match self.form(&wanted) {

@@ -86,10 +86,22 @@ impl Place<'_> {
             "a history keeps `success`, `failure` or both, found `{}`",
             self.found()
         );
-        Some(
-            Diagnostic::new(Code::E0101, self.span(), message)
-                .label("expected `success` or `failure`"),
-        )
+        let meant = match self.found().to_ascii_lowercase().as_str() {
+            "done" | "succeeded" | "successes" | "succeeds" | "success" => Some("success"),
+            "failed" | "failures" | "fails" | "fail" | "failure" => Some("failure"),
+            _ => None,
+        };
+        let diagnostic = Diagnostic::new(Code::E0101, self.span(), message)
+            .label("expected `success` or `failure`");
+        Some(match meant {
+            Some(meant) => diagnostic.fix(
+                format!("write `{meant}`"),
+                self.span(),
+                meant,
+                Applicability::Unsafe,
+            ),
+            None => diagnostic,
+        })
     }
 
     /// `on EVENT => carrying = true`, `each tick: battery -= 1%`: effects without their braces.

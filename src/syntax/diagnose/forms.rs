@@ -106,6 +106,9 @@ impl Place<'_> {
         let line = before.rfind('\n').map_or(0, |at| at + 1);
         // What stands behind a whole item may have been meant as a part of it.
         let mut words = [self.word_at(start), self.word_at(line)].into_iter();
+        if self.failure.strict == Rule::strict_stmt && !self.begins_with("for") {
+            return None;
+        }
         let word = words.find(known)?;
         if within.contains(&wanted) || self.open().is_some() && word != "enum" {
             return None;
@@ -117,6 +120,13 @@ impl Place<'_> {
     /// Whether the text that does not parse begins with a word.
     pub(super) fn begins_with(&self, word: &str) -> bool {
         self.word_at(self.failure.start) == word
+    }
+
+    /// Whether the text that does not parse, or the line that it goes on with, begins with a word.
+    pub(super) fn line_begins_with(&self, word: &str) -> bool {
+        let before = self.text.get(..self.failure.start).unwrap_or_default();
+        let line = before.rfind('\n').map_or(0, |at| at + 1);
+        self.begins_with(word) || self.word_at(line) == word
     }
 
     /// The word that begins at byte `at`, or behind the blanks there.

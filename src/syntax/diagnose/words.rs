@@ -18,7 +18,10 @@ impl Place<'_> {
             || self.found.kind != Kind::Word
             || !self.same_line_as_before()
             || RESERVED.contains(&word)
-            || matches!(word, "within" | "with" | "of" | "per" | "to" | "x")
+            || matches!(
+                word,
+                "within" | "with" | "of" | "per" | "to" | "x" | "while"
+            )
             || expected::words(&self.failure.expected).contains(&word)
         {
             return None;
@@ -114,7 +117,7 @@ impl Place<'_> {
             )
         });
         if names_next
-            && word != "for"
+            && !matches!(word, "for" | "if")
             && self.before.is_some_and(is_word)
             && self.same_line_as_before()
         {
@@ -274,13 +277,20 @@ impl Place<'_> {
                     .help(format!("put it there: `control {{ {word} … }}`")),
             );
         }
-        let diagnostic = match near {
-            Some(near) => diagnostic.label(format!("did you mean `{near}`?")).fix(
+        let diagnostic = match near.map(|near| self.in_full(near)) {
+            Some((near, span)) => diagnostic.label(format!("did you mean `{near}`?")).fix(
                 format!("write `{near}`"),
-                self.span(),
+                span,
                 near,
                 Applicability::Unsafe,
             ),
+            None if self.failure.strict == Rule::strict_item
+                && matches!(self.after_found(), "=>" | ",") =>
+            {
+                diagnostic
+                    .label("this stands in a tree")
+                    .help("the `}` of its tree stands above: is there one too many?")
+            }
             None => diagnostic.label("not known here"),
         };
         // Who has another word for it may write it otherwise, too.
@@ -289,6 +299,36 @@ impl Place<'_> {
             None => diagnostic,
         };
         Some(diagnostic.note(format!("{begins} begins with {}", either(&listed))))
+    }
+}
+
+impl Place<'_> {
+    /// A word that is meant with what has to follow it, and the text in whose place it is written.
+    fn in_full(&self, meant: &'static str) -> (&'static str, Span) {
+        let next = self.next();
+        let index = next.map(|next| self.tokens.partition_point(|token| token.end <= next.end));
+        let second = index.and_then(|index| self.tokens.get(index).copied());
+        let is_number = |token: &Option<Token>| token.is_some_and(|it| it.kind == Kind::Number);
+        let line = self.text.get(self.found.end..).unwrap_or_default();
+        let line = line.lines().next().unwrap_or_default();
+        match meant {
+            "end" if is_number(&next) => ("end after", self.span()),
+            "end" if matches!(self.after_found(), "=" | ":") && is_number(&second) => {
+                let mark = next.map_or(self.span(), |next| self.span_of(next));
+                ("end after", self.span().to(mark))
+            }
+            "tick" if self.failure.strict == Rule::strict_test_entry && !line.contains("=>") => {
+                ("tick =>", self.span())
+            }
+            "use" if self.found() == "from" && self.after_found() == "std" => {
+                let end = self.found.end + line.trim_end().len();
+                ("use std", Span::new(self.file, self.found.start, end))
+            }
+            "on" if self.failure.strict == Rule::strict_reward && line.contains(", per ") => {
+                ("while", self.span())
+            }
+            meant => (meant, self.span()),
+        }
     }
 }
 

@@ -1,0 +1,150 @@
+//! States that are declared with one type and used with another: one mistake, told once.
+
+use super::Checker;
+use super::expr::plain_ref;
+use super::names::Decl;
+use super::types::{Type, Typed};
+use crate::diagnostic::{Applicability, Code, Diagnostic, Fix, Label};
+use crate::source::Span;
+use crate::syntax::ast::{Expr, ExprKind, Ident, State};
+use std::collections::BTreeMap;
+
+/// A use of a state that does not agree with its type, as it was reported.
+#[derive(Clone, Debug)]
+pub struct Clash<'a> {
+    /// Where it was reported.
+    at: Span,
+    state: &'a State,
+    /// The type that the use would agree with.
+    used_as: Type,
+}
+
+/// How many uses are shown.
+const SHOWN: usize = 3;
+
+impl<'a> Checker<'a> {
+    /// Notes that what an expression names was taken for something of another type, which was reported at `at`.
+    pub fn clashes(&mut self, expr: &Expr, at: Span, used_as: &Type) {
+        if let Some(reference) = plain_ref(expr) {
+            self.clashes_with(&reference.name, at, used_as);
+        }
+    }
+
+    /// Notes that the state of this name was taken for something of another type, which was reported at `at`.
+    pub fn clashes_with(&mut self, name: &Ident, at: Span, used_as: &Type) {
+        if self.context.lookup(&name.name).is_none()
+            && let Some((Decl::State(state), false)) =
+                self.names.value(&name.name, self.context.library)
+            && *used_as != Type::Error
+        {
+            self.clashes.push(Clash {
+                at,
+                state,
+                used_as: used_as.clone(),
+            });
+        }
+    }
+
+    /// Checks the value that a name is set to.
+    pub fn set_to(&mut self, name: &Ident, value: &'a Expr, ty: &Type, role: &str) -> Typed {
+        let typed = self.expr(value);
+        if !typed.ty.fits(ty) {
+            self.clashes_with(name, typed.span, &typed.ty);
+        }
+        self.coerce(typed, value, ty, role)
+    }
+
+    /// Makes one mistake of the uses of a state that all disagree with its type in the same way: of the declaration,
+    /// where most uses do.
+    pub fn settle_clashes(&mut self) {
+        let mut states: BTreeMap<Span, Vec<Clash<'a>>> = BTreeMap::new();
+        for clash in std::mem::take(&mut self.clashes) {
+            let of_state = states.entry(clash.state.name.span).or_default();
+            if of_state.iter().all(|other| other.at != clash.at) {
+                of_state.push(clash);
+            }
+        }
+        let mut states: Vec<_> = states.into_values().collect();
+        states.sort_by_key(|clashes| std::cmp::Reverse(clashes.len()));
+        for mut clashes in states {
+            let told = |at: Span, found: &Diagnostic| {
+                found.span() == at && matches!(found.code, Code::E0301 | Code::E0302)
+            };
+            clashes.retain(|clash| self.diagnostics.iter().any(|found| told(clash.at, found)));
+            clashes.sort_by_key(|clash| clash.at);
+            let [first, .., _] = clashes.as_slice() else {
+                continue;
+            };
+            if clashes.iter().any(|other| other.used_as != first.used_as) {
+                continue;
+            }
+            let uses = self.meanings.uses_of(first.state.name.span).count();
+            if 2 * clashes.len() < uses {
+                continue;
+            }
+            let one = self.misdeclared(first, &clashes);
+            let follows = |found: &Diagnostic| clashes.iter().any(|it| told(it.at, found));
+            let value = first.state.value.span;
+            self.diagnostics
+                .retain(|found| !follows(found) && !told(value, found));
+            self.diagnostics.push(one);
+        }
+    }
+
+    /// The message for a state whose uses disagree with its declaration.
+    fn misdeclared(&self, first: &Clash, clashes: &[Clash]) -> Diagnostic {
+        let state = first.state;
+        let name = &state.name.name;
+        let used_as = &first.used_as;
+        let is = self.states.get(name.as_str()).map(|slot| &slot.ty);
+        let is = is.map_or("something else".to_owned(), Type::to_string);
+        let code = match (used_as.dim(), self.states.get(name.as_str())) {
+            (Some(_), Some(slot)) if slot.ty.dim().is_some() => Code::E0301,
+            _ => Code::E0302,
+        };
+        let span = state.ty.as_ref().map_or(state.value.span, |ty| ty.span);
+        let message = format!("`{name}` is declared as {is}, and used as {used_as}");
+        let mut found = Diagnostic::new(code, span, message).label(format!("this is {is}"));
+        found
+            .labels
+            .extend(clashes.iter().take(SHOWN).map(|clash| Label {
+                span: clash.at,
+                message: format!("used as {used_as}"),
+            }));
+        match clashes.len().saturating_sub(SHOWN) {
+            0 => {}
+            1 => found = found.note("and in one more place"),
+            more => found = found.note(format!("and in {more} more places")),
+        }
+        let (Some(ty), Some(value)) = (used_as.written(), initial(used_as, &state.value)) else {
+            return found;
+        };
+        let mut edits = vec![(state.value.span, value)];
+        edits.extend(state.ty.as_ref().map(|written| (written.span, ty.clone())));
+        edits.sort_by_key(|(span, _)| *span);
+        found.fixes.push(Fix {
+            title: format!("declare it as `{ty}`"),
+            edits,
+            applicability: Applicability::Unsafe,
+        });
+        found
+    }
+}
+
+/// The value with which a state of another type would begin.
+fn initial(ty: &Type, value: &Expr) -> Option<String> {
+    let digits = match &value.kind {
+        ExprKind::Number(literal) => literal.digits.as_str(),
+        _ => "0",
+    };
+    match ty {
+        Type::Bool => Some("false".to_owned()),
+        _ => {
+            let dim = ty.dim()?;
+            Some(match dim.unit() {
+                Some(unit) => format!("{digits} {unit}"),
+                None => digits.to_owned(),
+            })
+        }
+    }
+}

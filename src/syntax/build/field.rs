@@ -1,0 +1,197 @@
+//! Fields, which nothing has but a point: what reads or calls them in other languages is written otherwise.
+
+use super::Builder;
+use crate::diagnostic::{Applicability, Code, Diagnostic};
+use crate::source::Span;
+use crate::syntax::ast::{Expr, ExprKind};
+use crate::syntax::grammar::{Node, Parts, Rule};
+use crate::syntax::words::NODES;
+
+/// What reads something of a target.
+const READS: [&str; 6] = [
+    "distance",
+    "direction",
+    "bearing",
+    "visible",
+    "inside",
+    "facing",
+];
+
+/// What asks how a behaviour ended.
+const ENDS: [&str; 3] = ["success", "failure", "running"];
+
+/// What other tools command a motion by.
+const MOTIONS: [&str; 5] = ["cmd_vel", "twist", "velocity", "linear", "angular"];
+
+/// How long a frame takes, elsewhere.
+const FRAMES: [&str; 4] = ["deltaTime", "delta_time", "delta", "dt"];
+
+impl<'i> Builder<'i> {
+    /// `a.b`, which reads nothing but the coordinates of a point.
+    pub(super) fn wrong_field(&mut self, of: Expr, node: Node<'i>) -> Expr {
+        let place = self.span(&node);
+        let span = of.span.to(place);
+        if matches!(of.kind, ExprKind::Error) {
+            return self.error_expr(span);
+        }
+        let mark = match node.as_str().starts_with("::") {
+            true => "::",
+            false => ".",
+        };
+        let mut parts = Parts::of(node);
+        let name = parts
+            .maybe(Rule::field_name)
+            .map_or("", |node| node.as_str());
+        let args = parts.maybe(Rule::args);
+        let owner = self.slice(of.span);
+        if matches!(name, "x" | "y") && args.is_none() {
+            let diagnostic = Diagnostic::new(Code::E0310, place, "a coordinate is not set alone")
+                .label("a point is set as a whole")
+                .help(format!("write `{owner} = (…, …)`"));
+            self.report(diagnostic);
+            return self.error_expr(span);
+        }
+        let diagnostic =
+            Diagnostic::new(Code::E0133, place, format!("nothing has a field `{name}`"))
+                .label(format!("`{mark}` reads only `x` and `y` of a point"));
+        let is_name = matches!(&of.kind, ExprKind::Ref(reference) if reference.args.is_none());
+        let args = args.map(|args| self.slice(self.span(&args)));
+        let diagnostic = match self.without_field(owner, name, args, is_name) {
+            Ok(right) => diagnostic.fix(
+                format!("write `{right}`"),
+                span,
+                right,
+                Applicability::Unsafe,
+            ),
+            Err(Some(help)) => diagnostic.help(help),
+            Err(None) => diagnostic,
+        };
+        self.report(diagnostic);
+        self.error_expr(span)
+    }
+
+    /// What stands for a field here, or else advice where there is any.
+    fn without_field(
+        &self,
+        owner: &str,
+        name: &str,
+        args: Option<&str>,
+        is_name: bool,
+    ) -> Result<String, Option<String>> {
+        let one_of = |words: &[&str]| words.contains(&name);
+        if MOTIONS.contains(&owner) || one_of(&["linear", "angular"]) {
+            let help = "a motion is commanded by `drive(speed = …, turn = …)`";
+            return Err(Some(help.to_owned()));
+        }
+        if one_of(&FRAMES) {
+            return Ok("tick".to_owned());
+        }
+        if one_of(&["z"]) {
+            return Err(Some(
+                "the world is flat: a point has `x` and `y`".to_owned(),
+            ));
+        }
+        if one_of(&["center", "centre"]) {
+            return Err(Some(format!(
+                "the middle of a place is meant by its name alone: `{owner}`"
+            )));
+        }
+        if let Some(args) = args.filter(|_| NODES.iter().any(|(node, _)| *node == name)) {
+            let args = if args == "()" { "" } else { args };
+            return Ok(format!("{name}{args} {{ {owner} }}"));
+        }
+        if let Some(args) = args.filter(|_| self.declared_by(owner, &["robot"])) {
+            return Err(Some(format!(
+                "what another robot does is asked so: `success({name}{args}, by = {owner})`"
+            )));
+        }
+        if one_of(&READS) || one_of(&ENDS) || self.declares_family(name) {
+            return Ok(format!("{name}({owner})"));
+        }
+        if one_of(&["position", "pose"]) && !matches!(owner, "robot" | "self" | "this") {
+            return Ok(format!("pose({owner})"));
+        }
+        if args.is_none() && self.declared_by(owner, &["input"]) {
+            return Ok(format!("{owner} == {name}"));
+        }
+        let known = self.declares(name) || one_of(&["position", "heading", "touching"]);
+        match is_name && args.is_none() && (known || self.names_variant(name)) {
+            true => Ok(name.to_owned()),
+            false if args.is_some() => Err(None),
+            false if self.declared_by(owner, &["state"]) => {
+                Err(Some(format!("a value is compared: `{owner} == …`")))
+            }
+            false => Err(None),
+        }
+    }
+
+    /// Whether one of these words declares a name.
+    fn declared_by(&self, name: &str, words: &[&str]) -> bool {
+        self.tokens.windows(2).any(|pair| match pair {
+            [word, declared] => {
+                words.contains(&word.of(self.text)) && declared.of(self.text) == name
+            }
+            _ => false,
+        })
+    }
+
+    /// Whether a name stands in a list in braces, as the variants of an enum do.
+    fn names_variant(&self, name: &str) -> bool {
+        self.tokens.windows(3).any(|three| match three {
+            [before, word, after] => {
+                word.of(self.text) == name
+                    && matches!(before.of(self.text), "{" | ",")
+                    && matches!(after.of(self.text), "}" | ",")
+            }
+            _ => false,
+        })
+    }
+
+    /// Warns of a sign that is taken for another one than it looks like: `-0.5` on a line of its own goes on with the line
+    /// above.
+    pub(super) fn odd_sign(&mut self, left: Span, sign: Span, right: Span) {
+        let gap = self.text.get(left.range().end..sign.range().start);
+        let on_new_line = gap.is_some_and(|gap| gap.contains('\n'));
+        if !on_new_line || sign.end != right.start {
+            return;
+        }
+        let mark = self.slice(sign);
+        let diagnostic = Diagnostic::new(
+            Code::W0102,
+            sign.to(right),
+            "this goes on with the line above",
+        )
+        .label(format!("taken as `… {mark} {}`", self.slice(right)))
+        .help(
+            "if it is to be so, put a blank after the sign; a line of its own begins with a word",
+        );
+        self.report(diagnostic);
+    }
+
+    /// Warns of `=-` and `=+`, which set a value and do not change it.
+    pub(super) fn odd_assignment(&mut self, sign: Span, value: Span) {
+        let after = self.text.get(sign.range().end..).unwrap_or_default();
+        let mut letters = after.chars();
+        let (mark, blank) = (letters.next(), letters.next());
+        let (Some(mark @ ('-' | '+')), Some(' ')) = (mark, blank) else {
+            return;
+        };
+        if self.slice(sign) != "=" || value.start != sign.end {
+            return;
+        }
+        let span = Span {
+            end: sign.end + 1,
+            ..sign
+        };
+        let right = format!("{mark}=");
+        let diagnostic = Diagnostic::new(Code::W0102, span, format!("`={mark}` is `= {mark}`"))
+            .label("this sets the value and does not change it")
+            .fix(
+                format!("if it is to change, write `{right}`"),
+                span,
+                right,
+                Applicability::Unsafe,
+            );
+        self.report(diagnostic);
+    }
+}

@@ -1,0 +1,261 @@
+//! Lines of another habit whose right form is plain: what is told has the whole of it to take over.
+
+use super::Place;
+use super::words::{is_word, no_such_unit};
+use crate::diagnostic::{Applicability, Code, Diagnostic};
+use crate::source::Span;
+use crate::syntax::grammar::Rule;
+use crate::syntax::tokens::{Kind, Token};
+use crate::syntax::words::UNITS;
+
+/// The words that declare one name.
+const DECLARING: [&str; 5] = ["event", "predicate", "behavior", "task", "tree"];
+
+/// What other languages call the way that a robot stands in a place.
+const WAYS: [&str; 6] = [
+    "heading",
+    "orientation",
+    "rotation",
+    "yaw",
+    "direction",
+    "angle",
+];
+
+impl Place<'_> {
+    /// A line that was written by another habit, with its right form.
+    pub(super) fn rewritten(&self) -> Option<Diagnostic> {
+        self.spaced_name()
+            .or_else(|| self.turned_place())
+            .or_else(|| self.indexed())
+            .or_else(|| self.bracketed_for())
+            .or_else(|| self.chosen_backwards())
+            .or_else(|| self.unparted_price())
+            .or_else(|| self.other_length())
+            .or_else(|| self.ended_by_time())
+            .or_else(|| self.bare_point())
+    }
+
+    /// `position = 1 m, 3 m`
+    fn bare_point(&self) -> Option<Diagnostic> {
+        let start = self.failure.strict == Rule::strict_start_line;
+        if !start || self.before() != "," || self.found.kind != Kind::Number {
+            return None;
+        }
+        let head = self.text.get(..self.found.start)?;
+        let line = head.rfind('\n').map_or(0, |at| at + 1);
+        let mark = head.get(line..)?.find('=')? + line + 1;
+        let from = head.len() - head.get(mark..)?.trim_start().len();
+        let end = self.found.start + self.rest_of_line(self.found.start).len();
+        let value = self.text.get(from..end)?;
+        let span = Span::new(self.file, from, end);
+        let plain = !value.contains(['(', ')', '{', '}']) && value.matches(',').count() == 1;
+        plain
+            .then(|| self.told(span, "a point stands in parentheses", format!("({value})")))
+            .flatten()
+    }
+
+    /// A line that lacks what stands before its last word or number.
+    pub(super) fn cut_form(&self) -> Option<Diagnostic> {
+        let (sign, last) = (self.second_before?, self.before?);
+        if self.parted(sign, last) {
+            return None;
+        }
+        let number = last.kind == Kind::Number || UNITS.contains(&last.of(self.text));
+        if self.failure.strict == Rule::strict_reward
+            && number
+            && matches!(sign.of(self.text), "-" | "+")
+        {
+            let span = self.span_of(sign).to(self.span_of(last));
+            return Some(
+                Diagnostic::new(Code::E0101, span, "a `:` is missing before the number")
+                    .label("what is paid")
+                    .fix(
+                        "put a `:`",
+                        self.before_gap(sign),
+                        ":",
+                        Applicability::Unsafe,
+                    ),
+            );
+        }
+        let of_robot = matches!(
+            self.failure.strict,
+            Rule::strict_robot_entry | Rule::strict_world_entry
+        );
+        let is_unit = UNITS.contains(&last.of(self.text));
+        (of_robot && sign.kind == Kind::Number && is_word(last) && !is_unit)
+            .then(|| no_such_unit(self.span_of(last), last.of(self.text), &[]))
+    }
+
+    /// The place right behind the token before this one.
+    fn before_gap(&self, token: Token) -> Span {
+        let text = self.text.get(..token.start).unwrap_or_default();
+        let end = text.trim_end().len();
+        Span::new(self.file, end, end)
+    }
+
+    fn told(
+        &self,
+        span: Span,
+        message: impl Into<String>,
+        right: impl Into<String>,
+    ) -> Option<Diagnostic> {
+        let right = right.into();
+        Some(
+            Diagnostic::new(Code::E0101, span, message)
+                .label(format!("write `{right}`"))
+                .fix(
+                    format!("write `{right}`"),
+                    span,
+                    right,
+                    Applicability::Unsafe,
+                ),
+        )
+    }
+
+    /// The rest of the line from byte `at` on, without a comment.
+    fn rest_of_line(&self, at: usize) -> &str {
+        let rest = self.text.get(at..).unwrap_or_default();
+        let line = rest.lines().next().unwrap_or_default();
+        line.split("//").next().unwrap_or_default().trim_end()
+    }
+
+    /// `predicate near goal = …`: a name of two words.
+    fn spaced_name(&self) -> Option<Diagnostic> {
+        let (word, name) = (self.second_before?, self.before?);
+        let starts = [word.start, self.found.start].contains(&self.failure.start);
+        let declares = DECLARING.contains(&word.of(self.text)) && starts;
+        let follows = matches!(self.after_found(), "=" | "(" | ":" | "{");
+        let words = is_word(name) && is_word(self.found) && self.same_line_as_before();
+        let keyword = matches!(self.found(), "for" | "of" | "if" | "when");
+        if !(declares && follows && words) || keyword || self.parted(word, name) {
+            return None;
+        }
+        let span = self.span_of(name).to(self.span());
+        let joined = format!("{}_{}", name.of(self.text), self.found());
+        self.told(span, "a name is one word", joined)
+    }
+
+    /// `place A = disc(…) heading -90 deg`
+    fn turned_place(&self) -> Option<Diagnostic> {
+        let (close, word) = (self.second_before?, self.before?);
+        let is_place = self.failure.strict == Rule::strict_world_entry;
+        let way = WAYS.contains(&word.of(self.text)) && close.of(self.text) == ")";
+        let begins = matches!(self.found.kind, Kind::Number) || self.found() == "-";
+        if !(is_place && way && begins) || self.parted(close, word) {
+            return None;
+        }
+        let message = "the way that a robot stands in a place is its `facing`";
+        self.told(self.span_of(word), message, "facing")
+    }
+
+    /// `waiting[b]`, `position[0]`: arguments and coordinates have no square brackets.
+    fn indexed(&self) -> Option<Diagnostic> {
+        let name = self.before?;
+        let reads = is_word(name) || name.of(self.text) == ")";
+        if self.found() != "[" || name.end != self.found.start || !reads {
+            return None;
+        }
+        let rest = self.rest_of_line(self.found.end);
+        let inner = rest
+            .split(']')
+            .next()
+            .filter(|inner| inner.len() < rest.len())?;
+        if inner.contains('[') {
+            return None;
+        }
+        let span = Span::new(
+            self.file,
+            self.found.start,
+            self.found.end + inner.len() + 1,
+        );
+        match inner.trim() {
+            "0" => self.told(span, "the first coordinate of a point is `x`", ".x"),
+            "1" => self.told(span, "the second coordinate of a point is `y`", ".y"),
+            inner => self.told(span, "arguments stand in parentheses", format!("({inner})")),
+        }
+    }
+
+    /// `for (b in bed) { … }`
+    fn bracketed_for(&self) -> Option<Diagnostic> {
+        if self.found() != "(" || self.before() != "for" {
+            return None;
+        }
+        let rest = self.rest_of_line(self.found.end);
+        let inner = rest
+            .split(')')
+            .next()
+            .filter(|inner| inner.len() < rest.len())?;
+        let plain = inner.contains(" in ") && !inner.contains(['(', ';', ':']);
+        let span = Span::new(
+            self.file,
+            self.found.start,
+            self.found.end + inner.len() + 1,
+        );
+        let right = inner.trim().trim_start_matches("var ").to_owned();
+        plain
+            .then(|| self.told(span, "no parentheses follow `for`", right))
+            .flatten()
+    }
+
+    /// `a if c else b`
+    fn chosen_backwards(&self) -> Option<Diagnostic> {
+        if self.found() != "if" || !self.same_line_as_before() {
+            return None;
+        }
+        let head = self.text.get(..self.found.start)?;
+        let line = head.rfind('\n').map_or(0, |at| at + 1);
+        let mark = head.get(line..)?.rfind(['=', ':', '('])? + line + 1;
+        let value = head.get(mark..)?.trim();
+        let rest = self.rest_of_line(self.found.end);
+        let (asked, other) = rest.split_once(" else ")?;
+        let other = other.trim_end_matches(',').trim();
+        if value.is_empty() || other.is_empty() || other.contains(['{', ';']) {
+            return None;
+        }
+        let start = head.len() - head.get(mark..)?.trim_start().len();
+        let end = self.found.end + rest.find(" else ")? + " else ".len() + other.len();
+        let right = format!("if {} {{ {value} }} else {{ {other} }}", asked.trim());
+        let span = Span::new(self.file, start, end);
+        self.told(span, "the condition of a choice goes first", right)
+    }
+
+    /// `while hot per 1 min: -0.2`
+    fn unparted_price(&self) -> Option<Diagnostic> {
+        let price = self.failure.strict == Rule::strict_reward && self.line_begins_with("while");
+        let comma = self.before.map(|before| self.span_of(before).after())?;
+        (price && self.found() == "per" && self.expects(Rule::comma)).then(|| {
+            Diagnostic::new(Code::E0112, self.span(), "a comma is missing before `per`")
+                .label("the price begins here")
+                .fix("put a comma", comma, ",", Applicability::Safe)
+        })
+    }
+
+    /// `episodes = 800, 10 min`, `episodes = 800 x 10 min`
+    fn other_length(&self) -> Option<Diagnostic> {
+        let of_learner = self.failure.strict == Rule::strict_learn_entry;
+        if !of_learner || !self.line_begins_with("episodes") {
+            return None;
+        }
+        let message = "how long an episode is follows `of`";
+        match self.found() {
+            "x" | "for" | "*" => self.told(self.span(), message, "of"),
+            // `2,000` is one number.
+            _ if self.grouped_digits().is_some() => None,
+            _ if self.before() == "," && self.found.kind == Kind::Number => {
+                let comma = self.before?;
+                self.told(self.span_of(comma), message, " of")
+            }
+            _ => None,
+        }
+    }
+
+    /// `fail after 5 s`
+    fn ended_by_time(&self) -> Option<Diagnostic> {
+        let clause = self.failure.strict == Rule::strict_clause;
+        let ends = matches!(self.before(), "fail" | "succeed") && self.found() == "after";
+        let message = "how long a behaviour has been running is asked of `elapsed`";
+        (clause && ends)
+            .then(|| self.told(self.span(), message, "when elapsed >"))
+            .flatten()
+    }
+}
