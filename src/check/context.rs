@@ -155,6 +155,7 @@ pub struct Bound<'a> {
     name: &'a str,
     what: &'static str,
     read: bool,
+    needed: bool,
 }
 
 impl<'a> Checker<'a> {
@@ -170,6 +171,7 @@ impl<'a> Checker<'a> {
                 name: &name.name,
                 what,
                 read: false,
+                needed: false,
             });
         }
     }
@@ -218,10 +220,18 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Notes that a binding has to stand where it stands, read or not.
+    pub fn needs(&mut self, binding: Span) {
+        if let Some(bound) = self.bound.get_mut(&binding) {
+            bound.needed = true;
+        }
+    }
+
     /// Warns of names that are bound and never read.
     pub fn unread_names(&mut self) {
-        for (span, Bound { name, what, read }) in std::mem::take(&mut self.bound) {
-            if read || name.starts_with('_') {
+        for (span, bound) in std::mem::take(&mut self.bound) {
+            let Bound { name, what, .. } = bound;
+            if bound.read || name.starts_with('_') {
                 continue;
             }
             self.warning(
@@ -230,9 +240,10 @@ impl<'a> Checker<'a> {
                 format!("nothing reads the {what} `{name}`"),
             )
             .label("bound here, and never read")
-            .help(format!(
-                "take it away, or call it `_{name}` if it is to stay"
-            ));
+            .help(match bound.needed {
+                true => format!("call it `_{name}` if nothing is to be done with it"),
+                false => format!("take it away, or call it `_{name}` if it is to stay"),
+            });
         }
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! They err on the side of silence: what they report does not depend on how the program runs.
 
+mod apart;
 mod cases;
 mod choices;
 mod claims;
@@ -45,6 +46,7 @@ impl<'a> Checker<'a> {
         self.conditions_without_effect();
         self.choices_alike(items());
         self.regions_without_effect(items());
+        self.choices_that_never_succeed(items());
         self.predicates_without_effect(items());
         self.rewards_without_effect(items());
         self.nodes_without_effect(items());

@@ -69,6 +69,14 @@ impl<'d> Draft<'d> {
         self.with(|diagnostic| diagnostic.note(note))
     }
 
+    /// Adds a note where there is any.
+    pub fn note_if(self, note: Option<String>) -> Self {
+        match note {
+            Some(note) => self.note(note),
+            None => self,
+        }
+    }
+
     /// Adds advice.
     pub fn help(self, help: impl Into<String>) -> Self {
         self.with(|diagnostic| diagnostic.help(help))

@@ -53,7 +53,9 @@ impl<'a> Checker<'a> {
                 continue;
             }
             match &aspect.kind {
-                AspectKind::Observe(list) => built.observe = self.observed(list),
+                AspectKind::Observe(list) => {
+                    (built.observe, built.written.observe) = self.observed(list);
+                }
                 AspectKind::Choose(list) => {
                     (built.choose, built.written.choose) = self.chosen(list);
                 }
@@ -112,9 +114,10 @@ impl<'a> Checker<'a> {
         self.program.tasks.push(built);
     }
 
-    fn observed(&mut self, list: &'a [Expr]) -> Vec<Id<Predicate>> {
+    fn observed(&mut self, list: &'a [Expr]) -> (Vec<Id<Predicate>>, Vec<usize>) {
         let mut observed: Vec<Id<Predicate>> = Vec::new();
-        for expr in list {
+        let mut places = Vec::new();
+        for (place, expr) in list.iter().enumerate() {
             let Some(reference) = plain_ref(expr) else {
                 let declaration = format!("predicate NAME = {}", print::expr(expr));
                 self.not_named(expr, "a predicate", &declaration);
@@ -134,9 +137,10 @@ impl<'a> Checker<'a> {
             });
             for id in ids.into_iter().flatten() {
                 self.once(&mut observed, id, reference.span);
+                places.resize(observed.len(), place);
             }
         }
-        observed
+        (observed, places)
     }
 
     /// The behaviours of a list, and for each the place of its entry.

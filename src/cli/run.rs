@@ -37,7 +37,7 @@ pub(super) struct Arguments {
     /// How many ticks of it to draw.
     #[arg(long, value_name = "N", default_value_t = 2_000, requires = "svg")]
     svg_ticks: u64,
-    /// Write what was found, done and rewarded, a line for each decision; `-` is standard output, then without the figures.
+    /// Write what was found, done and rewarded, a line for each decision, or for each behaviour that drives in it; `-` is standard output, then without the figures.
     #[arg(long, value_name = "FILE")]
     trace: Option<PathBuf>,
     /// A line for each tick instead.

@@ -4,6 +4,9 @@ use super::load::Loaded;
 use super::record;
 use super::refused::Refused;
 use super::run::Subject;
+use crate::ir::Id;
+use crate::ir::law::Behavior;
+use crate::ir::tree::Status;
 use crate::learn::process::Earned;
 use crate::learn::simulated::Purpose;
 use crate::report::trace::{Found, Line, Trace};
@@ -13,7 +16,7 @@ use std::ops::Range;
 /// How fine a trace is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Step {
-    /// A line for each decision.
+    /// A line for each decision, and for each change of the behaviour that drives within one.
     Decision,
     /// A line for each tick.
     Tick,
@@ -54,6 +57,14 @@ pub fn trace(
                     || tick.end.is_some()
                     || since >= patience;
                 let reward = earned.after(&tick, due);
+                // Where the tree drives on by another behaviour, no decision is due, and the trace tells of both.
+                let driver = |of: Option<(Id<Behavior>, Status)>| of.map(|(behavior, _)| behavior);
+                if line
+                    .as_ref()
+                    .is_some_and(|line| driver(line.behavior) != driver(done.behavior))
+                {
+                    trace.lines.extend(line.take());
+                }
                 let current = line.get_or_insert_with(|| Line::new(episode, before.clone()));
                 current.ticks += 1;
                 current.behavior = done.behavior;

@@ -53,6 +53,8 @@ pub struct Price {
 /// kind is several.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Written {
+    /// Of each observed predicate.
+    pub observe: Vec<usize>,
     /// Of each behaviour to choose.
     pub choose: Vec<usize>,
     /// Of each line of `end on`.

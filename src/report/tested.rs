@@ -7,6 +7,7 @@ use crate::ir::test::Test;
 use crate::ir::tree::{Composite, Node};
 use crate::trial::test::Answers;
 use serde_json::{Value, json};
+use std::collections::BTreeSet;
 
 /// What came of the tests of a file.
 #[derive(Clone, Debug)]
@@ -195,11 +196,15 @@ impl Tested {
         }
         for tree in &self.coverage {
             lines.push(format!("{}: {}", self.file, tree.headline()));
+            // A subtree that is called twice stands in the text once.
+            let mut told = BTreeSet::new();
             for node in tree.never() {
                 let place = node.place.as_ref();
                 let place = place.map(|it| format!("{}:{}:{}: ", it.file, it.line, it.column));
-                let place = place.unwrap_or_default();
-                lines.push(format!("  {place}never {}", node.node));
+                let line = format!("  {}never {}", place.unwrap_or_default(), node.node);
+                if node.place.is_none() || told.insert(line.clone()) {
+                    lines.push(line);
+                }
             }
         }
         lines.iter().map(|line| format!("{line}\n")).collect()

@@ -27,7 +27,7 @@ pub struct Found {
     pub atoms: u128,
 }
 
-/// A decision, or a tick.
+/// A decision, the part of one in which the same behaviour drove, or a tick.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
     /// The number of the episode.

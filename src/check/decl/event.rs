@@ -222,6 +222,9 @@ impl<'a> Checker<'a> {
     fn on_family(&mut self, name: &'a Ident, params: &'a Params, block: &'a ast::Block) {
         let event = self.family_of_events(name);
         let scope = self.unknown_parameters(Some(params));
+        for param in &params.params {
+            self.needs(param.name.span);
+        }
         let fits = event.is_some_and(|event| self.binds_as_declared(event, params, &scope));
         // Once for itself, so that a mistake is told once.
         self.context = Context::new(Region::Effect);

@@ -1,5 +1,6 @@
 //! Conditions of events, effects, doors and prices that always or never hold.
 
+use super::apart::because;
 use super::cases::of_expr;
 use crate::check::Checker;
 use crate::diagnostic::Code;
@@ -40,8 +41,12 @@ impl<'a> Checker<'a> {
                 (_, true) => "always",
                 _ => continue,
             };
+            let why = conditions
+                .first()
+                .and_then(|id| because(&self.program, *id));
             self.warning(Code::W0601, at, format!("this condition {says} holds"))
-                .label("whatever happens in the world");
+                .label("whatever happens in the world")
+                .note_if(why);
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Predicates that say nothing, or nothing new, to the task that observes them.
 
+use super::apart::because;
 use super::cases::of_expr;
 use crate::check::Checker;
 use crate::check::expr::plain_ref;
@@ -51,8 +52,10 @@ impl<'a> Checker<'a> {
             _ => return,
         };
         let message = format!("the predicate `{}` {says} holds", predicate.name);
+        let why = because(&self.program, when);
         self.warning(Code::W0601, value.span, message)
-            .label("whatever happens in the world");
+            .label("whatever happens in the world")
+            .note_if(why);
     }
 
     /// The references of a list of the task, each with the predicate that it observes.
@@ -61,21 +64,26 @@ impl<'a> Checker<'a> {
         let Some(id) = self.program.tasks.find(|task| task.name == name) else {
             return Vec::new();
         };
-        let lists = task.aspects.iter().filter_map(|aspect| match &aspect.kind {
+        let list = task.aspects.iter().find_map(|aspect| match &aspect.kind {
             AspectKind::Observe(list) => Some(list),
             _ => None,
         });
-        let references = lists.flatten().filter_map(plain_ref);
-        references
-            .zip(self.program.tasks[id].observe.iter().copied())
-            .collect()
+        let task = &self.program.tasks[id];
+        let observed = task.written.observe.iter().zip(&task.observe);
+        let written = |(place, id): (&usize, &Id<Predicate>)| {
+            let reference = list.and_then(|list| list.get(*place)).and_then(plain_ref)?;
+            Some((reference, *id))
+        };
+        observed.filter_map(written).collect()
     }
 
-    /// Of two observed predicates that are equal, or opposites, the second tells nothing.
+    /// Of two observed predicates that are equal, or opposites, the second tells nothing. Two members of one family stand
+    /// and fall together.
     fn predicates_alike(&mut self, task: &'a Task) {
         let observed = self.observed_by(task);
         for (at, &(reference, id)) in observed.iter().enumerate() {
-            for &(first, other) in observed.iter().take(at) {
+            let before = observed.iter().take(at);
+            for &(first, other) in before.filter(|(first, _)| first.span != reference.span) {
                 let (Some(one), Some(two)) = (
                     self.program.predicates[other].when,
                     self.program.predicates[id].when,

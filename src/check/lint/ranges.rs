@@ -1,5 +1,6 @@
 //! Between which numbers an expression is, whatever happens: what its operators and the world leave possible.
 
+use super::apart;
 use super::interval::Interval;
 use crate::ir::expr::{Binary, Echo, Expr, ExprId, Pose, Unary};
 use crate::ir::input::InputKind;
@@ -75,13 +76,20 @@ impl Ranges<'_> {
             Expr::Pose(pose) | Expr::Robot(_, pose) => self.pose(pose),
             Expr::Elapsed | Expr::Visits => LENGTH,
             Expr::Progress => Interval::between(0.0, 1.0),
-            Expr::NearestWall(Echo::Distance) | Expr::Wall(_, Echo::Distance) => LENGTH,
+            Expr::NearestWall(Echo::Distance) | Expr::Wall(_, Echo::Distance) => {
+                let least = apart::least(self.program, id);
+                least.map_or(LENGTH, |least| Interval::between(least, f64::INFINITY))
+            }
             Expr::Sensor(sensor, Echo::Distance) => self.sensor(sensor),
             Expr::NearestWall(Echo::Direction)
             | Expr::Wall(_, Echo::Direction)
             | Expr::Sensor(_, Echo::Direction) => ANGLE,
             Expr::Unary(op, a) => self.unary(op, a),
-            Expr::Binary(op, a, b) => self.binary(op, a, b),
+            Expr::Binary(op, a, b) => {
+                let found = self.binary(op, a, b);
+                let least = apart::least(self.program, id);
+                least.map_or(found, |least| found.and(Interval::above(least, false)))
+            }
             Expr::Select(_, a, b) => {
                 let ((a, b), (c, d)) = (self.of(a).ends(), self.of(b).ends());
                 hull([a, b, c, d])

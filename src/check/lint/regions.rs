@@ -1,11 +1,13 @@
 //! Regions of a behaviour that it never gets to: what `requires`, `succeed when` and `fail when` leave of one another.
 
+use super::apart::because;
 use super::cases::of_expr;
 use crate::check::Checker;
 use crate::diagnostic::Code;
 use crate::ir::law::Law;
+use crate::ir::{Name, Program};
 use crate::source::Span;
-use crate::syntax::ast::{BehaviorBody, Clause, ClauseKind, Item, ItemKind};
+use crate::syntax::ast::{AspectKind, BehaviorBody, Clause, ClauseKind, Item, ItemKind};
 
 impl<'a> Checker<'a> {
     /// Warns of regions that no instance of a behaviour gets to.
@@ -49,6 +51,7 @@ impl<'a> Checker<'a> {
             let fails = of_expr(program, law.fail, true);
             fails.implies(&of_expr(program, law.succeed, true))
         });
+        let never_succeeds = every(&|law| succeeds_never(program, law));
         let fails_at_once = every(&|law| {
             let allowed = of_expr(program, law.requires, true);
             let goes_on = allowed.and(&of_expr(program, law.succeed, false));
@@ -75,8 +78,62 @@ impl<'a> Checker<'a> {
                     at,
                     "this holds from the start, so the behaviour fails at once",
                 );
+        } else if let (true, Some(at)) = (never_succeeds, succeed) {
+            let law = laws.first();
+            let why = law.and_then(|law| because(program, law.succeed));
+            self.warning(Code::W0302, at, "this behaviour never succeeds")
+                .label("what it waits for never holds")
+                .note_if(why);
         }
     }
+
+    /// Warns of behaviours of the library that a task chooses and that never succeed as they are called.
+    pub fn choices_that_never_succeed(&mut self, items: impl Iterator<Item = &'a Item> + Clone) {
+        let own = |name: &str| {
+            let mut items = items.clone();
+            items.any(|item| match &item.kind {
+                ItemKind::Behavior(behavior) => {
+                    behavior.name.name == name && matches!(behavior.body, BehaviorBody::Clauses(_))
+                }
+                _ => false,
+            })
+        };
+        let mut found = Vec::new();
+        for item in items.clone() {
+            let ItemKind::Task(task) = &item.kind else {
+                continue;
+            };
+            let name = Name::word(&task.name.name);
+            let Some(checked) = self.program.tasks.values().find(|task| task.name == name) else {
+                continue;
+            };
+            let list = task.aspects.iter().find_map(|aspect| match &aspect.kind {
+                AspectKind::Choose(list) => Some(list),
+                _ => None,
+            });
+            for (place, id) in checked.written.choose.iter().zip(&checked.choose) {
+                let behavior = &self.program.behaviors[*id];
+                let law = behavior.law.as_ref();
+                let law = law.filter(|law| succeeds_never(&self.program, law));
+                let at = list.and_then(|list| list.get(*place));
+                if let (Some(law), Some(at), false) = (law, at, own(&behavior.name.family)) {
+                    let why = because(&self.program, law.succeed);
+                    found.push((at.span, behavior.name.bare(), why));
+                }
+            }
+        }
+        for (at, name, why) in found {
+            self.warning(Code::W0302, at, format!("`{name}` never succeeds"))
+                .label("what it waits for never holds")
+                .note_if(why);
+        }
+    }
+}
+
+/// Whether a behaviour that is to succeed at some time never does.
+fn succeeds_never(program: &Program, law: &Law) -> bool {
+    let waits = program.pool.constant(law.succeed).is_none();
+    waits && of_expr(program, law.succeed, true).is_never()
 }
 
 /// The words that a clause begins with.

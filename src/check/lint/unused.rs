@@ -135,13 +135,14 @@ impl<'a> Checker<'a> {
             if name.name.starts_with('_') {
                 return;
             }
-            let message = format!(
-                "the state {} is set and never read",
-                quoted(&spelled(&name.name))
-            );
+            let (shown, kept) = (spelled(&name.name), format!("_{}", name.name));
+            let message = format!("the state {} is set and never read", quoted(&shown));
             self.warning(Code::W0202, name.span, message)
                 .label("nothing depends on it")
-                .help("read it in an event, a predicate or a reward, or take it away");
+                .help(format!(
+                    "read it in an event, a predicate or a reward, or call it {} if it is there for traces",
+                    quoted(&spelled(&kept))
+                ));
         } else {
             self.unused(name, "state", "read it", mentions);
         }

@@ -283,7 +283,10 @@ impl Warner<'_> {
             );
             let diagnostic = Diagnostic::new(Code::W0508, self.places.choice(at), message)
                 .label("the policy tries this again at once")
-                .help("with `history last 1 success, failure` it can see that this has failed");
+                .help(format!(
+                    "with `history last {} success, failure` it can see that this has failed",
+                    self.task.history.window.max(1)
+                ));
             Some(match of_it().count() - 1 {
                 0 => diagnostic,
                 others => diagnostic.note(format!(

@@ -1,0 +1,116 @@
+//! How near a robot's centre comes to what its body does not go into: walls, and other robots.
+
+use crate::ir::expr::{Binary, Echo, Expr, ExprId, Pose};
+use crate::ir::world::{Robot, World};
+use crate::ir::{Id, Program};
+
+/// What bodies in touch are nearer than their radii say, at most: a bound that no rounding reaches.
+const SLACK: f64 = 1e-6;
+
+/// The least distance that an expression can be, in metres, if it is one from a robot's centre to a wall or to
+/// another robot.
+pub fn least(program: &Program, id: ExprId) -> Option<f64> {
+    let world = program.world.as_ref()?;
+    let bound = match program.pool.get(id) {
+        Expr::NearestWall(Echo::Distance) if !has_doors(world) => thinnest(world, None),
+        Expr::Wall(wall, Echo::Distance) if world.walls[wall].when.is_none() => {
+            thinnest(world, None)
+        }
+        _ => {
+            let [one, other] = robots(program, id)?;
+            let radius = |robot: Option<Id<Robot>>, beside: Option<Id<Robot>>| match robot {
+                Some(id) => world.robot_of(id).radius,
+                None => thinnest(world, beside),
+            };
+            radius(one, other) + radius(other, one)
+        }
+    };
+    Some(bound - SLACK)
+}
+
+/// Why a condition may hold never or always, as a note: it compares such a distance with less than it can be.
+pub fn because(program: &Program, condition: ExprId) -> Option<String> {
+    let world = program.world.as_ref()?;
+    let too_near = |part: ExprId| {
+        let Expr::Binary(Binary::Lt | Binary::Le, one, other) = program.pool.get(part) else {
+            return None;
+        };
+        let constants = [one, other].map(|id| program.pool.constant(id));
+        let (compared, with) = match constants {
+            [None, Some(with)] => (one, with),
+            [Some(with), None] => (other, with),
+            _ => return None,
+        };
+        let mut parts = parts(program, compared).into_iter();
+        parts.find_map(|id| {
+            Some((
+                id,
+                least(program, id).filter(|least| *least >= with - SLACK)?,
+            ))
+        })
+    };
+    let (distance, least) = parts(program, condition).into_iter().find_map(too_near)?;
+    let centimetres = ((least + SLACK) * 1000.0).round() / 10.0;
+    let of = match robots(program, distance) {
+        None => "a wall".to_owned(),
+        Some(both) => {
+            let name = |id| format!("`{}`", world.robot_of(id).name.bare());
+            let robots = both.into_iter().flatten().map(name);
+            robots.collect::<Vec<_>>().join(" or ")
+        }
+    };
+    Some(format!(
+        "distances are from the robot's centre, which comes no nearer than {centimetres} cm to {of}: there the bodies touch"
+    ))
+}
+
+/// How many parts of a condition are looked at.
+const MOST: usize = 400;
+
+/// An expression, its operands and theirs, and what the events in it wait for.
+fn parts(program: &Program, id: ExprId) -> Vec<ExprId> {
+    let mut parts = vec![id];
+    let mut at = 0;
+    while let Some(&part) = parts.get(at).filter(|_| parts.len() < MOST) {
+        if let Expr::Event(event) = program.pool.get(part) {
+            parts.push(program.events[event].when);
+        }
+        parts.extend(program.pool.operands(part));
+        at += 1;
+    }
+    parts
+}
+
+/// The two robots whose distance this is; `None` among them is the one that reads.
+fn robots(program: &Program, id: ExprId) -> Option<[Option<Id<Robot>>; 2]> {
+    let pool = &program.pool;
+    let Expr::Binary(Binary::Hypot, dx, dy) = pool.get(id) else {
+        return None;
+    };
+    let along = |difference: ExprId, axis: Pose| {
+        let Expr::Binary(Binary::Sub, one, other) = pool.get(difference) else {
+            return None;
+        };
+        let robot = |id: ExprId| match pool.get(id) {
+            Expr::Pose(pose) if pose == axis => Some(None),
+            Expr::Robot(robot, pose) if pose == axis => Some(Some(robot)),
+            _ => None,
+        };
+        Some([robot(one)?, robot(other)?])
+    };
+    let [one, other] = along(dx, Pose::X)?;
+    (along(dy, Pose::Y)? == [one, other] && one != other).then_some([one, other])
+}
+
+fn has_doors(world: &World) -> bool {
+    world.walls.values().any(|wall| wall.when.is_some())
+}
+
+/// The radius of the thinnest robot, but for one.
+fn thinnest(world: &World, but: Option<Id<Robot>>) -> f64 {
+    let robots = world.robots().enumerate();
+    let others = robots.filter(|(at, _)| but.is_none_or(|but| but.index() != *at));
+    others
+        .map(|(_, robot)| robot.radius)
+        .fold(f64::INFINITY, f64::min)
+}
