@@ -11,8 +11,8 @@ use super::decl::state::StateSlot;
 use super::lint::{Again, Asked};
 use super::meaning::Meanings;
 use super::members::{Kinds, Member};
+use super::merge;
 use super::names::Names;
-use super::report;
 use super::tune::Tunes;
 use super::twice;
 use super::{Checked, Input};
@@ -215,7 +215,7 @@ impl<'a> Checker<'a> {
     pub fn checked(mut self) -> Checked {
         self.settle_clashes();
         diagnostic::sort(&mut self.diagnostics);
-        report::merge(&mut self.diagnostics, |name| {
+        merge::merge(&mut self.diagnostics, |name| {
             self.meanings.declaration(name)
         });
         twice::misnamed(&mut self.diagnostics);

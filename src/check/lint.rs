@@ -14,7 +14,6 @@ mod interval;
 mod mentions;
 mod predicates;
 mod ranges;
-mod reach;
 mod regions;
 mod rewards;
 mod same;

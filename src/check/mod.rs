@@ -15,6 +15,7 @@ mod expr;
 mod lint;
 mod meaning;
 mod members;
+mod merge;
 mod names;
 mod report;
 mod signature;

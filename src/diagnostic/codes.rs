@@ -171,7 +171,6 @@ codes! {
     W0303 "one thing said twice",
 
     W0401 "a part of the world that does nothing",
-    W0402 "a station that is out of reach",
 
     W0501 "a setting without effect",
     W0502 "a behaviour that never succeeded",

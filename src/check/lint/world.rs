@@ -5,6 +5,7 @@ use crate::check::Checker;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{Point, Shape, minus};
 use crate::ir::Name;
+use crate::ir::expr::{Binary, Expr, ExprId};
 use crate::ir::task::StartLine;
 use crate::ir::world::{Place, World};
 use crate::source::Span;
@@ -26,7 +27,6 @@ impl<'a> Checker<'a> {
                 self.places_alike(declared, &world);
                 self.places_apart(declared, &world);
                 self.places_too_small(declared, &world);
-                self.stations_out_of_reach(places(declared, &world), &world);
             }
         }
     }
@@ -118,7 +118,7 @@ impl<'a> Checker<'a> {
                 match behavior.name.family.as_str() {
                     _ if at != place.name.to_string() => None,
                     "goto" => Some(0.0),
-                    "dock" => self.reach_of(behavior),
+                    "dock" => self.at_most(behavior.law.as_ref()?.requires),
                     _ => None,
                 }
             });
@@ -143,6 +143,22 @@ impl<'a> Checker<'a> {
                 .help(format!(
                     "make the place larger, or move it: the robot keeps {radius} cm from every wall"
                 ));
+        }
+    }
+
+    /// The constant that a distance is at most, where that is asked, or the greater of two.
+    fn at_most(&self, asked: ExprId) -> Option<f64> {
+        let pool = &self.program.pool;
+        match pool.get(asked) {
+            Expr::Binary(Binary::Or, one, other) => {
+                let either = [one, other].into_iter();
+                either.filter_map(|it| self.at_most(it)).reduce(f64::max)
+            }
+            Expr::Binary(Binary::Le, distance, most) => {
+                let is_distance = matches!(pool.get(distance), Expr::Binary(Binary::Hypot, ..));
+                pool.constant(most).filter(|_| is_distance)
+            }
+            _ => None,
         }
     }
 
