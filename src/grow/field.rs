@@ -66,7 +66,7 @@ pub struct Field<'w> {
 }
 
 /// The most minterms that are scored.
-const SPOTS: usize = 700;
+const SPOTS: usize = 350;
 
 impl<'w> Field<'w> {
     /// What is known, with the visits of a tree.

@@ -15,7 +15,7 @@ use rustc_hash::FxHashMap;
 const COVERED: usize = 20;
 const COVERS: f64 = 0.2;
 /// The most nodes of a base: to change a larger one takes too long, so the best tree that covers it takes its place, better or not.
-const LARGE: usize = 150;
+const LARGE: usize = 300;
 /// The races of the trees that cover another.
 const RUNS: usize = 2;
 
