@@ -36,7 +36,7 @@ use crate::learn::process::{Key, World};
 use crate::learn::run::Run;
 use crate::learn::simulated::Purpose;
 use crate::tree::prune::Requirement;
-pub use front::{Choice, Figures, Grown, Point};
+pub use front::{Beside, Choice, Figures, Grown, Point};
 use ground::Ground;
 use grower::Grower;
 use iterate::{Iteration, Pace};
@@ -46,8 +46,8 @@ use iterate::{Iteration, Pace};
 pub struct Starts {
     /// The exact tree of the policy.
     pub exact: Node,
-    /// Other trees, such as those that a person wrote.
-    pub others: Vec<Node>,
+    /// Other trees by their names, such as those that a person wrote.
+    pub others: Vec<(String, Node)>,
     /// The minterms of the policy.
     pub minterms: Vec<Key>,
 }

@@ -10,7 +10,7 @@ use crate::learn::process::World;
 use crate::learn::simulated::Purpose;
 use crate::learn::statistics::{Mean, Summary};
 use crate::tree::Size;
-use crate::trial::paired::{Contender, error};
+use crate::trial::paired::{Contender, Trials, error};
 use serde::{Deserialize, Serialize};
 
 /// For each stage of the choice, the episodes up to which its trees play, and the most that stay after it.
@@ -21,6 +21,8 @@ const SURE: f64 = 2.0;
 const LOOKED_AT: usize = 12;
 /// Fresh episodes that measure the tree that was chosen.
 const FRESH: usize = 500;
+/// The episodes that say which of the other trees the grown one is compared with.
+const COMPARED: usize = 60;
 /// The effort that these numbers are for; for less of it they are less.
 const WHOLE: f64 = 36e6;
 /// The fewest episodes, whatever the effort.
@@ -71,6 +73,17 @@ pub struct Point {
     pub taken: bool,
 }
 
+/// A tree of the file beside the one that was grown.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Beside {
+    /// Its name.
+    pub name: String,
+    /// Its figures, on the same seeds.
+    pub figures: Figures,
+    /// The mean gain of the grown tree over it, paired.
+    pub gain: Mean,
+}
+
 /// A grown tree.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Grown {
@@ -82,6 +95,8 @@ pub struct Grown {
     pub after: Figures,
     /// Its mean gain of return an episode over the exact tree on these seeds, paired.
     pub gain: Mean,
+    /// The best of the other trees that the search began with, if there were any.
+    pub beside: Option<Beside>,
     /// Whether this is the exact tree.
     pub kept: bool,
     /// The minterms of the policy in which it selects the same as the exact tree, and all of them. What a memory node goes on
@@ -147,15 +162,21 @@ pub(super) fn choose<W: World>(
             .sum(),
         summary: Summary::of(&contender.results(), judge.ground.ends),
     };
-    let loss = after.loss(&before);
-    let [low, high] = loss.ci95;
+    let mut others: Vec<(&str, &Node, Contender)> = Vec::new();
+    for (name, root) in &starts.others {
+        others.push((name, root, trials.contender(root)?));
+    }
+    ticks += play_best(&trials, &mut others, judge.scaled(of(COMPARED)), fresh);
+    let beside = others.first().map(|(name, root, contender)| Beside {
+        name: (*name).to_owned(),
+        figures: figures(contender, root),
+        gain: gain(&after, contender),
+    });
     Ok(Grown {
         before: figures(&before, &starts.exact),
         after: figures(&after, &root),
-        gain: Mean {
-            mean: -loss.mean,
-            ci95: [-high, -low],
-        },
+        gain: gain(&after, &before),
+        beside,
         kept: root == starts.exact,
         alike: [
             reader::alike(judge.ground, [&root, &starts.exact], &starts.minterms),
@@ -165,6 +186,36 @@ pub(super) fn choose<W: World>(
         front,
         ticks: judge.seen.ticks + ticks,
     })
+}
+
+/// The gain of a tree over another, episode by episode.
+fn gain(own: &Contender, other: &Contender) -> Mean {
+    let loss = own.loss(other);
+    let [low, high] = loss.ci95;
+    Mean {
+        mean: -loss.mean,
+        ci95: [-high, -low],
+    }
+}
+
+/// Lets trees play some episodes, and the one that returns most, which stands first then, all of them; counts the ticks.
+fn play_best<W: World>(
+    trials: &Trials<'_, W>,
+    trees: &mut [(&str, &Node, Contender)],
+    some: usize,
+    all: usize,
+) -> u64 {
+    let mut ticks = 0;
+    if trees.len() > 1 {
+        let each = trees.iter_mut().map(|(_, _, contender)| contender);
+        ticks += trials.play(&mut each.collect::<Vec<_>>(), some, None);
+        let mean = |tree: &(&str, &Node, Contender)| tree.2.returns().mean;
+        trees.sort_by(|a, b| mean(b).total_cmp(&mean(a)));
+    }
+    if let Some((_, _, best)) = trees.first_mut() {
+        ticks += trials.play(&mut [best], all, None);
+    }
+    ticks
 }
 
 /// The trees that are looked at: the later ones are the better ones; of the same size the last.

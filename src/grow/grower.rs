@@ -217,7 +217,7 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
         let others: Vec<Node> = starts
             .others
             .iter()
-            .cloned()
+            .map(|(_, other)| other.clone())
             .chain(singles.into_iter().map(|s| s.root))
             .collect();
         let terms = Terms::searching(self.price);

@@ -1,6 +1,7 @@
 //! The report of `btc learn` in five lines: four on the tree that is printed, one on the values of the policy.
 
 use super::ends::Ended;
+use super::grown;
 use super::results::Results;
 use super::value::Value;
 use super::words::{self, end_names, line, numbered};
@@ -50,6 +51,10 @@ pub fn lines<W>(results: &Results<W>) -> Vec<String> {
     });
     let limit = format!("{} at the limit", summary.cut);
     let ends: Vec<String> = ends.chain([limit]).collect();
+    if let Some(beside) = results.grown.as_ref().and_then(grown::beside) {
+        first.push_str("; ");
+        first.push_str(&beside);
+    }
     let tree = format!("{}; {}", words::size(&printed.size), printed.evidence);
     let mut value = Value::of(results).text();
     if results.grown.as_ref().is_some_and(|grown| !grown.kept) {

@@ -182,7 +182,7 @@ fn grown<W: World>(
         .trees
         .values()
         .filter(played)
-        .map(|tree| tree.root.clone());
+        .map(|tree| (tree.name.to_string(), tree.root.clone()));
     let starts = Starts {
         exact: exact.clone(),
         others: others.collect(),
