@@ -23,6 +23,7 @@ pub mod propose;
 pub mod race;
 pub mod reader;
 mod step;
+mod tested;
 
 use crate::checkpoint::{Keeper, Part};
 use crate::ir::task::Task;
@@ -36,10 +37,11 @@ use crate::learn::process::{Key, World};
 use crate::learn::run::Run;
 use crate::learn::simulated::Purpose;
 use crate::tree::prune::Requirement;
-pub use front::{Beside, Choice, Figures, Grown, Point};
+pub use front::{Choice, Grown, Point};
 use ground::Ground;
 use grower::Grower;
 use iterate::{Iteration, Pace};
+pub use tested::{Beside, Figures};
 
 /// What a search starts from.
 #[derive(Clone, Debug)]

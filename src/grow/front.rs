@@ -4,13 +4,14 @@ use super::ground::does_more_harm;
 use super::grower::{Found, Visited};
 use super::race::{Entrant, Judge, Terms};
 use super::reader;
+use super::tested::{self, Beside, Figures};
 use super::{Settings, Starts};
 use crate::ir::tree::{Atom, Node};
 use crate::learn::process::World;
 use crate::learn::simulated::Purpose;
-use crate::learn::statistics::{Mean, Summary};
+use crate::learn::statistics::Mean;
 use crate::tree::Size;
-use crate::trial::paired::{Contender, Trials, error};
+use crate::trial::paired::error;
 use serde::{Deserialize, Serialize};
 
 /// For each stage of the choice, the episodes up to which its trees play, and the most that stay after it.
@@ -45,17 +46,6 @@ pub enum Choice {
     Loss(f64),
 }
 
-/// The figures of a tree.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Figures {
-    /// Its size.
-    pub size: Size,
-    /// The figures of its episodes.
-    pub summary: Summary,
-    /// Harms in these: ends that cost, events that are claimed never to happen.
-    pub harms: u64,
-}
-
 /// A tree of the front.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Point {
@@ -71,17 +61,6 @@ pub struct Point {
     pub episodes: u64,
     /// Whether it is the one that was taken.
     pub taken: bool,
-}
-
-/// A tree of the file beside the one that was grown.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Beside {
-    /// Its name.
-    pub name: String,
-    /// Its figures, on the same seeds.
-    pub figures: Figures,
-    /// The mean gain of the grown tree over it, paired.
-    pub gain: Mean,
 }
 
 /// A grown tree.
@@ -147,36 +126,13 @@ pub(super) fn choose<W: World>(
         .get(chosen)
         .map_or_else(|| starts.exact.clone(), |entrant| entrant.root.clone());
     drop(entrants);
-    let race = judge.fresh();
-    let trials = judge.ground.trials(Purpose::Measure, race);
-    let fresh = judge.scaled(of(FRESH));
-    let mut before = trials.contender(&starts.exact)?;
-    let mut after = trials.contender(&root)?;
-    let mut ticks = trials.play(&mut [&mut before], fresh, None);
-    ticks += trials.play(&mut [&mut after], fresh, Some(&before));
-    let figures = |contender: &Contender, root: &Node| Figures {
-        size: Size::of(root),
-        harms: contender
-            .each(|episode| judge.ground.harm(episode))
-            .into_iter()
-            .sum(),
-        summary: Summary::of(&contender.results(), judge.ground.ends),
-    };
-    let mut others: Vec<(&str, &Node, Contender)> = Vec::new();
-    for (name, root) in &starts.others {
-        others.push((name, root, trials.contender(root)?));
-    }
-    ticks += play_best(&trials, &mut others, judge.scaled(of(COMPARED)), fresh);
-    let beside = others.first().map(|(name, root, contender)| Beside {
-        name: (*name).to_owned(),
-        figures: figures(contender, root),
-        gain: gain(&after, contender),
-    });
+    let episodes = [COMPARED, FRESH].map(|episodes| judge.scaled(of(episodes)));
+    let tested = tested::test(&mut judge, starts, &root, episodes)?;
     Ok(Grown {
-        before: figures(&before, &starts.exact),
-        after: figures(&after, &root),
-        gain: gain(&after, &before),
-        beside,
+        before: tested.before,
+        after: tested.after,
+        gain: tested.gain,
+        beside: tested.beside,
         kept: root == starts.exact,
         alike: [
             reader::alike(judge.ground, [&root, &starts.exact], &starts.minterms),
@@ -184,38 +140,8 @@ pub(super) fn choose<W: World>(
         ],
         root,
         front,
-        ticks: judge.seen.ticks + ticks,
+        ticks: judge.seen.ticks,
     })
-}
-
-/// The gain of a tree over another, episode by episode.
-fn gain(own: &Contender, other: &Contender) -> Mean {
-    let loss = own.loss(other);
-    let [low, high] = loss.ci95;
-    Mean {
-        mean: -loss.mean,
-        ci95: [-high, -low],
-    }
-}
-
-/// Lets trees play some episodes, and the one that returns most, which stands first then, all of them; counts the ticks.
-fn play_best<W: World>(
-    trials: &Trials<'_, W>,
-    trees: &mut [(&str, &Node, Contender)],
-    some: usize,
-    all: usize,
-) -> u64 {
-    let mut ticks = 0;
-    if trees.len() > 1 {
-        let each = trees.iter_mut().map(|(_, _, contender)| contender);
-        ticks += trials.play(&mut each.collect::<Vec<_>>(), some, None);
-        let mean = |tree: &(&str, &Node, Contender)| tree.2.returns().mean;
-        trees.sort_by(|a, b| mean(b).total_cmp(&mean(a)));
-    }
-    if let Some((_, _, best)) = trees.first_mut() {
-        ticks += trials.play(&mut [best], all, None);
-    }
-    ticks
 }
 
 /// The trees that are looked at: the later ones are the better ones; of the same size the last.
