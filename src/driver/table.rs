@@ -190,7 +190,7 @@ fn located(file: FileId, text: &str, error: &TableError) -> Diagnostic {
                 None => found,
             }
         }
-        TableErrorKind::Malformed(_) if text.starts_with(['{', '[']) => {
+        TableErrorKind::Malformed(_) if text.starts_with('{') => {
             found.help("JSON Lines has an object a line: `{\"low\": true, \"action\": \"charge\"}`")
         }
         TableErrorKind::Foreign { help: Some(help), .. } => found.help(*help),

@@ -216,26 +216,26 @@ pub(super) const INNER: [(&[&str], &str, &str); 7] = [
         "a tree",
         "tree NAME = …",
     ),
-    (
-        &[
-            "method",
-            "episodes",
-            "rate",
-            "objective",
-            "discount",
-            "explore",
-            "unseen",
-            "dwell",
-            "seed",
-        ],
-        "a learner",
-        "learn TASK { … }",
-    ),
+    (&LEARNER, "a learner", "learn TASK { … }"),
     (
         &["otherwise", "per"],
         "the reward of a task",
         "task NAME { reward { … } }",
     ),
+];
+
+/// The settings of a learner.
+pub const LEARNER: [&str; 10] = [
+    "method",
+    "episodes",
+    "rate",
+    "initial",
+    "objective",
+    "discount",
+    "explore",
+    "unseen",
+    "dwell",
+    "seed",
 ];
 
 /// The item that a word stands within, and how it stands there.

@@ -11,22 +11,8 @@ use crate::ir::task::{Discount, Learner, Method, Objective};
 use crate::ir::{Id, Name};
 use crate::source::Span;
 use crate::syntax::ast::{self, ExprKind, LearnEntry, Link, Ref, Setting};
-use crate::syntax::words::home;
+use crate::syntax::words::{LEARNER, home};
 use std::collections::BTreeMap;
-
-/// The settings of a learner.
-const SETTINGS: [&str; 10] = [
-    "method",
-    "episodes",
-    "rate",
-    "initial",
-    "objective",
-    "discount",
-    "explore",
-    "unseen",
-    "dwell",
-    "seed",
-];
 
 /// The methods, by name.
 const METHODS: [(&str, Method); 3] = [
@@ -133,7 +119,7 @@ impl<'a> Checker<'a> {
         };
         if let Some((link, tail)) = &setting.tail
             && !allowed.contains(&link.node)
-            && SETTINGS.contains(&name)
+            && LEARNER.contains(&name)
         {
             let word = match link.node {
                 Link::Of => "of",
@@ -197,7 +183,7 @@ impl<'a> Checker<'a> {
                 if foreign.is_none() {
                     self.names.lose("episodes");
                 }
-                self.unknown_to(owner, Code::E0501, name, "setting", &SETTINGS)
+                self.unknown_to(owner, Code::E0501, name, "setting", &LEARNER)
                     .help_if(foreign);
             }
         }

@@ -119,6 +119,13 @@ impl Place<'_> {
         line.split("//").next().unwrap_or_default().trim_end()
     }
 
+    /// What stands between the bracket that was found and the next one that closes, in the same line; with the span of both.
+    fn within(&self, close: char) -> Option<(&str, Span)> {
+        let (inner, _) = self.rest_of_line(self.found.end).split_once(close)?;
+        let end = self.found.end + inner.len() + close.len_utf8();
+        Some((inner, Span::new(self.file, self.found.start, end)))
+    }
+
     /// `predicate near goal = …`: a name of two words.
     fn spaced_name(&self) -> Option<Diagnostic> {
         let (word, name) = (self.second_before?, self.before?);
@@ -155,19 +162,10 @@ impl Place<'_> {
         if self.found() != "[" || name.end != self.found.start || !reads {
             return None;
         }
-        let rest = self.rest_of_line(self.found.end);
-        let inner = rest
-            .split(']')
-            .next()
-            .filter(|inner| inner.len() < rest.len())?;
+        let (inner, span) = self.within(']')?;
         if inner.contains('[') {
             return None;
         }
-        let span = Span::new(
-            self.file,
-            self.found.start,
-            self.found.end + inner.len() + 1,
-        );
         match inner.trim() {
             "0" => self.told(span, "the first coordinate of a point is `x`", ".x"),
             "1" => self.told(span, "the second coordinate of a point is `y`", ".y"),
@@ -180,17 +178,8 @@ impl Place<'_> {
         if self.found() != "(" || self.before() != "for" {
             return None;
         }
-        let rest = self.rest_of_line(self.found.end);
-        let inner = rest
-            .split(')')
-            .next()
-            .filter(|inner| inner.len() < rest.len())?;
+        let (inner, span) = self.within(')')?;
         let plain = inner.contains(" in ") && !inner.contains(['(', ';', ':']);
-        let span = Span::new(
-            self.file,
-            self.found.start,
-            self.found.end + inner.len() + 1,
-        );
         let right = inner.trim().trim_start_matches("var ").to_owned();
         plain
             .then(|| self.told(span, "no parentheses follow `for`", right))
