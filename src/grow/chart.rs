@@ -16,8 +16,6 @@ use crate::learn::solve::Problem;
 pub struct Chart<'w> {
     problem: Problem,
     keys: Vec<Key>,
-    /// Which choices fail at once, in each row.
-    refuses: Vec<Vec<bool>>,
     /// How often an episode begins in each row.
     from: Vec<f64>,
     /// The return of an episode for each unit of discounted value.
@@ -57,16 +55,18 @@ impl<'w> Chart<'w> {
         length: u64,
     ) -> Self {
         let keys = evidence.keys();
+        let refusing = evidence.refusing();
+        let minterms = keys.iter().zip(&refusing);
+        let minterms = minterms.map(|(key, refuses)| (*key, refuses.as_slice()));
         let all: f64 = keys.iter().map(|key| evidence.begun(*key)).sum();
         let from = keys.iter().map(|key| evidence.begun(*key) / all.max(1.0));
         let horizons = length as f64 / (FAR * ground.start.limit as f64);
         Self {
             problem: evidence.doubted(Sight::Far, doubt),
             keys: keys.to_vec(),
-            refuses: evidence.refusing(),
             from: from.collect(),
             scale: horizons / (1.0 - crate::math::exp(-horizons)).max(1e-9),
-            reader: Reader::new(ground),
+            reader: Reader::new(ground, minterms),
         }
     }
 
@@ -103,8 +103,7 @@ impl<'w> Chart<'w> {
     }
 
     fn policy(&self, root: &Node) -> Option<Vec<Option<usize>>> {
-        self.reader
-            .policy(root, &self.problem, &self.keys, &self.refuses)
+        self.reader.policy(root, &self.problem)
     }
 
     /// The minterms that matter to a tree, by how often an episode enters them.

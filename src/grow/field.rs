@@ -81,8 +81,10 @@ impl<'w> Field<'w> {
         let policy = match aim {
             Aim::Best => None,
             Aim::Of(root) => {
-                let reader = Reader::new(ground);
-                reader.policy(root, &problem, evidence.keys(), &evidence.refusing())
+                let refusing = evidence.refusing();
+                let minterms = evidence.keys().iter().zip(&refusing);
+                let minterms = minterms.map(|(key, refuses)| (*key, refuses.as_slice()));
+                Reader::new(ground, minterms).policy(root, &problem)
             }
         };
         let values = match policy {
@@ -139,19 +141,19 @@ impl<'w> Field<'w> {
             .collect();
         spots.sort_by(|a, b| b.weight.total_cmp(&a.weight).then(a.key.cmp(&b.key)));
         spots.truncate(SPOTS);
+        let minterms = spots.iter();
+        let minterms = minterms.map(|spot| (spot.key, spot.refuses.as_slice()));
         Self {
+            reader: Reader::new(ground, minterms),
             spots,
             atoms: ground.atoms(),
             choices: ground.choices,
-            reader: Reader::new(ground),
         }
     }
 
     /// What a tree does in each minterm; `None` if it asks what the world does not know.
     pub fn drives(&self, root: &Node) -> Option<Vec<Drive>> {
-        let rows = self.spots.iter();
-        self.reader
-            .drives(root, rows.map(|spot| (spot.key, spot.refuses.as_slice())))
+        self.reader.drives(root)
     }
 
     /// How much more a tree returns than another that does `now`, as far as the counts tell.

@@ -3,17 +3,17 @@
 use super::ground::Ground;
 use crate::ir::Id;
 use crate::ir::law::Behavior;
-use crate::ir::tree::{Atom, Composite, Guard, Node, Status};
+use crate::ir::tree::{Atom, Composite, Guard, Node};
 use crate::learn::process::{Key, World};
 use crate::learn::solve::Problem;
-use crate::tree::Runner;
 use crate::tree::atoms::behaviors;
+use crate::tree::columns::{Answers, Columns, Rows};
 use crate::tree::guard::or;
 use crate::tree::unit::{guarded, selector};
 use rustc_hash::FxHashMap;
 
 /// What a tree does in a minterm.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Drive {
     /// The behaviour that drives, by its number among the choices; `None` if the tree selects nothing.
     pub choice: Option<usize>,
@@ -21,57 +21,77 @@ pub struct Drive {
     pub fell: bool,
 }
 
-/// The behaviours by their numbers among the choices.
-type Numbers = FxHashMap<Id<Behavior>, usize>;
-
-/// Reads what trees do. A memory node goes on where the history says; trees that ask what the world does not know cannot be
-/// read.
+/// Reads what trees do in minterms. A memory node goes on where the history says; trees that ask what the world does not know
+/// cannot be read.
 #[derive(Debug)]
 pub struct Reader<'w> {
     /// The atoms of a minterm.
-    pub atoms: &'w [Atom],
-    /// All that the world lets a tree ask.
-    asked: &'w [Atom],
-    numbers: Numbers,
+    atoms: &'w [Atom],
+    numbers: FxHashMap<Id<Behavior>, usize>,
+    minterms: usize,
+    columns: Columns,
+    /// For each block of minterms, where each choice fails at once.
+    refusing: Vec<Vec<Rows>>,
 }
 
 impl<'w> Reader<'w> {
-    /// A reader of the trees that grow here.
-    pub fn new<W: World>(ground: &Ground<'w, W>) -> Self {
+    /// A reader of the trees that grow here in these minterms, where these choices fail at once.
+    pub fn new<'r, W: World>(
+        ground: &Ground<'w, W>,
+        minterms: impl Iterator<Item = (Key, &'r [bool])>,
+    ) -> Self {
         let choices = ground.choices.iter().enumerate();
+        let (keys, refuses): (Vec<Key>, Vec<&[bool]>) = minterms.unzip();
+        let blocks = refuses.chunks(Rows::MOST).map(|block| {
+            let mut refusing = vec![Rows::NONE; ground.choices.len()];
+            for (row, refuses) in block.iter().enumerate() {
+                let those = refusing.iter_mut().zip(*refuses);
+                let those = those.filter(|(_, refuses)| **refuses);
+                those.for_each(|(rows, _)| rows.insert(row));
+            }
+            refusing
+        });
         Self {
             atoms: ground.atoms(),
-            asked: ground.world.atoms(),
             numbers: choices.map(|(at, id)| (*id, at)).collect(),
+            minterms: keys.len(),
+            columns: Columns::new(ground.world.atoms(), &keys),
+            refusing: blocks.collect(),
         }
     }
 
-    /// What a tree does in each of these minterms, where these choices fail at once.
-    pub fn drives<'r>(
-        &self,
-        root: &Node,
-        rows: impl Iterator<Item = (Key, &'r [bool])>,
-    ) -> Option<Vec<Drive>> {
-        let read = without_memory(root, self.atoms);
-        let mut runner = Runner::new(&read, self.asked).ok()?;
-        let drives = rows.map(|(key, refuses)| {
-            driven(&mut runner, key, &self.numbers, |choice| {
-                refuses.get(choice).copied().unwrap_or(false)
-            })
-        });
-        Some(drives.collect())
+    /// What a tree does in each minterm, its memory fresh.
+    pub fn drives(&self, root: &Node) -> Option<Vec<Drive>> {
+        let root = without_memory(root, self.atoms);
+        let mut drives = vec![Drive::default(); self.minterms];
+        let mut leaf = |block: usize, behavior: Id<Behavior>, rows: Rows| {
+            let choice = self.numbers.get(&behavior).copied();
+            let refusing = self.refusing.get(block).zip(choice);
+            let refusing = refusing.and_then(|(refusing, choice)| refusing.get(choice));
+            let failed = rows & refusing.copied().unwrap_or_default();
+            let from = block * Rows::MOST;
+            for row in failed.iter() {
+                if let Some(drive) = drives.get_mut(from + row) {
+                    drive.fell = true;
+                }
+            }
+            for row in (rows & !failed).iter() {
+                if let Some(drive) = drives.get_mut(from + row) {
+                    drive.choice = choice;
+                }
+            }
+            Answers {
+                failed,
+                ..Answers::default()
+            }
+        };
+        self.columns.tick(&root, &mut leaf).ok()?;
+        Some(drives)
     }
 
     /// A tree as a policy of a problem whose states are these minterms.
-    pub fn policy(
-        &self,
-        root: &Node,
-        problem: &Problem,
-        keys: &[Key],
-        refuses: &[Vec<bool>],
-    ) -> Option<Vec<Option<usize>>> {
-        let rows = keys.iter().zip(refuses);
-        let drives = self.drives(root, rows.map(|(key, refuses)| (*key, refuses.as_slice())))?;
+    pub fn policy(&self, root: &Node, problem: &Problem) -> Option<Vec<Option<usize>>> {
+        let drives = self.drives(root)?;
         let policy = problem.states.iter().zip(drives).map(|(state, drive)| {
             let taken = |(choice, _): &(usize, _)| Some(*choice) == drive.choice;
             state.iter().position(taken)
@@ -82,39 +102,14 @@ impl<'w> Reader<'w> {
 
 /// In how many of these minterms two trees select the same behaviour first, or none.
 pub fn alike<W: World>(ground: &Ground<W>, trees: [&Node; 2], keys: &[Key]) -> usize {
-    let reader = Reader::new(ground);
-    let rows = || keys.iter().map(|key| (*key, [].as_slice()));
-    let [Some(own), Some(other)] = trees.map(|root| reader.drives(root, rows())) else {
+    let reader = Reader::new(ground, keys.iter().map(|key| (*key, [].as_slice())));
+    let [Some(own), Some(other)] = trees.map(|root| reader.drives(root)) else {
         return 0;
     };
     let pairs = own.iter().zip(&other);
     pairs
         .filter(|(own, other)| own.choice == other.choice)
         .count()
-}
-
-/// What a tree does in a minterm, its memory fresh, where some choices fail at once.
-fn driven(
-    runner: &mut Runner,
-    key: Key,
-    numbers: &Numbers,
-    refuses: impl Fn(usize) -> bool,
-) -> Drive {
-    runner.reset();
-    let mut drive = Drive {
-        choice: None,
-        fell: false,
-    };
-    runner.tick_key(key, |behavior| {
-        let choice = numbers.get(&behavior).copied();
-        if choice.is_some_and(&refuses) {
-            drive.fell = true;
-            return Status::Failure;
-        }
-        drive.choice = choice;
-        Status::Running
-    });
-    drive
 }
 
 /// A tree whose memory nodes ask the history instead: a sequence goes on behind the last child that has succeeded, a

@@ -5,6 +5,7 @@ pub mod atoms;
 pub mod canonicalise;
 pub mod change;
 mod circuit;
+pub mod columns;
 mod compiled;
 pub mod decanonicalise;
 pub mod disagreement;

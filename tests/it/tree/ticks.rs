@@ -7,7 +7,9 @@ use crate::laws::build::{
 use crate::laws::naive::{self, Memory};
 use crate::laws::random::Random;
 use btc::ir::Id;
+use btc::ir::law::Behavior;
 use btc::ir::tree::{Atom, Decorator, Guard, Node, Status};
+use btc::tree::columns::{Answers, Columns, Rows};
 use btc::tree::tick::Runner;
 use std::collections::VecDeque;
 
@@ -248,6 +250,74 @@ fn the_compiled_tree_ticks_as_the_naive_one() {
             );
             memory = expected.memory;
         }
+    }
+}
+
+#[test]
+fn columns_answer_in_each_row_as_a_fresh_runner() {
+    for seed in 1..=300 {
+        let random = &mut Random::new(seed);
+        let root = any_node(random, 4);
+        let atoms: Vec<Atom> = (0..70)
+            .map(|i| Atom::Predicate(Id::new(i)))
+            .chain([Atom::Done(Id::new(0))])
+            .collect();
+        let keys: Vec<u128> = (0..1 + random.below(2 * Rows::MOST))
+            .map(|_| u128::from(random.next() & random.next()) | u128::from(random.next()) << 64)
+            .collect();
+        // A behaviour answers by its number and the row.
+        let script: Vec<Status> = (0..64)
+            .map(|_| match random.below(3) {
+                0 => Status::Success,
+                1 => Status::Failure,
+                _ => Status::Running,
+            })
+            .collect();
+        let answer = |behavior: Id<Behavior>, row: usize| script[(row * 5 + behavior.index()) % 64];
+        let mut ticked = vec![vec![]; keys.len()];
+        let answers = Columns::new(&atoms, &keys).tick(&root, &mut |block, behavior, rows| {
+            let mut answers = Answers::default();
+            for at in rows.iter() {
+                let row = block * Rows::MOST + at;
+                ticked[row].push(behavior);
+                match answer(behavior, row) {
+                    Status::Success => answers.succeeded.insert(at),
+                    Status::Failure => answers.failed.insert(at),
+                    Status::Running => {}
+                }
+            }
+            answers
+        });
+        let answers = answers.unwrap();
+        let mut runner = Runner::new(&root, &atoms).unwrap();
+        for (row, key) in keys.iter().enumerate() {
+            runner.reset();
+            let mut expected = vec![];
+            let status = runner.tick_key(*key, |behavior| {
+                expected.push(behavior);
+                answer(behavior, row)
+            });
+            let block = &answers[row / Rows::MOST];
+            let within = |rows: Rows| rows.iter().any(|at| at == row % Rows::MOST);
+            let found = match (within(block.succeeded), within(block.failed)) {
+                (true, false) => Status::Success,
+                (false, true) => Status::Failure,
+                (false, false) => Status::Running,
+                both => panic!("seed {seed}: {both:?}"),
+            };
+            assert_eq!(
+                (found, &ticked[row]),
+                (status, &expected),
+                "seed {seed}, row {row}: {root:?}"
+            );
+        }
+        assert_eq!(
+            Columns::new(&atoms[..3], &keys)
+                .tick(&root, &mut |_, _, _| Answers::default())
+                .is_err(),
+            Runner::new(&root, &atoms[..3]).is_err(),
+            "seed {seed}: {root:?}"
+        );
     }
 }
 
