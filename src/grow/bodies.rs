@@ -89,11 +89,12 @@ fn conditions<W: World>(
     let mut left: Vec<Tried> = rows
         .filter_map(|(row, key)| {
             let cell = evidence.cells(row).get(choice)?;
-            let refused = cell.refused() * cell.count;
-            (cell.count > 0.0).then_some(Tried {
+            // Minterms count alike, however often a good tree comes by.
+            let all = cell.count.min(KNOWN);
+            (all > 0.0).then_some(Tried {
                 key: *key,
-                all: cell.count,
-                refused,
+                all,
+                refused: cell.refused() * all,
             })
         })
         .collect();

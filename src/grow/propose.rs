@@ -10,6 +10,8 @@ use crate::tree::guard::{and, conjuncts, not, or, with_part};
 use crate::tree::prune::{self, Requirement, tidy};
 use crate::tree::unit::{guarded, memory};
 use rayon::prelude::*;
+use rustc_hash::FxHasher;
+use std::hash::{Hash, Hasher};
 
 /// A tree one change away.
 #[derive(Clone, Debug)]
@@ -20,6 +22,8 @@ pub struct Proposal {
     pub nodes: usize,
     /// The gain that the counts promise, less the price of the nodes that it has more.
     pub score: f64,
+    /// What it does in the minterms that matter; trees that do the same there have the same number.
+    pub does: u64,
 }
 
 /// The guards that are tried for each change.
@@ -62,12 +66,15 @@ impl Proposer<'_, '_> {
                 guards
                     .map(|found| {
                         let unit = guarded(found.guard(self.field), body.clone());
-                        Proposal {
+                        let proposal = self.proposal(place.put(root, &unit));
+                        Some(Proposal {
                             score: found.gain - self.price * (own + nodes(&found)) as f64,
-                            ..self.proposal(place.put(root, &unit))
-                        }
+                            does: number(&self.field.drives(&proposal.root)?),
+                            ..proposal
+                        })
                     })
-                    .collect()
+                    .collect::<Option<_>>()
+                    .unwrap_or_default()
             })
             .collect();
         found.into_iter().flatten().collect()
@@ -242,6 +249,7 @@ impl Proposer<'_, '_> {
                 let more = proposal.nodes as f64 - nodes;
                 Some(Proposal {
                     score: self.field.gain(&drives, now) - self.price * more,
+                    does: number(&drives),
                     ..proposal
                 })
             })
@@ -255,8 +263,16 @@ impl Proposer<'_, '_> {
             nodes: Size::of(&root).nodes,
             root,
             score: 0.0,
+            does: 0,
         }
     }
+}
+
+/// A number for what a tree does.
+pub fn number(drives: &[Drive]) -> u64 {
+    let mut hasher = FxHasher::default();
+    drives.hash(&mut hasher);
+    hasher.finish()
 }
 
 fn is_selector(node: &Node) -> bool {

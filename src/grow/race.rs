@@ -24,16 +24,35 @@ const SHORT: u64 = 8;
 const LONG: usize = 2;
 /// A tree leaves a race when its gain is below zero by this many standard errors.
 const HOPELESS: f64 = 2.0;
-/// What an episode with harm costs in a search, in returns: little, since a tree that returns much and does harm at times is
-/// more easily mended than one that returns little.
-const CHEAP: f64 = 1.0;
-/// What it costs where a tree is to be taken.
-const DEAR: f64 = 20.0;
+/// Where a tree is surely better: its gain in standard errors, and the stage from which on that is said.
+const CLEAR: (f64, usize) = (4.0, 2);
 
 /// The part of its ticks in which a tree does what it has to use.
 const USED: f64 = 0.03;
 /// For each stage of a race without a base, the episodes up to which its trees play, and the most that stay after it.
 const WITHOUT_BASE: [(usize, usize); 3] = [(2, 12), (8, 4), (24, 1)];
+
+/// What an episode with harm costs, in returns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Harm {
+    /// Little, while trees are searched for: one that returns much and does harm at times is more easily mended than one
+    /// that returns little.
+    Cheap,
+    /// More, while they are mended: where harm is dear at once, a tree that hardly acts beats one that needs a guard more.
+    Middling,
+    /// Much, where a tree is to be taken.
+    Dear,
+}
+
+impl Harm {
+    fn returns(self) -> f64 {
+        match self {
+            Self::Cheap => 1.0,
+            Self::Middling => 4.0,
+            Self::Dear => 20.0,
+        }
+    }
+}
 
 /// What a tree is charged for in a race.
 #[derive(Clone, Copy, Debug)]
@@ -47,22 +66,23 @@ pub struct Terms {
 }
 
 impl Terms {
-    /// Those of a search that goes on.
-    pub fn searching(price: f64) -> Self {
+    /// With this price of a node, where harm costs so much.
+    pub fn of(price: f64, harm: Harm) -> Self {
         Self {
             price,
-            harm: CHEAP,
+            harm: harm.returns(),
             kept: None,
         }
     }
 
+    /// Those of a search that goes on.
+    pub fn searching(price: f64) -> Self {
+        Self::of(price, Harm::Cheap)
+    }
+
     /// Those of a search whose tree is taken.
     pub fn taking(price: f64) -> Self {
-        Self {
-            price,
-            harm: DEAR,
-            kept: None,
-        }
+        Self::of(price, Harm::Dear)
     }
 
     /// Those of returns alone.
@@ -239,14 +259,15 @@ impl<'g, 'w, W: World> Judge<'g, 'w, W> {
         let ready = trees.iter().filter_map(|root| self.entrant(&trials, root));
         let mut entrants: Vec<Entrant> = ready.collect();
         let mut stages = STAGES.to_vec();
-        if self.seen.harmed && terms.harm > CHEAP {
+        let cheap = terms.harm <= Harm::Cheap.returns();
+        if self.seen.harmed && !cheap {
             stages.push((RARE, 2));
         }
         // A tree that races alone is not sent away after a few episodes.
         if let ([_], Some(last), false) = (entrants.as_slice(), stages.last(), self.sparing) {
             stages = vec![*last];
         }
-        for (episodes, stay) in stages {
+        for (stage, (episodes, stay)) in stages.into_iter().enumerate() {
             let episodes = self.scaled(episodes);
             self.play(&trials, &mut base, episodes, None);
             let base = base.first()?;
@@ -255,8 +276,11 @@ impl<'g, 'w, W: World> Judge<'g, 'w, W> {
             let gain = |entrant: &Entrant| self.gain(entrant, base, terms).mean;
             entrants.sort_by(|a, b| gain(b).total_cmp(&gain(a)));
             entrants.truncate(stay);
-            if entrants.is_empty() {
-                return None;
+            let first = entrants.first()?;
+            let (errors, from) = CLEAR;
+            let gain = self.gain(first, base, terms);
+            if cheap && stage >= from && gain.mean > errors * error(&gain) {
+                break;
             }
         }
         let base = base.pop()?;

@@ -7,13 +7,13 @@ use crate::ir::tree::{Atom, Composite, Guard, Node};
 use crate::learn::process::{Key, World};
 use crate::learn::solve::Problem;
 use crate::tree::atoms::behaviors;
-use crate::tree::columns::{Answers, Columns, Rows};
+use crate::tree::batch::{Answers, Batch, Rows};
 use crate::tree::guard::or;
 use crate::tree::unit::{guarded, selector};
 use rustc_hash::FxHashMap;
 
 /// What a tree does in a minterm.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Drive {
     /// The behaviour that drives, by its number among the choices; `None` if the tree selects nothing.
     pub choice: Option<usize>,
@@ -29,7 +29,7 @@ pub struct Reader<'w> {
     atoms: &'w [Atom],
     numbers: FxHashMap<Id<Behavior>, usize>,
     minterms: usize,
-    columns: Columns,
+    batch: Batch,
     /// For each block of minterms, where each choice fails at once.
     refusing: Vec<Vec<Rows>>,
 }
@@ -55,7 +55,7 @@ impl<'w> Reader<'w> {
             atoms: ground.atoms(),
             numbers: choices.map(|(at, id)| (*id, at)).collect(),
             minterms: keys.len(),
-            columns: Columns::new(ground.world.atoms(), &keys),
+            batch: Batch::new(ground.world.atoms(), &keys),
             refusing: blocks.collect(),
         }
     }
@@ -85,7 +85,7 @@ impl<'w> Reader<'w> {
                 ..Answers::default()
             }
         };
-        self.columns.tick(&root, &mut leaf).ok()?;
+        self.batch.tick(&root, &mut leaf).ok()?;
         Some(drives)
     }
 

@@ -2,10 +2,10 @@
 
 mod answers;
 pub mod atoms;
+pub mod batch;
 pub mod canonicalise;
 pub mod change;
 mod circuit;
-pub mod columns;
 mod compiled;
 pub mod decanonicalise;
 pub mod disagreement;

@@ -4,20 +4,28 @@ use super::{Grower, add};
 use crate::grow::bodies;
 use crate::grow::evidence::Sight;
 use crate::grow::field::{Aim, Field};
-use crate::grow::propose::{Proposal, Proposer};
-use crate::grow::race::Terms;
+use crate::grow::propose::{Proposal, Proposer, number};
+use crate::grow::race::{Harm, Terms};
 use crate::grow::step::{Stage, Step};
 use crate::ir::tree::Node;
 use crate::learn::process::World;
-use rustc_hash::FxHashSet;
+use crate::tree::Size;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Proposals of a round: those of which the counts promise most, others at random, and nodes with memory.
 const BEST: usize = 20;
 const RANDOM: usize = 20;
 const MEMORIES: usize = 8;
-/// The stages of climbing: the part of a node's price, whether trees only get smaller, and the part of the effort after which
-/// the stage ends.
-const CLIMBS: [(f64, bool, f64); 3] = [(1.0, false, 0.78), (0.5, false, 0.94), (1.0, true, 1.0)];
+/// Proposals that do the same in the minterms that matter, at most: where trees change, and where they only get smaller.
+const ALIKE: [usize; 2] = [1, 3];
+/// The stages of climbing: the part of a node's price, what harm costs, whether trees only get smaller, and the part of the
+/// effort after which the stage ends.
+const CLIMBS: [(f64, Harm, bool, f64); 4] = [
+    (1.0, Harm::Cheap, false, 0.72),
+    (0.7, Harm::Middling, false, 0.84),
+    (0.5, Harm::Dear, false, 0.94),
+    (1.0, Harm::Dear, true, 1.0),
+];
 /// Races without a better tree before a stage ends.
 const FAILURES: usize = 3;
 /// The prices, in parts of a node's, at which smaller trees are looked for that cost something.
@@ -29,7 +37,7 @@ impl<W: World> Grower<'_, '_, '_, W> {
         if self.is_attempting() && (stage.failures >= FAILURES || self.has_spent(1.0)) {
             return (base, Step::Attempted);
         }
-        let Some((factor, only, until)) = CLIMBS.get(stage.number) else {
+        let Some((factor, harm, only, until)) = CLIMBS.get(stage.number) else {
             return (base, Step::Refine(Stage::default()));
         };
         if stage.failures >= FAILURES || self.spent(*until) {
@@ -37,10 +45,7 @@ impl<W: World> Grower<'_, '_, '_, W> {
         }
         self.report(&base);
         let price = self.price * factor;
-        let terms = match stage.number {
-            0 => Terms::searching(price),
-            _ => Terms::taking(price),
-        };
+        let terms = Terms::of(price, *harm);
         if stage.number > 0 {
             self.charge(terms);
         }
@@ -134,9 +139,18 @@ impl<W: World> Grower<'_, '_, '_, W> {
             (BEST, RANDOM, MEMORIES)
         };
         let mut trees: Vec<Node> = Vec::new();
-        let mut take = |proposal: Proposal| {
-            let fresh = proposal.root != *base && tried.insert(format!("{:?}", proposal.root));
+        let most = ALIKE.get(usize::from(only)).copied().unwrap_or(1);
+        // What does the same as the base is worth a race if it is smaller.
+        let (own, nodes) = (number(&now), Size::of(base).nodes);
+        let mut alike: FxHashMap<u64, usize> = FxHashMap::default();
+        let mut take = |proposal: Proposal, remembers: bool| {
+            let same = alike.entry(proposal.does).or_default();
+            let other =
+                remembers || *same < most && (proposal.does != own || proposal.nodes < nodes);
+            let fresh =
+                other && proposal.root != *base && tried.insert(format!("{:?}", proposal.root));
             if fresh {
+                *same += 1;
                 trees.push(proposal.root);
             }
             fresh
@@ -146,16 +160,16 @@ impl<W: World> Grower<'_, '_, '_, W> {
         let mut left = best;
         for proposal in found {
             if left > 0 {
-                left -= usize::from(take(proposal));
+                left -= usize::from(take(proposal, false));
             } else {
                 rest.push(proposal);
             }
         }
-        for (mut from, count) in [(rest, random), (memories, memory)] {
+        for (mut from, count, remembers) in [(rest, random, false), (memories, memory, true)] {
             let mut left = count;
             while left > 0 && !from.is_empty() {
                 let at = self.random.below(from.len() as u64) as usize;
-                left -= usize::from(take(from.swap_remove(at)));
+                left -= usize::from(take(from.swap_remove(at), remembers));
             }
         }
         trees

@@ -9,7 +9,7 @@ use crate::laws::random::Random;
 use btc::ir::Id;
 use btc::ir::law::Behavior;
 use btc::ir::tree::{Atom, Decorator, Guard, Node, Status};
-use btc::tree::columns::{Answers, Columns, Rows};
+use btc::tree::batch::{Answers, Batch, Rows};
 use btc::tree::tick::Runner;
 use std::collections::VecDeque;
 
@@ -254,7 +254,7 @@ fn the_compiled_tree_ticks_as_the_naive_one() {
 }
 
 #[test]
-fn columns_answer_in_each_row_as_a_fresh_runner() {
+fn a_batch_answers_in_each_row_as_a_fresh_runner() {
     for seed in 1..=300 {
         let random = &mut Random::new(seed);
         let root = any_node(random, 4);
@@ -275,7 +275,7 @@ fn columns_answer_in_each_row_as_a_fresh_runner() {
             .collect();
         let answer = |behavior: Id<Behavior>, row: usize| script[(row * 5 + behavior.index()) % 64];
         let mut ticked = vec![vec![]; keys.len()];
-        let answers = Columns::new(&atoms, &keys).tick(&root, &mut |block, behavior, rows| {
+        let answers = Batch::new(&atoms, &keys).tick(&root, &mut |block, behavior, rows| {
             let mut answers = Answers::default();
             for at in rows.iter() {
                 let row = block * Rows::MOST + at;
@@ -312,7 +312,7 @@ fn columns_answer_in_each_row_as_a_fresh_runner() {
             );
         }
         assert_eq!(
-            Columns::new(&atoms[..3], &keys)
+            Batch::new(&atoms[..3], &keys)
                 .tick(&root, &mut |_, _, _| Answers::default())
                 .is_err(),
             Runner::new(&root, &atoms[..3]).is_err(),

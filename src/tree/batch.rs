@@ -1,7 +1,8 @@
-//! One tick of a tree in many valuations at once.
+//! One tick of a tree in many valuations together.
 //!
-//! The valuations stand side by side in blocks, a bit for each, and a node is ticked in all those that come to it together.
-//! In each of them it answers what a [`Runner`](super::tick::Runner) with fresh memory does.
+//! The valuations stand side by side in blocks, a bit for each, and a node is ticked in all those that come to it. In each of
+//! them it answers what a [`Runner`](super::tick::Runner) with fresh memory does. A [proof](super::prove) asks for less: which
+//! behaviour is selected first, whatever it answers.
 
 use super::answers;
 use crate::ir::Id;
@@ -103,9 +104,9 @@ impl Answers {
     }
 }
 
-/// Valuations side by side.
+/// Valuations in which trees are ticked together.
 #[derive(Clone, Debug)]
-pub struct Columns {
+pub struct Batch {
     places: FxHashMap<Atom, usize>,
     blocks: Vec<Block>,
 }
@@ -118,7 +119,7 @@ struct Block {
     atoms: Vec<Rows>,
 }
 
-impl Columns {
+impl Batch {
     /// Valuations of these atoms; the first atom is the lowest bit of a key.
     pub fn new(atoms: &[Atom], keys: &[u128]) -> Self {
         let places = atoms.iter().enumerate().rev();
