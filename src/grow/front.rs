@@ -112,7 +112,7 @@ pub(super) fn choose<W: World>(
     let of = |episodes: usize| ((episodes as f64 * part) as usize).max(FEWEST);
     let entrants = confirmed(
         &mut judge,
-        candidates(visited),
+        candidates(visited, starts),
         starts,
         &of,
         settings,
@@ -120,7 +120,9 @@ pub(super) fn choose<W: World>(
     )?;
     let harms = |entrant: &Entrant| judge.harms(entrant);
     let exact = entrants.len().saturating_sub(1);
-    let chosen = chosen(&judge, &entrants, exact, settings.choice, price);
+    let theirs = starts.others.iter().map(|(_, other)| other);
+    let theirs: Vec<&Node> = theirs.collect();
+    let chosen = chosen(&judge, &entrants, (exact, &theirs), settings.choice, price);
     let front = points(&entrants, chosen, &harms);
     let root = entrants
         .get(chosen)
@@ -144,14 +146,20 @@ pub(super) fn choose<W: World>(
     })
 }
 
-/// The trees that are looked at: the later ones are the better ones; of the same size the last.
-fn candidates(visited: Vec<Visited>) -> Vec<Node> {
+/// The trees that are looked at: those of the file, and of those that were found the later ones, which are the better ones;
+/// of the same size the last.
+fn candidates(visited: Vec<Visited>, starts: &Starts) -> Vec<Node> {
     let mut trees: Vec<Node> = Vec::new();
     let mut sizes: Vec<usize> = Vec::new();
     for tree in visited.into_iter().rev() {
         if !sizes.contains(&tree.nodes) && trees.len() < LOOKED_AT {
             sizes.push(tree.nodes);
             trees.push(tree.root);
+        }
+    }
+    for (_, other) in &starts.others {
+        if !trees.contains(other) {
+            trees.push(other.clone());
         }
     }
     trees
@@ -202,7 +210,7 @@ fn confirmed<W: World>(
 fn chosen<W: World>(
     judge: &Judge<'_, '_, W>,
     entrants: &[Entrant],
-    exact: usize,
+    (exact, theirs): (usize, &[&Node]),
     choice: Choice,
     price: f64,
 ) -> usize {
@@ -210,12 +218,19 @@ fn chosen<W: World>(
         return exact;
     };
     let mean = |entrant: &Entrant| entrant.contender.returns().mean;
-    // Those that have played to the end and did no more harm, as far as the episodes can tell.
+    // Those that have played to the end and did no more harm, as far as the episodes can tell, than the exact tree, or one of
+    // the file that returns as much.
+    let ended = |entrant: &&Entrant| entrant.contender.episodes() == base.contender.episodes();
+    let known = entrants.iter().filter(ended);
+    let known =
+        known.filter(|entrant| theirs.contains(&&entrant.root) && mean(entrant) >= mean(base));
+    let harms = known.map(|entrant| judge.harms(entrant));
+    let least = harms.fold(judge.harms(base), u64::min);
     let safe: Vec<(usize, &Entrant)> = entrants
         .iter()
         .enumerate()
-        .filter(|(_, entrant)| entrant.contender.episodes() == base.contender.episodes())
-        .filter(|(_, entrant)| !does_more_harm([judge.harms(entrant), judge.harms(base)], SURE))
+        .filter(|(_, entrant)| ended(entrant))
+        .filter(|(_, entrant)| !does_more_harm([judge.harms(entrant), least], SURE))
         .collect();
     let best = |from: &[(usize, &Entrant)], worth: &dyn Fn(&Entrant) -> f64| {
         let worths = from.iter().map(|(at, entrant)| (*at, worth(entrant)));

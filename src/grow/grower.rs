@@ -222,6 +222,16 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
             .collect();
         let terms = Terms::searching(self.price);
         let found = self.judge.race(&pruned, others, terms);
+        let theirs = starts.others.iter().map(|(_, other)| other.clone());
+        let theirs: Vec<Node> = theirs.collect();
+        let is_theirs = found
+            .as_ref()
+            .is_some_and(|found| theirs.contains(&found.root));
+        self.attempts.other = match (is_theirs, theirs.as_slice()) {
+            (true, _) => Some(pruned.clone()),
+            (false, [only]) => Some(only.clone()),
+            (false, _) => self.judge.best(&theirs, terms).map(|best| best.root),
+        };
         let base = found.map_or(pruned, |found| self.pruned(&found.root.clone(), &found));
         self.visit(&base);
         Ok(base)

@@ -1,7 +1,8 @@
 //! Several searches from the same tree, the best of which goes on.
 //!
 //! What a search finds hangs on what it happened to count and to race first: two on the same policy may end with trees of
-//! 45 nodes and of 150. So there are several, each of which knows what was counted before, and what came of them races.
+//! 45 nodes and of 150. So there are several, each of which knows what was counted before, and what came of them races. Where
+//! the file has trees, one begins with the best of these and one with the exact tree.
 
 use super::{Grower, Visited};
 use crate::grow::race::{ENOUGH, Terms};
@@ -58,6 +59,7 @@ impl<W: World> Grower<'_, '_, '_, W> {
         self.attempts.found.push(mem::take(&mut self.visited));
         let first = self.attempts.first.take();
         if let Some(first) = first.filter(|_| self.attempts.found.len() < self.most()) {
+            let first = self.attempts.other.take().unwrap_or(first);
             self.visit(&first);
             return self.attempt(first);
         }
