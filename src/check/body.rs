@@ -37,6 +37,11 @@ impl Bodies<'_> {
         self.open.last().is_some_and(|open| !open.unrolls)
     }
 
+    /// Whether it is left open which robot reads what is at hand: it is checked for itself, or for a body that is.
+    pub fn of_any_robot(&self) -> bool {
+        self.open.iter().any(|open| !open.unrolls)
+    }
+
     /// Whether the body at hand is checked under arguments.
     pub fn is_unrolling(&self) -> bool {
         self.open.last().is_some_and(|open| open.unrolls)

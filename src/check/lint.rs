@@ -8,6 +8,7 @@ mod choices;
 mod claims;
 mod conditions;
 mod endings;
+mod exclusions;
 mod geometry;
 mod idle;
 mod interval;
@@ -24,6 +25,7 @@ mod world;
 use super::{Checker, Input};
 use crate::diagnostic::Diagnostic;
 pub use endings::Asked;
+pub use exclusions::exclusions;
 pub use same::Again;
 
 impl<'a> Checker<'a> {

@@ -111,6 +111,7 @@ codes! {
     E0408 "more than one robot that learns",
     E0409 "a world that cannot be built",
     E0410 "an input beside a world",
+    E0411 "a robot that reads itself",
 
     E0501 "unknown to a learner",
     E0502 "something of a task or a learner is missing",

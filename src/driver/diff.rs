@@ -3,8 +3,9 @@
 use super::load::Loaded;
 use super::refused::Refused;
 use super::text::Text;
-use super::verify::assumed;
+use super::verify::{assumed, within};
 use super::{table as tables, target};
+use crate::check::exclusions;
 use crate::ir::law::Behavior;
 use crate::ir::program::Predicate;
 use crate::ir::task::{History, Task};
@@ -17,9 +18,11 @@ use crate::policy::{Policy, decisions};
 use crate::report::difference::{Difference, Figures, Outcome};
 use crate::report::verdict;
 use crate::syntax::ast::ItemKind;
+use crate::tree::atoms::atoms;
 use crate::tree::change::changes;
-use crate::tree::equivalence::{Environment, Side as Compared, Verdict, compare};
+use crate::tree::equivalence::{Environment, Side as Compared, Verdict};
 use crate::trial::play;
+use std::collections::BTreeSet;
 
 /// One of the two that are compared.
 #[derive(Clone, Copy, Debug)]
@@ -52,7 +55,7 @@ pub fn diff(old: Side, new: Side, episodes: u64, seed: u64) -> Result<Difference
     let before = read(old, base, &mut program)?;
     let names = [called(old)?, called(new)?];
     let history = history(&program, &before, &after);
-    let outcome = outcome(&program, &before, &after, history, &names);
+    let (outcome, by_predicates) = outcome(&program, &before, &after, history, &names);
     let figures = match outcome {
         Outcome::Same | Outcome::Equal(_) => None,
         _ => played(&program, &before, &after, episodes, seed),
@@ -60,6 +63,7 @@ pub fn diff(old: Side, new: Side, episodes: u64, seed: u64) -> Result<Difference
     Ok(Difference {
         names,
         outcome,
+        by_predicates,
         figures,
         program,
     })
@@ -220,23 +224,33 @@ fn history(program: &Program, before: &Read, after: &Read) -> History {
     }
 }
 
+/// What became of a policy, and whether that is so because of what the predicates compare.
 fn outcome(
     program: &Program,
     before: &Read,
     after: &Read,
     history: History,
     names: &[String; 2],
-) -> Outcome {
+) -> (Outcome, bool) {
+    let sides = [before, after];
+    let excluded = exclusions(
+        program,
+        &sides.iter().flat_map(|side| side.atoms()).collect(),
+    );
     let mut parts = None;
-    if let (Read::Tree(old, _), Read::Tree(new, _)) = (before, after) {
+    let mut by_predicates = false;
+    if let [Read::Tree(old, _), Read::Tree(new, _)] = sides {
         if old == new {
-            return Outcome::Same;
+            return (Outcome::Same, false);
         }
         let environment = Environment::Any(history);
         // Any environment knows every atom.
-        if let Ok(verdict) = compare(Compared::Tree(old), Compared::Tree(new), environment) {
+        if let Ok((met, verdict, _)) = within(program, (old, new), (environment, &excluded)) {
+            by_predicates = matches!(met, Environment::Possible(..));
             match &verdict {
-                Verdict::Equal(explored) => return Outcome::Equal(explored.means_text()),
+                Verdict::Equal(explored) => {
+                    return (Outcome::Equal(explored.means_text()), by_predicates);
+                }
                 Verdict::Undecided(explored) => {
                     parts = Some(Outcome::Undecided(explored.means_text()))
                 }
@@ -250,8 +264,12 @@ fn outcome(
             }
         }
     }
-    let found = changes(decider(before), decider(after), history.window);
-    match (found, parts) {
+    let told = |excluded| changes(before.decider(), after.decider(), history.window, excluded);
+    let found = told(&excluded);
+    if !excluded.is_empty() && found.is_ok() {
+        by_predicates = told(&[]) != found;
+    }
+    let outcome = match (found, parts) {
         (Ok(found), None) if found.is_empty() => {
             Outcome::Equal("on every minterm that both speak of".to_owned())
         }
@@ -259,13 +277,24 @@ fn outcome(
         (_, Some(parts)) => parts,
         (Err(why), None) => Outcome::Undecided(why.to_string()),
         (Ok(found), None) => Outcome::Other(found),
-    }
+    };
+    (outcome, by_predicates)
 }
 
-fn decider(side: &Read) -> Compared<'_> {
-    match side {
-        Read::Tree(root, _) => Compared::Tree(root),
-        Read::Table(policy) => Compared::Policy(policy),
+impl Read {
+    /// What it asks.
+    fn atoms(&self) -> BTreeSet<Atom> {
+        match self {
+            Read::Tree(root, _) => atoms(root),
+            Read::Table(policy) => policy.atoms.iter().copied().collect(),
+        }
+    }
+
+    fn decider(&self) -> Compared<'_> {
+        match self {
+            Read::Tree(root, _) => Compared::Tree(root),
+            Read::Table(policy) => Compared::Policy(policy),
+        }
     }
 }
 

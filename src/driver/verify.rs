@@ -10,13 +10,16 @@ pub use rows::table;
 use super::load::Loaded;
 use super::refused::Refused;
 use super::{table as tables, target};
+use crate::check::exclusions;
 use crate::diagnostic::{Code, Diagnostic};
+use crate::ir::law::Behavior;
 use crate::ir::task::History;
-use crate::ir::tree::{Atom, Node, Status, Tree};
-use crate::ir::{Id, Name};
+use crate::ir::tree::{Atom, Exclusion, Node, Status, Tree};
+use crate::ir::{Id, Name, Program};
 use crate::report::verdict::{self, Answer};
 use crate::tree::atoms::atoms;
-use crate::tree::equivalence::{Environment, Side, compare_onward};
+use crate::tree::equivalence::{Environment, Onward, Side, Unknown, Verdict, compare_onward};
+use std::collections::BTreeSet;
 
 /// The outcome of a proof or a test.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -97,10 +100,9 @@ impl Pair<'_> {
         (right, b): (&Name, &Node),
     ) -> Result<Proved, Refused> {
         let program = &self.loaded.program;
-        let (left_side, right_side) = (Side::Tree(a), Side::Tree(b));
-        let may_fail = |behavior| program.may_end(behavior, Status::Failure);
-        let compared = compare_onward(left_side, right_side, self.environment, &may_fail);
-        let (verdict, onward) = compared.map_err(|unknown| {
+        let excluded = exclusions(program, &asked(&[a, b]));
+        let compared = within(program, (a, b), (self.environment, &excluded));
+        let (environment, verdict, onward) = compared.map_err(|unknown| {
             let tables = self.loaded.tables.first();
             let end = target::end_of_file(self.loaded);
             let diagnostic = Diagnostic::new(
@@ -115,8 +117,8 @@ impl Pair<'_> {
             Refused::program(self.loaded, [diagnostic])
         })?;
         let names = (left, right);
-        let mut text = verdict::text(program, names, &self.environment, &verdict);
-        let answer = verdict::answer(&self.environment, &verdict);
+        let mut text = verdict::text(program, names, &environment, &verdict);
+        let answer = verdict::answer(&environment, &verdict);
         if answer == Answer::Holds {
             text.push_str(&verdict::onward(program, names, &onward));
         }
@@ -124,11 +126,37 @@ impl Pair<'_> {
     }
 }
 
+/// Compares two trees in an environment; if anything may happen there and the trees are not alike in all of it, once more
+/// in what the predicates leave possible. Told with the environment of the verdict.
+pub(crate) fn within<'e>(
+    program: &Program,
+    (left, right): (&Node, &Node),
+    (environment, excluded): (Environment<'e>, &'e [Exclusion]),
+) -> Result<(Environment<'e>, Verdict, Onward), Unknown> {
+    let may_fail = |behavior: Id<Behavior>| program.may_end(behavior, Status::Failure);
+    let compared = |environment| {
+        let found = compare_onward(Side::Tree(left), Side::Tree(right), environment, &may_fail);
+        found.map(|(verdict, onward)| (environment, verdict, onward))
+    };
+    let found = compared(environment)?;
+    match (environment, &found) {
+        (_, (_, Verdict::Equal(_), Onward::Alike)) => Ok(found),
+        (Environment::Any(history), _) if !excluded.is_empty() => {
+            compared(Environment::Possible(history, excluded))
+        }
+        _ => Ok(found),
+    }
+}
+
+/// What the guards of these trees ask.
+fn asked(trees: &[&Node]) -> BTreeSet<Atom> {
+    trees.iter().flat_map(|root| atoms(root)).collect()
+}
+
 /// The window of a program without a task: the paper's if one of these trees has memory or asks the history, else none.
 pub(crate) fn assumed(trees: &[&Node]) -> History {
     let asks = |atom: &Atom| !matches!(atom, Atom::Predicate(_));
-    let remembered = |root: &&Node| root.remembers() || atoms(root).iter().any(asks);
-    let remembers = trees.iter().any(remembered);
+    let remembers = trees.iter().any(|root| root.remembers()) || asked(trees).iter().any(asks);
     History {
         window: usize::from(remembers),
         success: remembers,

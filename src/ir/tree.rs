@@ -60,6 +60,9 @@ impl Atom {
     }
 }
 
+/// Literals that exclude one another: atoms with values that they never have all at once.
+pub type Exclusion = Vec<(Atom, bool)>;
+
 /// A boolean formula over atoms.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Guard {

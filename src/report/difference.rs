@@ -1,5 +1,6 @@
 //! What a tree or a table decides otherwise than an older one, in the forms that people and tools read.
 
+use super::verdict::POSSIBLE;
 use super::words::{command_data, command_property, counted};
 use crate::emit::bt;
 use crate::ir::law::Behavior;
@@ -43,6 +44,8 @@ pub struct Difference {
     pub names: [String; 2],
     /// What became of it.
     pub outcome: Outcome,
+    /// Whether that is so because of what the predicates compare: some of them exclude one another.
+    pub by_predicates: bool,
     /// What both did in their world, if there is one.
     pub figures: Option<Figures>,
     /// The names of what they decide upon and between.
@@ -89,13 +92,19 @@ impl Difference {
     /// What is said in one line.
     pub fn headline(&self) -> String {
         let [old, new] = &self.names;
+        let within = match self.by_predicates {
+            true => format!(", consistent {POSSIBLE}"),
+            false => String::new(),
+        };
         match &self.outcome {
             Outcome::Same => format!("same: {new} is the tree of {old}"),
             Outcome::Equal(how) => {
-                format!("equal: {new} has another shape than {old} and decides the same, {how}")
+                format!(
+                    "equal: {new} has another shape than {old} and decides the same, {how}{within}"
+                )
             }
             Outcome::Other(changes) => format!(
-                "different: {new} decides otherwise than {old} under {}",
+                "different: {new} decides otherwise than {old} under {}{within}",
                 counted(changes.len(), "condition")
             ),
             Outcome::Parts(_) => format!("different: {new} decides otherwise than {old}"),

@@ -5,6 +5,7 @@ use crate::emit::bt;
 use crate::ir::Program;
 use crate::ir::test::Test;
 use crate::ir::tree::{Composite, Node};
+use crate::tree::size::Price;
 use crate::trial::test::Answers;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
@@ -47,6 +48,8 @@ pub struct Coverage {
 pub struct Covered {
     /// What it is.
     pub node: String,
+    /// How many nodes it is drawn as, as in every [size](crate::tree::size::Size): a guard of two literals is two or more.
+    pub drawn: usize,
     /// The node that it stands under.
     pub parent: Option<usize>,
     /// Where it is written.
@@ -75,18 +78,6 @@ impl Coverage {
         answers: &[Answers],
         place: impl Fn(usize) -> Option<Place>,
     ) -> Self {
-        fn walk(program: &Program, node: &Node, parent: Option<usize>, found: &mut Vec<Covered>) {
-            let at = found.len();
-            found.push(Covered {
-                node: word(program, node),
-                parent,
-                place: None,
-                answers: Answers::default(),
-            });
-            for child in node.children() {
-                walk(program, child, Some(at), found);
-            }
-        }
         let mut nodes = Vec::new();
         walk(program, root, None, &mut nodes);
         for (at, node) in nodes.iter_mut().enumerate() {
@@ -99,9 +90,16 @@ impl Coverage {
         }
     }
 
+    /// How many nodes were ticked: those of a guard that was asked.
     fn ticked(&self) -> usize {
         let nodes = self.nodes.iter();
-        nodes.filter(|node| node.answers.ticks() > 0).count()
+        let ticked = nodes.filter(|node| node.answers.ticks() > 0);
+        ticked.map(|node| node.drawn).sum()
+    }
+
+    /// How many nodes there are.
+    fn size(&self) -> usize {
+        self.nodes.iter().map(|node| node.drawn).sum()
     }
 
     /// The nodes that no test has ticked, without those under them.
@@ -116,11 +114,26 @@ impl Coverage {
 
     /// How many of its nodes were ticked, in a line.
     fn headline(&self) -> String {
-        let (tree, ticked, all) = (&self.tree, self.ticked(), self.nodes.len());
+        let (tree, ticked, all) = (&self.tree, self.ticked(), self.size());
         match ticked == all {
             true => format!("{tree}: every node is ticked"),
             false => format!("{tree}: {ticked} of {} ticked", counted(all, "node")),
         }
+    }
+}
+
+/// The nodes under a parent, itself told with its place among those that were found.
+fn walk(program: &Program, node: &Node, parent: Option<(usize, &Node)>, found: &mut Vec<Covered>) {
+    let at = found.len();
+    found.push(Covered {
+        node: word(program, node),
+        drawn: Price::of_node(node, parent.map(|(_, parent)| parent)).nodes,
+        parent: parent.map(|(at, _)| at),
+        place: None,
+        answers: Answers::default(),
+    });
+    for child in node.children() {
+        walk(program, child, Some((at, node)), found);
     }
 }
 
@@ -282,7 +295,7 @@ impl Tested {
             });
             json!({
                 "tree": tree.tree,
-                "nodes": tree.nodes.len(),
+                "nodes": tree.size(),
                 "ticked": tree.ticked(),
                 "each": nodes.collect::<Vec<_>>(),
             })

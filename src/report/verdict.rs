@@ -64,9 +64,13 @@ pub fn text(
     let (greedy, history) = match environment {
         Environment::Greedy(policy) => (Some(policy), policy.history),
         Environment::Observed(policy) => (None, policy.history),
-        Environment::Any(history) => (None, *history),
+        Environment::Any(history) | Environment::Possible(history, _) => (None, *history),
     };
-    let window = window(program, history);
+    let mut window = window(program, history);
+    if matches!(environment, Environment::Possible(..)) {
+        window.push_str(" and ");
+        window.push_str(POSSIBLE);
+    }
     match (verdict, greedy) {
         (Verdict::Equal(explored), Some(policy)) if explored.transitions == 0 => format!(
             "undecided: `{left}` and `{right}` take none of {} greedy transitions; they select the same behaviour on \
@@ -147,6 +151,9 @@ pub fn onward(program: &Program, (left, right): (&Name, &Name), onward: &Onward)
         lines.join("\n")
     )
 }
+
+/// What a verdict is consistent with where what cannot hold at once is left out.
+pub const POSSIBLE: &str = "with what the predicates compare";
 
 /// The history window in words.
 fn window(program: &Program, history: History) -> String {

@@ -43,10 +43,13 @@ pub(super) fn failure(
     let is_code = |token: &&Token| token.kind != Kind::Comment;
     let mut before = before.iter().copied().rev().filter(|token| is_code(&token));
     let (before, second_before) = (before.next(), before.next());
-    let Some(&found) = after.iter().find(is_code) else {
-        let diagnostic = ends::at_the_end(file, text, tokens, failure, before);
-        return (failure.at, diagnostic);
-    };
+    let found = after.iter().copied().find(|token| is_code(&token));
+    let is_end = found.is_none();
+    let found = found.unwrap_or(Token {
+        kind: Kind::Comment,
+        start: text.len(),
+        end: text.len(),
+    });
     let place = Place {
         file,
         text,
@@ -56,6 +59,9 @@ pub(super) fn failure(
         before,
         second_before,
     };
+    if is_end {
+        return (failure.at, place.at_the_end());
+    }
     if let Some(diagnostic) = place.comment() {
         return (failure.at, diagnostic);
     }

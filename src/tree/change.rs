@@ -9,7 +9,7 @@ use super::equivalence::Side;
 use super::reading::{Irreducible, Reading};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
-use crate::ir::tree::{Atom, Guard};
+use crate::ir::tree::{Atom, Exclusion, Guard};
 
 /// Where one behaviour takes the place of another.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -26,11 +26,16 @@ pub struct Change {
 type Decision = (Option<Id<Behavior>>, Signal);
 
 /// What `new` decides otherwise than `old`, in the order of the old decisions. Of what the history asks at most `window`
-/// terminations hold together, and minterms of which a table says nothing are left out.
+/// terminations hold together, and minterms of which a table says nothing or which are excluded are left out.
 ///
 /// # Errors
 /// A tree depends on more than predicates and the history.
-pub fn changes(old: Side, new: Side, window: usize) -> Result<Vec<Change>, Irreducible> {
+pub fn changes(
+    old: Side,
+    new: Side,
+    window: usize,
+    excluded: &[Exclusion],
+) -> Result<Vec<Change>, Irreducible> {
     if let (Side::Policy(old), Side::Policy(new)) = (old, new)
         && let Some(changes) = listed::listed(old, new)
     {
@@ -49,9 +54,14 @@ pub fn changes(old: Side, new: Side, window: usize) -> Result<Vec<Change>, Irred
     }
     let (old, said) = decided(old, &mut guards)?;
     let (new, also) = decided(new, &mut guards)?;
-    let free = beyond(&atoms, window, &mut guards);
-    let unsaid = guards.circuit.or(!said, !also);
-    let free = guards.circuit.or(free, unsaid);
+    let mut free = vec![!said, !also, beyond(&atoms, window, &mut guards)];
+    for literals in excluded {
+        let literals = literals.iter();
+        let literals = literals.map(|(atom, value)| guards.atom(*atom).negated_if(!value));
+        let literals: Vec<Signal> = literals.collect();
+        free.push(guards.circuit.all(literals));
+    }
+    let free = guards.circuit.any(free);
     let mut changes = Vec::new();
     for (was, before) in &old {
         for (is, after) in &new {

@@ -34,6 +34,18 @@ pub enum Shape {
     Const(bool),
 }
 
+/// Whether the literals of a guard stand under this node, with no node between them: it is a sequence without memory.
+pub(super) fn joins_guards(node: &Node) -> bool {
+    matches!(
+        node,
+        Node::Composite {
+            kind: Composite::Sequence,
+            memory: false,
+            ..
+        }
+    )
+}
+
 impl Drawing {
     /// Draws a tree.
     pub fn of(node: &Node) -> Self {
@@ -46,7 +58,7 @@ impl Drawing {
                 memory,
                 children,
             } => {
-                let joins = (*kind, *memory) == (Composite::Sequence, false);
+                let joins = joins_guards(node);
                 let children = children.iter().flat_map(|child| match child {
                     Node::Condition(guard) if joins => {
                         Self::under(Composite::Sequence, Self::guard(guard, true))

@@ -183,7 +183,16 @@ pub fn compare_onward(
 ) -> Result<(Verdict, Onward), Unknown> {
     let sides = [left, right];
     match (left, right, environment) {
-        (Side::Tree(left), Side::Tree(right), Environment::Any(_)) if left == right => {
+        (_, _, Environment::Greedy(table)) => {
+            product::explore(sides, table, Follow::Recorded, may_fail)
+        }
+        // A table decides on its own minterms only.
+        (_, _, Environment::Observed(table))
+        | (Side::Policy(table), _, _)
+        | (_, Side::Policy(table), _) => {
+            product::explore(sides, table, Follow::Consistent, may_fail)
+        }
+        (Side::Tree(left), Side::Tree(right), _) if left == right => {
             let explored = Explored {
                 means: Means::Identity,
                 ..Explored::default()
@@ -191,16 +200,10 @@ pub fn compare_onward(
             Ok((Verdict::Equal(explored), Onward::Alike))
         }
         (Side::Tree(left), Side::Tree(right), Environment::Any(history)) => {
-            symbolic::explore((left, right), history, may_fail)
+            symbolic::explore((left, right), (history, &[]), may_fail)
         }
-        (_, _, Environment::Greedy(table)) => {
-            product::explore(sides, table, Follow::Recorded, may_fail)
-        }
-        // A table decides on its own minterms only.
-        (_, _, Environment::Observed(table))
-        | (Side::Policy(table), _, Environment::Any(_))
-        | (_, Side::Policy(table), Environment::Any(_)) => {
-            product::explore(sides, table, Follow::Consistent, may_fail)
+        (Side::Tree(left), Side::Tree(right), Environment::Possible(history, excluded)) => {
+            symbolic::explore((left, right), (history, excluded), may_fail)
         }
     }
 }

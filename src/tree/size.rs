@@ -1,6 +1,6 @@
 //! The size of a tree, the figure in every report.
 
-use super::drawing::{Drawing, Shape};
+use super::drawing::{Drawing, Shape, joins_guards};
 use super::guard::View;
 use crate::ir::tree::{Composite, Guard, Node};
 use serde::{Deserialize, Serialize};
@@ -75,12 +75,23 @@ impl Price {
         }
     }
 
-    /// A guard as it is drawn under a composite of this kind.
-    pub fn of_guard(guard: &Guard, under: Composite) -> Self {
-        Self::of_view(View::of(guard, true), under)
+    /// A node without what stands under it, as it is drawn under its parent; a guard is drawn as all that it asks.
+    pub fn of_node(node: &Node, parent: Option<&Node>) -> Self {
+        match node {
+            Node::Condition(guard) => {
+                let joins = parent.is_some_and(joins_guards);
+                Self::of_view(View::of(guard, true), joins.then_some(Composite::Sequence))
+            }
+            _ => Self::COMPOSITE,
+        }
     }
 
-    fn of_view(view: View, under: Composite) -> Self {
+    /// A guard as it is drawn under a composite of this kind.
+    pub fn of_guard(guard: &Guard, under: Composite) -> Self {
+        Self::of_view(View::of(guard, true), Some(under))
+    }
+
+    fn of_view(view: View, under: Option<Composite>) -> Self {
         match view {
             View::Const(_) => Self {
                 nodes: 1,
@@ -89,8 +100,8 @@ impl Price {
             View::Literal(..) => Self::literals(1),
             View::Join(kind, parts, positive) => {
                 let parts = parts.iter().map(|part| View::of(part, positive));
-                let parts = parts.map(|part| Self::of_view(part, kind)).sum();
-                match kind == under {
+                let parts = parts.map(|part| Self::of_view(part, Some(kind))).sum();
+                match Some(kind) == under {
                     true => parts,
                     false => Self::COMPOSITE + parts,
                 }
@@ -170,11 +181,33 @@ mod tests {
     fn the_price_of_a_guard_is_what_it_adds_to_a_tree() {
         let either = Guard::Or(vec![and([atom(0), atom(1)]), not(atom(2))]);
         let nested = Guard::And(vec![either.clone(), Guard::Not(Box::new(either.clone()))]);
-        for guard in [atom(0), Guard::Const(false), either, nested] {
+        for guard in [atom(0), Guard::Const(false), either.clone(), nested] {
             let drawn = Size::of(&guarded(guard.clone(), leaf(0)));
             let sequence_and_leaf = Price::COMPOSITE + Size::of(&leaf(0)).price();
             let price = Price::of_guard(&guard, Composite::Sequence);
             assert_eq!(drawn.price(), sequence_and_leaf + price, "{guard:?}");
+        }
+    }
+    #[test]
+    fn the_nodes_of_a_tree_are_those_that_each_of_its_nodes_is_drawn_as() {
+        fn sum(node: &Node, parent: Option<&Node>) -> Price {
+            let children = node.children().iter();
+            Price::of_node(node, parent) + children.map(|child| sum(child, Some(node))).sum()
+        }
+        let both = and([atom(0), atom(1)]);
+        let either = Guard::Or(vec![both.clone(), not(atom(2))]);
+        let alone = Node::Condition(both.clone());
+        for root in [
+            alone.clone(),
+            selector([alone.clone(), guarded(both, leaf(0)), leaf(1)]),
+            guarded(either.clone(), selector([Node::Condition(either), leaf(2)])),
+            Node::Composite {
+                kind: Composite::Sequence,
+                memory: true,
+                children: vec![alone, leaf(0)],
+            },
+        ] {
+            assert_eq!(sum(&root, None), Size::of(&root).price(), "{root:?}");
         }
     }
 }

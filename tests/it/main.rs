@@ -47,5 +47,6 @@ mod tested;
 mod tree;
 mod tune;
 mod verdicts;
+mod verified;
 mod world;
 mod worlds;

@@ -2,6 +2,7 @@
 
 use crate::check::Checker;
 use crate::check::builtin::Function;
+use crate::check::context::Region;
 use crate::check::expr::expect::PLACE_FOR_WALL;
 use crate::check::types::{Type, Typed, Value};
 use crate::diagnostic::Code;
@@ -80,7 +81,28 @@ impl<'a> Checker<'a> {
                 .help_if(help)
                 .none();
         }
+        if target.value == Value::Robot(self.subject) && self.reader_is_known() {
+            let name = self.subject_robot().map(|robot| robot.name.clone());
+            let name = name.unwrap_or_default();
+            let what = &reference.name.name;
+            return self
+                .error(Code::E0411, target.span, format!("`{name}` reads itself here"))
+                .label(format!("`{what}` is read by `{name}`, from its own centre"))
+                .help(format!(
+                    "name another robot, or a place; where `{name}` is, `position` and `heading` say"
+                ))
+                .none();
+        }
         Some(target)
+    }
+
+    /// Whether only one robot reads what is at hand: events and what they do are read by the one that learns, and bodies
+    /// by the robot that they are unrolled for.
+    fn reader_is_known(&self) -> bool {
+        let region = self.context.region;
+        region.sees_events()
+            || matches!(region, Region::EachTick | Region::Start)
+            || !self.bodies.of_any_robot()
     }
 
     /// `inside(place)`, `inside(place, by = robot)`

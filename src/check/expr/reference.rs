@@ -86,7 +86,7 @@ impl<'a> Checker<'a> {
             return of(world.robot_of(self.subject)).map(Value::Sensor);
         }
         let unread = self.names.value(name, self.context.library).is_none();
-        let unknown = unread && self.bodies.for_itself();
+        let unknown = unread && self.bodies.of_any_robot();
         let known = unknown
             && world
                 .others
@@ -95,8 +95,36 @@ impl<'a> Checker<'a> {
         known.then_some(Value::Unknown)
     }
 
+    /// Reports that the robot which reads what is at hand has no such sensor, as another has.
+    fn sensor_of_another(&mut self, reference: &Ref) -> Option<Typed> {
+        let sensor = &reference.name.name;
+        let reads = self.subject_robot().map(|robot| robot.name.clone());
+        let reads = reads.unwrap_or_default();
+        let mut others = self.names.other_sensors.iter();
+        let other = others.find(|(_, name)| name.name == *sensor);
+        let acting = self.program.world.as_ref().map(|world| &world.robot.name);
+        let has = match other {
+            Some((robot, _)) => Some(robot.name.clone()),
+            None => acting.map(Name::to_string),
+        };
+        let message = format!("the robot `{reads}` has no sensor `{sensor}`");
+        let draft = self.error(Code::E0406, reference.span, message);
+        let draft = draft.label(format!("`{reads}` reads here"));
+        match has {
+            Some(has) => draft.help(format!(
+                "`{has}` has one, which what `{has}` runs can read; give `{reads}` one, too"
+            )),
+            None => draft,
+        }
+        .none()
+    }
+
     fn unknown_reference(&mut self, reference: &Ref) -> Option<Typed> {
         let name = &reference.name;
+        let mut others = self.names.other_sensors.iter();
+        if reference.args.is_none() && others.any(|(_, other)| other.name == name.name) {
+            return self.sensor_of_another(reference);
+        }
         let is_lost = self.names.is_lost(&name.name) || self.names.is_nearly_lost(&name.name);
         if is_lost || self.names.lost_values && reference.args.is_none() {
             return None;
@@ -171,19 +199,9 @@ impl<'a> Checker<'a> {
                 (Type::Wall(kind), id.map(Value::Wall))
             }
             Decl::Sensor(_) => {
-                let acting = self.subject == World::acting() || self.bodies.for_itself();
+                let acting = self.subject == World::acting() || self.bodies.of_any_robot();
                 if !acting {
-                    let robot = self.subject_robot().map(|robot| robot.name.clone());
-                    let robot = robot.unwrap_or_default();
-                    let sensor = &reference.name.name;
-                    return self
-                        .error(
-                            Code::E0406,
-                            span,
-                            format!("the robot `{robot}` has no sensor `{sensor}`"),
-                        )
-                        .label("read here")
-                        .none();
+                    return self.sensor_of_another(reference);
                 }
                 let sensors = world.map(|world| &world.robot.sensors);
                 let id = sensors.and_then(|all| all.find(|sensor| sensor.name == name));

@@ -1,7 +1,7 @@
 //! Conditions by cases: when one holds, as far as literals show.
 //!
 //! A case is a conjunction of literals, a condition a disjunction of cases. Whatever grows too large is taken to be
-//! possible. What is not a number is left out of account.
+//! possible. What is not a number is left out of account, unless the reading is [strict](Numbers::Any).
 
 use super::interval::Interval;
 use super::ranges::{range, values};
@@ -37,6 +37,17 @@ pub enum Says {
     Within(Interval),
     /// It is one of those values of an enum whose bits are set.
     Among(u64),
+    /// It is not a number.
+    NoNumber,
+}
+
+/// What an expression of numbers may come to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Numbers {
+    /// A number.
+    Numbers,
+    /// Also what is not a number, with which no comparison holds.
+    Any,
 }
 
 /// A conjunction of literals, none of which contradicts another.
@@ -99,6 +110,17 @@ impl Cases {
         }
     }
 
+    /// The one thing that all of its cases are about.
+    pub fn about(&self) -> Option<About> {
+        let Self::Some(cases) = self else {
+            return None;
+        };
+        let mut abouts = cases.iter().flat_map(|case| case.keys());
+        let first = *abouts.next()?;
+        let all = cases.iter().all(|case| case.len() == 1);
+        (all && abouts.all(|about| *about == first)).then_some(first)
+    }
+
     fn one(about: About, says: Says) -> Self {
         Self::Some(vec![Case::from([(about, says)])])
     }
@@ -137,7 +159,12 @@ fn covers(wider: &Case, narrower: &Case) -> bool {
 
 /// When an expression is true, or when it is not, as `wanted` says.
 pub fn of_expr(program: &Program, id: ExprId, wanted: bool) -> Cases {
-    expr(program, id, wanted, 0)
+    when(program, id, wanted, Numbers::Numbers)
+}
+
+/// As [`of_expr`], where numbers may come to `numbers`.
+pub fn when(program: &Program, id: ExprId, wanted: bool, numbers: Numbers) -> Cases {
+    Reader { program, numbers }.expr(id, wanted, 0)
 }
 
 /// When a guard holds, or when it does not, as `wanted` says.
@@ -162,33 +189,81 @@ pub fn of_guard(program: &Program, guard: &Guard, wanted: bool) -> Cases {
     }
 }
 
-fn expr(program: &Program, id: ExprId, wanted: bool, depth: usize) -> Cases {
-    if depth > DEEPEST {
-        return Cases::Unknown;
-    }
-    let pool = &program.pool;
-    let of = |id, wanted| expr(program, id, wanted, depth + 1);
-    match pool.get(id) {
-        Expr::Bool(value) => Cases::constant(value == wanted),
-        Expr::Unary(Unary::Not, a) => of(a, !wanted),
-        Expr::Binary(op @ (Binary::And | Binary::Or), a, b) => {
-            let (a, b) = (of(a, wanted), of(b, wanted));
-            if (op == Binary::And) == wanted {
-                a.and(&b)
-            } else {
-                a.or(&b)
+/// Reads conditions.
+struct Reader<'p> {
+    program: &'p Program,
+    numbers: Numbers,
+}
+
+impl Reader<'_> {
+    fn expr(&self, id: ExprId, wanted: bool, depth: usize) -> Cases {
+        if depth > DEEPEST {
+            return Cases::Unknown;
+        }
+        let pool = &self.program.pool;
+        let of = |id, wanted| self.expr(id, wanted, depth + 1);
+        match pool.get(id) {
+            Expr::Bool(value) => Cases::constant(value == wanted),
+            Expr::Unary(Unary::Not, a) => of(a, !wanted),
+            Expr::Binary(op @ (Binary::And | Binary::Or), a, b) => {
+                let (a, b) = (of(a, wanted), of(b, wanted));
+                if (op == Binary::And) == wanted {
+                    a.and(&b)
+                } else {
+                    a.or(&b)
+                }
             }
+            Expr::Event(event) => of(self.program.events[event].when, wanted),
+            Expr::Binary(op @ (Binary::Eq | Binary::Ne), a, b) if truth(pool, b).is_some() => {
+                let is = truth(pool, b) == Some(op == Binary::Eq);
+                of(a, wanted == is)
+            }
+            Expr::Binary(op, a, b) => {
+                let compared = self.compared(op, a, b, wanted);
+                compared.unwrap_or_else(|| Cases::one(About::Truth(id), Says::Is(wanted)))
+            }
+            _ => Cases::one(About::Truth(id), Says::Is(wanted)),
         }
-        Expr::Event(event) => of(program.events[event].when, wanted),
-        Expr::Binary(op @ (Binary::Eq | Binary::Ne), a, b) if truth(pool, b).is_some() => {
-            let is = truth(pool, b) == Some(op == Binary::Eq);
-            of(a, wanted == is)
+    }
+
+    /// When a comparison holds, or does not, as far as that is known.
+    fn compared(&self, op: Binary, a: ExprId, b: ExprId, wanted: bool) -> Option<Cases> {
+        let of_itself = match op {
+            _ if a != b || self.numbers == Numbers::Any => None,
+            Binary::Eq | Binary::Le => Some(true),
+            Binary::Ne | Binary::Lt => Some(false),
+            _ => None,
+        };
+        if let Some(holds) = of_itself {
+            return Some(Cases::constant(holds == wanted));
         }
-        Expr::Binary(op, a, b) => {
-            let compared = compared(program, op, a, b, wanted);
-            compared.unwrap_or_else(|| Cases::one(About::Truth(id), Says::Is(wanted)))
+        let (of, within) = comparison(&self.program.pool, op, a, b, wanted)?;
+        let holds = |value: f64| within.iter().flatten().any(|part| part.contains(value));
+        if let Some(count) = values(self.program, of) {
+            let among = (0..count).filter(|index| holds(*index as f64));
+            return match among.clone().count() {
+                0 => Some(Cases::constant(false)),
+                all if all == count => Some(Cases::constant(true)),
+                _ if count > u64::BITS as usize => None,
+                _ => {
+                    let bits = among.fold(0, |bits, index| bits | 1 << index);
+                    Some(Cases::one(About::Number(of), Says::Among(bits)))
+                }
+            };
         }
-        _ => Cases::one(About::Truth(id), Says::Is(wanted)),
+        let may = range(self.program, of);
+        let within: Vec<Interval> = within.into_iter().flatten().collect();
+        // Of all comparisons `!=` alone holds of what is not a number.
+        let none = self.numbers == Numbers::Any && wanted == (op == Binary::Ne);
+        if within.iter().any(|part| part.covers(may)) && (none || self.numbers == Numbers::Numbers)
+        {
+            return Some(Cases::constant(true));
+        }
+        let possible = within.into_iter().filter(|part| !part.and(may).is_empty());
+        let case = |says| Case::from([(About::Number(of), says)]);
+        let within = possible.map(Says::Within);
+        let none = none.then_some(Says::NoNumber);
+        Some(Cases::Some(within.chain(none).map(case).collect()))
     }
 }
 
@@ -198,41 +273,6 @@ fn truth(pool: &Pool, id: ExprId) -> Option<bool> {
         Expr::Bool(value) => Some(value),
         _ => None,
     }
-}
-
-/// When a comparison holds, or does not, as far as that is known.
-fn compared(program: &Program, op: Binary, a: ExprId, b: ExprId, wanted: bool) -> Option<Cases> {
-    let of_itself = match op {
-        _ if a != b => None,
-        Binary::Eq | Binary::Le => Some(true),
-        Binary::Ne | Binary::Lt => Some(false),
-        _ => None,
-    };
-    if let Some(holds) = of_itself {
-        return Some(Cases::constant(holds == wanted));
-    }
-    let (of, within) = comparison(&program.pool, op, a, b, wanted)?;
-    let holds = |value: f64| within.iter().flatten().any(|part| part.contains(value));
-    if let Some(count) = values(program, of) {
-        let among = (0..count).filter(|index| holds(*index as f64));
-        return match among.clone().count() {
-            0 => Some(Cases::constant(false)),
-            all if all == count => Some(Cases::constant(true)),
-            _ if count > u64::BITS as usize => None,
-            _ => {
-                let bits = among.fold(0, |bits, index| bits | 1 << index);
-                Some(Cases::one(About::Number(of), Says::Among(bits)))
-            }
-        };
-    }
-    let may = range(program, of);
-    let within: Vec<Interval> = within.into_iter().flatten().collect();
-    if within.iter().any(|part| part.covers(may)) {
-        return Some(Cases::constant(true));
-    }
-    let possible = within.into_iter().filter(|part| !part.and(may).is_empty());
-    let case = |part| Case::from([(About::Number(of), Says::Within(part))]);
-    Some(Cases::Some(possible.map(case).collect()))
 }
 
 /// A comparison with a constant: what is compared, and in which intervals it has to be.

@@ -6,8 +6,9 @@ use super::mentions::Mentions;
 use super::tree::when;
 use crate::check::Checker;
 use crate::diagnostic::Code;
-use crate::ir::tree::{Decorator, Guard, Node, Status};
+use crate::ir::tree::{Composite, Decorator, Guard, Node, Status};
 use crate::source::Span;
+use crate::syntax::print;
 use crate::syntax::ast::{self, BinaryOp, Expr, ExprKind, Item, ItemKind, NodeKind, Tree};
 
 impl<'a> Checker<'a> {
@@ -64,7 +65,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Warns of a tree that runs no behaviour and is no part of another.
+    /// Warns of a tree that is no part of another and runs no behaviour, or none where a condition holds.
     pub fn drives_nothing(
         &mut self,
         tree: &'a Tree,
@@ -78,13 +79,54 @@ impl<'a> Checker<'a> {
             }
             mentions.read.contains(tree.name.name.as_str())
         };
-        if runs_something(root) || items.any(uses) {
+        if items.any(uses) {
             return;
+        }
+        if runs_something(root) {
+            return self.stands_where_a_condition_holds(&tree.root, root);
         }
         let message = format!("the tree `{}` runs no behaviour", tree.name.name);
         self.warning(Code::W0607, tree.name.span, message)
             .label("it asks, and the robot stands")
             .help("say what is to be done: `GUARD => BEHAVIOR`");
+    }
+}
+
+impl<'a> Checker<'a> {
+    /// Warns of a condition that stands as a child of a selector with which the tick is over: where it holds, nothing
+    /// runs.
+    fn stands_where_a_condition_holds(&mut self, written: &'a ast::Node, node: &Node) {
+        let (children, nodes, kind) = match (&written.kind, node) {
+            (NodeKind::Guarded { node: inner, .. }, Node::Composite { children, .. }) => {
+                if let [_, node] = children.as_slice() {
+                    self.stands_where_a_condition_holds(inner, node);
+                }
+                return;
+            }
+            (NodeKind::Composite { children, .. }, Node::Composite { kind, children: nodes, .. }) => {
+                (children, nodes, *kind)
+            }
+            _ => return,
+        };
+        let children = children.iter().zip(nodes);
+        if kind == Composite::Sequence {
+            if let Some((written, node)) = children.last() {
+                self.stands_where_a_condition_holds(written, node);
+            }
+            return;
+        }
+        for (written, node) in children {
+            if let (NodeKind::Leaf(asked), Node::Condition(_), false) =
+                (&written.kind, node, is_switch(written))
+            {
+                let text = print::expr(asked);
+                self.warning(Code::W0607, asked.span, "the tree runs nothing where this holds")
+                    .label("it answers for the selector, and no other child is ticked")
+                    .help(format!("write what is to be done: `{text} => BEHAVIOR`"));
+            } else {
+                self.stands_where_a_condition_holds(written, node);
+            }
+        }
     }
 }
 

@@ -30,7 +30,9 @@ pub fn claims(loaded: &Loaded) -> Result<Vec<Proved>, Refused> {
         };
         let tree = &program.trees[id];
         results.push(match &claim.kind {
-            ClaimKind::Equals(TreeRef::Tree(other)) => compared(loaded, id, *other)?,
+            ClaimKind::Equals(TreeRef::Tree(other)) => {
+                compared(loaded, id, *other)?.of(&claim.text)
+            }
             ClaimKind::Equals(TreeRef::Learned(_)) => not_learned(&claim.text),
             ClaimKind::Never(occurrence) | ClaimKind::Reaches(occurrence) => {
                 let task = target::task_of(loaded, Some(id))?;
@@ -68,11 +70,22 @@ pub fn claimed(program: &Program) -> impl Iterator<Item = (&str, bool)> {
     })
 }
 
-fn not_learned(claim: &str) -> Proved {
-    Proved {
-        answer: Answer::Holds,
-        text: format!("{claim}: not learned yet"),
+impl Proved {
+    /// The answer to this claim.
+    fn of(self, claim: &str) -> Self {
+        Self {
+            text: format!("{claim}: {}", self.text),
+            ..self
+        }
     }
+}
+
+fn not_learned(claim: &str) -> Proved {
+    let proved = Proved {
+        answer: Answer::Holds,
+        text: "not learned yet".to_owned(),
+    };
+    proved.of(claim)
 }
 
 /// Proves or tests the claims on the tree that was just learned; proofs go along the greedy transitions of its policy.
@@ -100,7 +113,7 @@ pub fn claims_of_learned(
             (ClaimKind::Equals(other), Some(left)) => {
                 let own = own || is_learned(program, learned, *other);
                 if let (true, Some(right)) = (own, side(program, learned, *other)) {
-                    results.push(pair.prove(left, right)?);
+                    results.push(pair.prove(left, right)?.of(&claim.text));
                 }
             }
             (ClaimKind::Never(occurrence) | ClaimKind::Reaches(occurrence), Some((_, root)))
@@ -146,11 +159,11 @@ fn tested<'a>(
     let proved = Proved {
         answer,
         text: format!(
-            "{}: {verdict} in {}; it fails in {failed} (95 %)",
-            claim.text,
+            "{verdict} in {}; it fails in {failed} (95 %)",
             words::counted(tested.trials.trials() as usize, "episode"),
         ),
     };
+    let proved = proved.of(&claim.text);
     Ok((proved, tested.shortest.filter(|_| tested.refuted())))
 }
 

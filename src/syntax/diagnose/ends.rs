@@ -1,9 +1,8 @@
 //! Lines and files that end too early.
 
-use super::{Failure, Place};
+use super::Place;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::source::{FileId, Span};
-use crate::syntax::brackets::{innermost_open, unclosed};
+use crate::source::Span;
 use crate::syntax::expected;
 use crate::syntax::tokens::{Kind, Token};
 
@@ -12,31 +11,25 @@ const OPEN_ENDS: [&str; 17] = [
     "=", "+", "-", "*", "/", "^", "->", "=>", "==", "!=", "<", ">", "<=", ">=", "and", "or", "not",
 ];
 
-/// The message for a file that ends where something must come, after the token `last`.
-pub(super) fn at_the_end(
-    file: FileId,
-    text: &str,
-    tokens: &[Token],
-    failure: &Failure,
-    last: Option<Token>,
-) -> Diagnostic {
-    let end = text.len();
-    if let Some(open) = innermost_open(text, tokens, failure.start, end) {
-        let open = Span::new(file, open.start, open.end);
-        return unclosed(file, text, tokens, open, end);
-    }
-    let end = last.map_or(end, |token| token.end);
-    let place = Span::new(file, end, end);
-    match expected::listed(&failure.expected, Some(failure.strict)) {
-        Some(wanted) => {
-            let message = format!("expected {wanted}, found the end of the file");
-            Diagnostic::new(Code::E0101, place, message).label(format!("expected {wanted}"))
-        }
-        None => Diagnostic::new(Code::E0101, place, "the file ends too early"),
-    }
-}
-
 impl Place<'_> {
+    /// The message for a file that ends where something must come; `found` is its end.
+    pub(super) fn at_the_end(&self) -> Diagnostic {
+        let end = self.found.start;
+        if let Some(open) = self.open() {
+            return self.unclosed_by(open);
+        }
+        let end = Span::new(self.file, end, end);
+        let wanted = expected::listed(&self.failure.expected, Some(self.failure.strict));
+        let (Some(wanted), Some(last)) = (wanted, self.before) else {
+            return Diagnostic::new(Code::E0101, end, "the file ends too early");
+        };
+        let diagnostic = self.after(last, &wanted, "file");
+        match self.form(&wanted) {
+            Some(form) => diagnostic.help(form),
+            None => diagnostic,
+        }
+    }
+
     /// A line that ends too early: the message belongs to its last token, not to what happens to stand on the next
     /// line.
     pub(super) fn cut_line(&self) -> Option<(Token, Diagnostic)> {
@@ -51,7 +44,7 @@ impl Place<'_> {
             return Some((last, diagnostic));
         }
         let wanted = self.wanted()?;
-        let diagnostic = self.after(last, &wanted);
+        let diagnostic = self.after(last, &wanted, "line");
         Some(match self.form(&wanted) {
             Some(form) => (last, diagnostic.help(form)),
             None => (last, diagnostic),
@@ -63,12 +56,13 @@ impl Place<'_> {
         let (last, word) = (self.second_before?, self.before?);
         let begins_entry = matches!(self.found(), "=" | ":") && word.kind == Kind::Word;
         let is_cut = OPEN_ENDS.contains(&last.of(self.text)) && self.parted(last, word);
-        (begins_entry && is_cut).then(|| (last, self.after(last, "a value")))
+        (begins_entry && is_cut).then(|| (last, self.after(last, "a value", "line")))
     }
 
-    fn after(&self, token: Token, wanted: &str) -> Diagnostic {
+    /// What was to come after a token, and the line or the file ends.
+    fn after(&self, token: Token, wanted: &str, ends: &str) -> Diagnostic {
         let message = format!(
-            "expected {wanted} after `{}`, found the end of the line",
+            "expected {wanted} after `{}`, found the end of the {ends}",
             token.of(self.text)
         );
         Diagnostic::new(Code::E0101, self.span_of(token), message)

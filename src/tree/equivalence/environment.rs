@@ -5,7 +5,7 @@ use super::window::{Termination, Window, enter, shows};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::task::History;
-use crate::ir::tree::{Atom, Status};
+use crate::ir::tree::{Atom, Exclusion, Status};
 use crate::logic::minterm::agree;
 use crate::policy::{Minterm, Policy};
 use rustc_hash::FxHashMap;
@@ -24,6 +24,8 @@ pub enum Environment<'a> {
     Observed(&'a Policy),
     /// Any valuation that is consistent with the history window.
     Any(History),
+    /// Any valuation that is consistent with the history window and in which nothing holds together that is excluded.
+    Possible(History, &'a [Exclusion]),
 }
 
 /// Which transitions a table allows.

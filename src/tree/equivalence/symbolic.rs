@@ -11,7 +11,7 @@ use super::unfold::Unfolded;
 use super::window::{Termination, Window, enter};
 use super::{Explored, MayFail, Means, Onward, Trace, Unknown, Verdict};
 use crate::ir::task::History;
-use crate::ir::tree::{Atom, Node};
+use crate::ir::tree::{Atom, Exclusion, Node};
 use crate::tree::atoms::{atoms, behaviors};
 use crate::tree::circuit::sat::{Exhausted, Solver};
 use crate::tree::circuit::{Signal, truth};
@@ -31,7 +31,7 @@ const STATES: usize = 100_000;
 
 pub(super) fn explore(
     (left, right): (&Node, &Node),
-    history: History,
+    (history, excluded): (History, &[Exclusion]),
     may_fail: MayFail,
 ) -> Result<(Verdict, Onward), Unknown> {
     let mut asked = atoms(left);
@@ -40,7 +40,7 @@ pub(super) fn explore(
     let tree = |root| CompiledTree::new(root, &asked).map_err(Unknown);
     let trees = [tree(left)?, tree(right)?];
     let mut search = SymbolicSearch {
-        pairs: Pairs::new(asked, trees, history),
+        pairs: Pairs::new(asked, trees, history, excluded),
         solver: Solver::new(DECISIONS),
         reached: Vec::new(),
         known: FxHashSet::default(),
@@ -115,7 +115,7 @@ impl SymbolicSearch {
     fn at_once(&mut self, holds: Signal) -> Result<Option<Vec<bool>>, Exhausted> {
         let too_many = self.pairs.too_many();
         let inputs = &mut self.pairs.inputs;
-        let goal = inputs.circuit.and(holds, !too_many);
+        let goal = inputs.circuit.all([holds, !too_many, self.pairs.possible]);
         let asked = inputs.circuit.support(goal, &inputs.atoms);
         if asked <= TABLE {
             self.explored.means = Means::Table { atoms: asked };

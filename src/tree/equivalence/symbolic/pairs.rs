@@ -3,7 +3,7 @@
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::task::History;
-use crate::ir::tree::{Atom, Status};
+use crate::ir::tree::{Atom, Exclusion, Status};
 use crate::policy::Minterm;
 use crate::tree::circuit::{Circuit, Signal};
 use crate::tree::compiled::CompiledTree;
@@ -37,12 +37,19 @@ pub(super) struct Pairs {
     /// The history atoms that the window remembers, with the terminations that they ask for.
     remembered: Vec<((Id<Behavior>, Status), Atom, Signal)>,
     pub(super) inputs: Inputs,
+    /// Where nothing holds together that is excluded.
+    pub(super) possible: Signal,
     unfolded: [FxHashMap<Ticked, Rc<Unfolded>>; 2],
     known: FxHashMap<Memories, Rc<Pair>>,
 }
 
 impl Pairs {
-    pub(super) fn new(atoms: Vec<Atom>, trees: [CompiledTree; 2], history: History) -> Self {
+    pub(super) fn new(
+        atoms: Vec<Atom>,
+        trees: [CompiledTree; 2],
+        history: History,
+        excluded: &[Exclusion],
+    ) -> Self {
         let mut circuit = Circuit::new();
         let mut remembered = Vec::new();
         let mut signals = Vec::new();
@@ -57,11 +64,22 @@ impl Pairs {
             remembered.extend(asked.map(|termination| (termination, *atom, signal)));
             signals.push(signal);
         }
+        let mut possible = Signal::TRUE;
+        for literals in excluded {
+            let together = literals.iter().map(|(atom, value)| {
+                let at = atoms.iter().position(|known| known == atom);
+                let signal = at.and_then(|at| signals.get(at)).copied();
+                signal.map_or(Signal::FALSE, |signal| signal.negated_if(!value))
+            });
+            let together = circuit.all(together);
+            possible = circuit.and(possible, !together);
+        }
         Self {
             atoms,
             trees,
             history,
             remembered,
+            possible,
             inputs: Inputs {
                 circuit,
                 atoms: signals,
@@ -98,9 +116,8 @@ impl Pairs {
     /// What holds of the atoms where the window is this one.
     pub(super) fn shows(&self, window: &[Termination]) -> Vec<Signal> {
         let shown = self.remembered.iter();
-        shown
-            .map(|(_, atom, signal)| signal.negated_if(!shows(window, *atom)))
-            .collect()
+        let shown = shown.map(|(_, atom, signal)| signal.negated_if(!shows(window, *atom)));
+        shown.chain([self.possible]).collect()
     }
 
     /// The tick of both trees from these memories.
