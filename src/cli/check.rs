@@ -9,6 +9,7 @@ use crate::driver::load::Loaded;
 use crate::driver::{check, load};
 use crate::source::{Sources, Span};
 use clap::{Args, ValueEnum};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// How often fixes are applied to one file: one may bring another to light.
@@ -58,7 +59,7 @@ struct Checked {
 pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {
     let mut all: Vec<Checked> = Vec::new();
     for path in &arguments.files {
-        for path in programs(path) {
+        for path in standing(programs(path)) {
             all.push(found(arguments, &path)?);
         }
     }
@@ -132,6 +133,34 @@ pub(super) fn programs(path: &str) -> Vec<String> {
         return programs;
     }
     vec![path.to_owned()]
+}
+
+/// The programs that stand for themselves: without the files that have mistakes alone and none in a sound program of the
+/// same folder that uses them.
+pub(super) fn standing(mut programs: Vec<String>) -> Vec<String> {
+    if programs.len() < 2 {
+        return programs;
+    }
+    let real = |path: &str| Path::new(path).canonicalize().ok();
+    let (mut used, mut broken) = (BTreeSet::new(), BTreeSet::new());
+    for path in &programs {
+        let Ok((name, bytes)) = files::bytes(path, load::MOST as u64).map(|bytes| (path, bytes))
+        else {
+            continue;
+        };
+        let loaded = load::load(name, bytes, &mut Found::of(name));
+        if loaded.has_errors() {
+            broken.extend(real(path));
+            continue;
+        }
+        let files = loaded.files.iter().filter(|file| **file != loaded.main);
+        let files = files.filter_map(|file| loaded.sources.get(*file));
+        used.extend(files.filter_map(|source| real(&source.name)));
+    }
+    programs.retain(|path| {
+        real(path).is_none_or(|path| !(broken.contains(&path) && used.contains(&path)))
+    });
+    programs
 }
 
 /// What is found in the program at a path, after its fixes if they are to be applied.

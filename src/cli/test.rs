@@ -2,7 +2,7 @@
 
 mod scripted;
 
-use super::check::programs;
+use super::check::{programs, standing};
 use super::diff::{Form, written};
 use super::files;
 use super::progress::Progress;
@@ -59,7 +59,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     let mut snapshots = Vec::new();
     let mut empty = Vec::new();
     for named in &arguments.paths {
-        let programs = programs(named);
+        let programs = standing(programs(named));
         let mut is_tested = false;
         for path in &programs {
             let Ok(loaded) = files::load(path, say) else {

@@ -208,6 +208,12 @@ where
     I: IntoIterator<Item = &'a str>,
 {
     let candidates: Vec<&'a str> = candidates.into_iter().collect();
+    let mut cased = candidates
+        .iter()
+        .filter(|word| word.eq_ignore_ascii_case(name));
+    if let Some(word) = cased.find(|word| **word != name) {
+        return Some(word);
+    }
     let foreign = FOREIGN.iter().filter(|(foreign, _)| *foreign == name);
     let mut meant = foreign.filter_map(|(_, meant)| candidates.iter().find(|word| *word == meant));
     if let Some(meant) = meant.next() {

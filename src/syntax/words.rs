@@ -30,6 +30,22 @@ pub const ASPECTS: [&str; 7] = [
     "observe", "choose", "history", "patience", "start", "end", "reward",
 ];
 
+/// The behaviours of the library.
+pub(super) const DRIVING: [&str; 12] = [
+    "goto",
+    "approach",
+    "chase",
+    "follow",
+    "flee",
+    "patrol",
+    "turn_to",
+    "dock",
+    "follow_wall",
+    "wander",
+    "idle",
+    "wait",
+];
+
 /// What is never written without arguments.
 pub(super) const CALLED: [&str; 18] = [
     "goto",

@@ -2,7 +2,7 @@
 
 use crate::check::Checker;
 use crate::check::builtin;
-use crate::check::names::Decl;
+use crate::check::names::{Decl, is_built_in};
 use crate::check::types::{Type, Typed, Value};
 use crate::diagnostic::{Applicability, Code};
 use crate::ir::expr::Expr;
@@ -28,6 +28,10 @@ impl<'a> Checker<'a> {
                 self.is_of_type(binding.name, &binding.ty);
                 return Some(Typed::new(binding.ty, binding.value, span));
             }
+            // It was declared again, which is told there.
+            if self.names.is_lost(name) && is_built_in(name) {
+                return None;
+            }
             if let Some(value) = builtin::Constant::named(name) {
                 self.is_built_in(&reference.name);
                 return self.built_in_value(value, span);
@@ -51,6 +55,10 @@ impl<'a> Checker<'a> {
             let place = reference.name.span.after().to(span.after());
             return match args.is_empty() {
                 true => draft.fix("drop the parentheses", place, "", Applicability::Safe),
+                false if name == "touching" => {
+                    let help = "it says whether the robot touches anything; how near something is: `distance(…) < 50 cm`";
+                    draft.help(help)
+                }
                 false if name == "position" => {
                     let title = "if it is of a robot, write `pose`";
                     draft.fix(title, reference.name.span, "pose", Applicability::Unsafe)

@@ -51,11 +51,22 @@ impl Checker<'_> {
                     .note(format!("it has {clause}"))
             } else if run.as_ref().is_some_and(|run| !run.contains(&behavior)) {
                 let message = format!("no task chooses `{name}`, and no tree runs it");
-                let help = match name.robot() {
-                    Some(robot) => {
+                let relatives = run
+                    .iter()
+                    .flatten()
+                    .map(|id| &self.program.behaviors[*id].name);
+                let mut relatives = relatives
+                    .filter(|run| run.family == name.family && run.robot() == name.robot());
+                let help = match (relatives.next(), name.robot()) {
+                    (Some(relative), _) => {
+                        format!(
+                            "`{relative}` is run, which is another behaviour: ask that, or add `{name}`"
+                        )
+                    }
+                    (None, Some(robot)) => {
                         format!("let the tree that `{robot}` runs do it, or ask another behaviour")
                     }
-                    None => format!("add `{name}` to `choose`, or ask another behaviour"),
+                    (None, None) => format!("add `{name}` to `choose`, or ask another behaviour"),
                 };
                 self.error(Code::E0611, first, message).help(help)
             } else {

@@ -8,8 +8,8 @@ use crate::check::Checker;
 use crate::diagnostic::Code;
 use crate::ir::tree::{Composite, Decorator, Guard, Node, Status};
 use crate::source::Span;
-use crate::syntax::print;
 use crate::syntax::ast::{self, BinaryOp, Expr, ExprKind, Item, ItemKind, NodeKind, Tree};
+use crate::syntax::print;
 
 impl<'a> Checker<'a> {
     /// Warns of a decorator that its child gives nothing to do.
@@ -103,9 +103,14 @@ impl<'a> Checker<'a> {
                 }
                 return;
             }
-            (NodeKind::Composite { children, .. }, Node::Composite { kind, children: nodes, .. }) => {
-                (children, nodes, *kind)
-            }
+            (
+                NodeKind::Composite { children, .. },
+                Node::Composite {
+                    kind,
+                    children: nodes,
+                    ..
+                },
+            ) => (children, nodes, *kind),
             _ => return,
         };
         let children = children.iter().zip(nodes);
@@ -120,9 +125,13 @@ impl<'a> Checker<'a> {
                 (&written.kind, node, is_switch(written))
             {
                 let text = print::expr(asked);
-                self.warning(Code::W0607, asked.span, "the tree runs nothing where this holds")
-                    .label("it answers for the selector, and no other child is ticked")
-                    .help(format!("write what is to be done: `{text} => BEHAVIOR`"));
+                self.warning(
+                    Code::W0607,
+                    asked.span,
+                    "the tree runs nothing where this holds",
+                )
+                .label("it answers for the selector, and no other child is ticked")
+                .help(format!("write what is to be done: `{text} => BEHAVIOR`"));
             } else {
                 self.stands_where_a_condition_holds(written, node);
             }

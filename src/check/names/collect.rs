@@ -154,6 +154,7 @@ impl<'a> Collector<'_, 'a> {
         if starts || is_built_in(&name.name) && !decl.shadows(&name.name) {
             self.error(Code::E0204, name, format!("`{}` is built in", name.name))
                 .label("choose another name");
+            self.names.lose(&name.name);
         }
         let layer = if self.library {
             &mut self.names.library

@@ -133,7 +133,10 @@ impl<'a> Checker<'a> {
         }
         if let Some(what) = self.names.types.get(name.name.as_str()).map(|ty| ty.what()) {
             let help = match what {
-                "an enum" => "name one of its variants".to_owned(),
+                "an enum" => format!(
+                    "name one of its variants, or range over all: `x in {}`",
+                    name.name
+                ),
                 _ => format!("name one of them, or range over all: `x in {}`", name.name),
             };
             let message = format!("`{}` is {what}, not one of them", name.name);
@@ -156,6 +159,9 @@ impl<'a> Checker<'a> {
         let place = place.filter(|(decl, _)| matches!(decl, Decl::Place(..) | Decl::Wall(..)));
         // A kind of targets is no misspelt name.
         let likely = likely.filter(|_| !matches!(name.name.as_str(), "place" | "wall"));
+        // Nor is a word of logic.
+        let of_logic = what.starts_with("function") && ranging(&name.name).is_some();
+        let likely = likely.filter(|_| !of_logic);
         let hint = match (likely, place) {
             (Some(_), _) => None,
             (None, Some((decl, _))) if what == "type" => Some(format!(
@@ -261,11 +267,25 @@ impl<'a> Checker<'a> {
     }
 }
 
+/// What says here what logic and other languages call so.
+fn ranging(name: &str) -> Option<&'static str> {
+    Some(match name {
+        "exists" | "some" => "any(x in KIND: …)",
+        "forall" | "every" | "each" => "all(x in KIND: …)",
+        "none" | "nobody" => "not any(x in KIND: …)",
+        _ => return None,
+    })
+}
+
 /// What helps who writes such a name.
 fn hint(name: &str, what: &str) -> Option<String> {
     Some(match name {
         "self" | "this" | "me" | "robot" => {
             "the robot at hand is never named: `distance(p)` is read from where it is".to_owned()
+        }
+        _ if what == "type" && crate::check::unit(name).is_some() => {
+            "a type says what is measured, not by what: `length`, `time`, `angle`, `speed`, `ratio`"
+                .to_owned()
         }
         "place" | "wall" if what.starts_with("state") => {
             format!("one of them is called by its name, and all of them are `x in {name}`")
@@ -299,6 +319,13 @@ fn hint(name: &str, what: &str) -> Option<String> {
         }
         "Vector2" | "Vec2" | "vec2" | "Point" | "Vector" | "vector" | "Vector3" | "Pose2D"
         | "Pose" => "a point is written `(1 m, 2 m)`".to_owned(),
+        _ if what.starts_with("function") && ranging(name).is_some() => {
+            let form = ranging(name).unwrap_or_default();
+            format!("what holds of the members of a kind: `{form}`")
+        }
+        "collision" | "collides" | "hit" | "contact" if what.starts_with("function") => {
+            "whether the robot touches anything: `touching`; how near another one is: `distance(ROBOT) < 50 cm`".to_owned()
+        }
         "sum" | "average" | "mean" if what.starts_with("function") => {
             "members are counted, `count(x in KIND: …)`; a sum is written out".to_owned()
         }

@@ -93,7 +93,10 @@ impl<'a> Checker<'a> {
             }
             _ => {
                 let label = "this is neither a predicate nor `and`, `or`, `not` of some";
-                self.no_predicate(expr.span, label, None)
+                let number =
+                    matches!(&expr.kind, ExprKind::Number(number) if number.unit.is_some());
+                let help = "in a test `for` says how long: `tick for 3 s => …`";
+                self.no_predicate(expr.span, label, number.then(|| help.to_owned()))
             }
         }
     }

@@ -95,10 +95,16 @@ impl<'a> Checker<'a> {
             let trees = trees.chain(self.names.learners.keys().copied());
             let likely = self.likely(name, trees);
             return match self.value_of(&tree.name) {
-                Some((decl, _)) => self
-                    .error(Code::E0203, tree.span, "a tree is needed here")
-                    .label(format!("`{name}` is {}", decl.what()))
-                    .none(),
+                Some((decl, _)) => {
+                    let mut scripts = self.scripts.iter();
+                    let script = scripts.find(|(robot, _)| robot.name == name);
+                    let help = script
+                        .map(|(_, tree)| format!("test what it runs: `of {}`", print::expr(tree)));
+                    self.error(Code::E0203, tree.span, "a tree is needed here")
+                        .label(format!("`{name}` is {}", decl.what()))
+                        .help_if(help)
+                        .none()
+                }
                 None => self.undeclared(&tree.name, "tree", likely).none(),
             };
         };

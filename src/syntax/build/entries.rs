@@ -48,6 +48,9 @@ impl<'i> Builder<'i> {
                 Rule::missing_open => self.missing_open(span, part.as_str()),
                 Rule::close_brace | Rule::comma | Rule::children_end | Rule::EOI => {}
                 Rule::missing_close => self.missing_close(part.as_span().start(), open),
+                // What is written in place of an `if` has the comma.
+                Rule::missing_child_comma
+                    if previous.is_some_and(|span| self.slice(span).starts_with("if")) => {}
                 Rule::missing_child_comma => {
                     self.missing_comma(&part, previous, "the children of a node");
                 }

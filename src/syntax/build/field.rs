@@ -56,7 +56,10 @@ impl<'i> Builder<'i> {
                 .label(format!("`{mark}` reads only `x` and `y` of a point"));
         let is_name = matches!(&of.kind, ExprKind::Ref(reference) if reference.args.is_none());
         let args = args.map(|args| self.slice(self.span(&args)));
-        let diagnostic = match self.without_field(owner, name, args, is_name) {
+        let rest = self.text.get(span.range().end..).unwrap_or_default();
+        let rest = rest.trim_start_matches(' ');
+        let is_set = rest.starts_with('=') && !rest.starts_with("==");
+        let diagnostic = match self.without_field(owner, name, args, (is_name, is_set)) {
             Ok(right) => diagnostic.fix(
                 format!("write `{right}`"),
                 span,
@@ -70,13 +73,14 @@ impl<'i> Builder<'i> {
         self.error_expr(span)
     }
 
-    /// What stands for a field here, or else advice where there is any.
+    /// What stands for a field here, or else advice where there is any; whether its owner is a mere name, and whether it is
+    /// set.
     fn without_field(
         &self,
         owner: &str,
         name: &str,
         args: Option<&str>,
-        is_name: bool,
+        (is_name, is_set): (bool, bool),
     ) -> Result<String, Option<String>> {
         let one_of = |words: &[&str]| words.contains(&name);
         if MOTIONS.contains(&owner) || one_of(&["linear", "angular"]) {
@@ -101,6 +105,12 @@ impl<'i> Builder<'i> {
             return Ok(format!("{name}{args} {{ {owner} }}"));
         }
         if let Some(args) = args.filter(|_| self.declared_by(owner, &["robot"])) {
+            let inner = args
+                .strip_prefix('(')
+                .and_then(|args| args.strip_suffix(')'));
+            if let Some(inner) = inner.filter(|_| one_of(&ENDS)) {
+                return Ok(format!("{name}({inner}, by = {owner})"));
+            }
             return Err(Some(format!(
                 "what another robot does is asked so: `success({name}{args}, by = {owner})`"
             )));
@@ -108,7 +118,13 @@ impl<'i> Builder<'i> {
         if one_of(&READS) || one_of(&ENDS) || self.declares_family(name) {
             return Ok(format!("{name}({owner})"));
         }
-        if one_of(&["position", "pose"]) && !matches!(owner, "robot" | "self" | "this") {
+        if one_of(&["position", "heading", "pose"]) && !matches!(owner, "robot" | "self" | "this") {
+            if is_set {
+                return Ok(format!("{name}({owner})"));
+            }
+            if one_of(&["heading"]) {
+                return Err(None);
+            }
             return Ok(format!("pose({owner})"));
         }
         if args.is_none() && self.declared_by(owner, &["input"]) {
@@ -126,7 +142,7 @@ impl<'i> Builder<'i> {
     }
 
     /// Whether one of these words declares a name.
-    fn declared_by(&self, name: &str, words: &[&str]) -> bool {
+    pub(super) fn declared_by(&self, name: &str, words: &[&str]) -> bool {
         self.tokens.windows(2).any(|pair| match pair {
             [word, declared] => {
                 words.contains(&word.of(self.text)) && declared.of(self.text) == name

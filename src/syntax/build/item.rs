@@ -3,10 +3,30 @@
 use super::Builder;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::syntax::ast::{
-    Enum, Event, Ident, Input, InputKind, ItemKind, Let, LetBody, On, Param, Params, Predicate,
-    State, Trigger, TypeExpr, Use, UseWhat,
+    Enum, Event, Expr, ExprKind, Ident, Input, InputKind, ItemKind, Let, LetBody, On, Param,
+    Params, Predicate, State, Trigger, TypeExpr, Use, UseWhat,
 };
 use crate::syntax::grammar::{Node, Parts, Rule};
+
+/// The type that a default likely has, as far as it is written.
+fn type_of(default: &Expr) -> &'static str {
+    match &default.kind {
+        ExprKind::Bool(_) => "bool",
+        ExprKind::Point(..) => "point",
+        ExprKind::Unary { operand, .. } => type_of(operand),
+        ExprKind::Number(literal) => match literal.unit.as_ref().map(|unit| unit.text.as_str()) {
+            None => "number",
+            Some("%") => "ratio",
+            Some("s" | "ms" | "min" | "h" | "tick" | "ticks") => "time",
+            Some("deg" | "rad") => "angle",
+            Some("Hz") => "frequency",
+            Some("rad/s" | "deg/s") => "turn_rate",
+            Some(unit) if unit.contains('/') => "speed",
+            Some(_) => "length",
+        },
+        _ => "length",
+    }
+}
 
 impl<'i> Builder<'i> {
     pub(super) fn item(&mut self, node: Node<'i>) -> ItemKind {
@@ -217,7 +237,10 @@ impl<'i> Builder<'i> {
             factors: Vec::new(),
             span: name.span.after(),
         });
-        if parts.has(Rule::missing_type) {
+        let untyped = parts.has(Rule::missing_type);
+        let default = self.take_is(&mut parts).then(|| self.take_expr(&mut parts));
+        if untyped {
+            let of_default = default.as_ref().map_or("length", type_of);
             let diagnostic = Diagnostic::new(
                 Code::E0128,
                 name.span,
@@ -226,11 +249,13 @@ impl<'i> Builder<'i> {
             .label("a type goes after it")
             .help(match self.declares_task(&name.name) {
                 true => format!("if it is the task: `tree NAME for {} = …`", name.name),
-                false => format!("write `{}: length`, or whichever type it has", name.name),
+                false => format!(
+                    "write `{}: {}`, or whichever type it has",
+                    name.name, of_default
+                ),
             });
             self.report(diagnostic);
         }
-        let default = self.take_is(&mut parts).then(|| self.take_expr(&mut parts));
         Param {
             name,
             ty,

@@ -28,6 +28,14 @@ const DECLARING: [&str; 16] = [
 /// The words that show that a text is of a world.
 const IN_WORLDS: [&str; 4] = ["world", "place", "wall", "robot"];
 
+/// The words that bring the names of another file, here and elsewhere.
+const BRINGING: [&str; 7] = [
+    "use", "import", "include", "#include", "from", "require", "using",
+];
+
+/// The words that begin an item, besides those that declare a name.
+const ITEMS: [&str; 4] = ["each", "on", "claim", "test"];
+
 /// How many of its first words a text may declare, whose own word may be the one that is wrong.
 const FIRST: usize = 3;
 
@@ -94,6 +102,11 @@ impl Builder<'_> {
         }
     }
 
+    fn line_end(&self, at: usize) -> usize {
+        let rest = self.text.get(at..).unwrap_or_default();
+        at + rest.find('\n').unwrap_or(rest.len())
+    }
+
     fn is_name(&self, token: &Token) -> bool {
         matches!(token.kind, Kind::Word | Kind::Name) && !RESERVED.contains(&token.of(self.text))
     }
@@ -116,9 +129,20 @@ impl Builder<'_> {
         let first = code.first().map(|token| word(token));
         let is_name = |token: &&&Token| self.is_name(token);
         let mut names: Vec<&Token> = code.iter().take(FIRST).filter(is_name).copied().collect();
-        if first == Some("enum") {
-            names.extend(code.iter().filter(is_name));
-            names.extend(code.iter().filter(|token| token.kind == Kind::Text));
+        // What a word of another language declares may stand anywhere behind it: `type mood = calm | angry`.
+        let of_this = |word: &str| {
+            [&DECLARING[..], &ITEMS, &BRINGING]
+                .iter()
+                .any(|words| words.contains(&word))
+        };
+        if first.is_some_and(|word| word == "enum" || !of_this(word)) {
+            let line_end = match first {
+                Some("enum") => range.end,
+                _ => self.line_end(range.start),
+            };
+            let line = code.iter().filter(|token| token.end <= line_end);
+            names.extend(line.clone().filter(is_name));
+            names.extend(line.filter(|token| token.kind == Kind::Text));
         }
         // A name of two words is likely used as one.
         if let [declares, left, right, ..] = code.as_slice()
@@ -131,7 +155,7 @@ impl Builder<'_> {
                 .push([self.bare(left), self.bare(right)].join("_"));
         }
         // However it is said, what brings the library brings names.
-        let mut unnamed = first == Some("use")
+        let mut unnamed = first.is_some_and(|word| BRINGING.contains(&word))
             || code
                 .iter()
                 .any(|token| word(token).trim_matches('"') == "std");

@@ -7,7 +7,7 @@ use crate::syntax::ast::{
     self, Arg, ArgKind, Claim, ClaimWhat, Expr, ExprKind, NodeKind, Ref, Spanned, Tree, Word,
 };
 use crate::syntax::grammar::{Node, Parts, Rule};
-use crate::syntax::words::{FOREIGN_NODES, NODES};
+use crate::syntax::words::{DRIVING, FOREIGN_NODES, NODES};
 
 /// The composite with memory that a single word means elsewhere: `SequenceWithMemory`, `memory_selector`.
 fn remembering(written: &str) -> Option<Word> {
@@ -78,11 +78,33 @@ impl<'i> Builder<'i> {
         let Some(arrow) = parts.maybe(Rule::guards) else {
             return NodeKind::Leaf(expr);
         };
+        if arrow.as_str() != "=>" && self.is_behavior(&expr) {
+            let span = self.span(&arrow);
+            let written = arrow.as_str();
+            let message =
+                format!("the children of a node are parted by commas, not by `{written}`");
+            let gap = expr.span.after().to(span);
+            self.report(
+                Diagnostic::new(Code::E0116, span, message)
+                    .label("the next child follows")
+                    .fix("put a comma", gap, ",", Applicability::Unsafe),
+            );
+            return NodeKind::Error;
+        }
         self.guards(&arrow, "a guard is followed");
         NodeKind::Guarded {
             guard: expr,
             node: Box::new(self.take_node(&mut parts)),
         }
+    }
+
+    /// Whether an expression names what is run, as far as this file shows.
+    fn is_behavior(&self, expr: &Expr) -> bool {
+        let ExprKind::Ref(reference) = &expr.kind else {
+            return false;
+        };
+        let name = reference.name.name.as_str();
+        DRIVING.contains(&name) || self.declared_by(name, &["behavior", "tree"])
     }
 
     /// `if c { … }`, as other languages branch.
@@ -101,7 +123,12 @@ impl<'i> Builder<'i> {
             _ => None,
         };
         let guarded = body.zip(only).map(|(body, only)| {
-            let right = format!("{} => {}", self.slice(guard.span), self.slice(only));
+            let rest = self.text.get(body.range().end..).unwrap_or_default();
+            let comma = match rest.trim_start().starts_with([',', '}']) {
+                true => "",
+                false => ",",
+            };
+            let right = format!("{} => {}{comma}", self.slice(guard.span), self.slice(only));
             (span.to(body), right)
         });
         let guard = self.slice(guard.span);

@@ -198,6 +198,9 @@ impl Place<'_> {
             (Rule::strict_item, "<" | "<=") if self.before() == "probability" => {
                 "a claim says how sure it is at least: `with probability >= 95%`"
             }
+            (Rule::strict_item, "<") if is_word_next(self.next()) => {
+                "XML is not read: a tree is written `tree NAME = selector { … }`; `btc compile --emit btcpp` makes XML of it"
+            }
             (Rule::strict_item, "<" | "{" | "(" | "[") if !self.same_line_as_before() => {
                 "a program is made of items: `world NAME { … }`, `state NAME = VALUE`, `tree NAME = NODE`"
             }
@@ -216,6 +219,11 @@ impl Place<'_> {
             }
             (_, "in") | (_, "not") if self.expects(Rule::or_op) => {
                 "each comparison says what it compares: `x == a or x == b`"
+            }
+            _ if matches!(self.before(), "exists" | "forall" | "some" | "every")
+                && self.after_found() == "in" =>
+            {
+                "what ranges over a kind stands in parentheses: `any(x in KIND: …)`, `all(x in KIND: …)`"
             }
             (_, "for") if self.open_paren().is_some() => {
                 "what ranges over a kind is bound first: `any(x in KIND: …)`"
@@ -277,7 +285,15 @@ impl Place<'_> {
             (Rule::strict_item, ":")
                 if self.line_begins_with("tree") && self.expects(Rule::kw_for) =>
             {
-                Some(("a tree is for a task", " for"))
+                // `tree NAME: TASK = NODE`
+                let at = self
+                    .tokens
+                    .partition_point(|token| token.end <= self.found.end);
+                let names_task = self.tokens.get(at + 1);
+                match names_task.is_some_and(|then| then.of(self.text) == "=") {
+                    true => Some(("a tree is for a task", " for")),
+                    false => Some(("what a tree is follows `=`", " =")),
+                }
             }
             (Rule::strict_item, "for")
                 if self.line_begins_with("test") && self.expects(Rule::kw_of) =>

@@ -6,7 +6,7 @@ use crate::diagnostic::{Applicability, Code, Diagnostic, suggest};
 use crate::syntax::expected;
 use crate::syntax::grammar::Rule;
 use crate::syntax::tokens::{Kind, Token};
-use crate::syntax::words::{ITEMS, KINDS, home};
+use crate::syntax::words::{ITEMS, KINDS, NODES, home};
 
 impl Place<'_> {
     /// An item that stands within a block.
@@ -108,7 +108,36 @@ impl Place<'_> {
             _ => return None,
         };
         let name = word.of(self.text);
+        let settings: &[&str] = match self.failure.strict {
+            Rule::strict_world_entry => &["tick", "arena"],
+            Rule::strict_robot_entry => &["body", "drive", "contact", "runs"],
+            _ => &[],
+        };
+        if first && settings.contains(&name) && self.same_line_as_before() && self.found() != ":" {
+            let message = format!("expected `=` after `{name}`, found `{}`", self.found());
+            return Some(
+                Diagnostic::new(Code::E0101, self.span(), message)
+                    .label("its value begins here")
+                    .fix(
+                        "put a `=`",
+                        self.span().before(),
+                        "= ",
+                        Applicability::Unsafe,
+                    ),
+            );
+        }
         let opens = declares || self.found() == "{";
+        let of_robot = self.failure.strict == Rule::strict_robot_entry;
+        if first && opens && of_robot && NODES.iter().any(|(node, _)| *node == name) {
+            let message = "a robot runs a tree by its name";
+            return Some(
+                Diagnostic::new(Code::E0123, self.span_of(word), message)
+                    .label("this node has none")
+                    .help(format!(
+                        "give it one, `tree NAME = {name} {{ … }}`, and run that: `runs = NAME`"
+                    )),
+            );
+        }
         if let Some((whole, example)) = self.entry_of_another(name)
             && name != "sensor"
             && first

@@ -25,6 +25,7 @@ impl Place<'_> {
     /// A line that was written by another habit, with its right form.
     pub(super) fn rewritten(&self) -> Option<Diagnostic> {
         self.spaced_name()
+            .or_else(|| self.typed_first())
             .or_else(|| self.turned_place())
             .or_else(|| self.indexed())
             .or_else(|| self.bracketed_for())
@@ -142,6 +143,20 @@ impl Place<'_> {
         self.told(span, "a name is one word", joined)
     }
 
+    /// `predicate near(place p) = …`: a parameter with its type before it.
+    fn typed_first(&self) -> Option<Diagnostic> {
+        let (opens, ty) = (self.second_before?, self.before?);
+        let begins = matches!(opens.of(self.text), "(" | ",");
+        let declares = self.expects(Rule::colon) && is_word(ty) && is_word(self.found);
+        let ends = matches!(self.after_found(), ")" | "," | "=");
+        if !(begins && declares && ends) || !self.same_line_as_before() {
+            return None;
+        }
+        let span = self.span_of(ty).to(self.span());
+        let right = format!("{}: {}", self.found(), ty.of(self.text));
+        self.told(span, "the name of a parameter goes before its type", right)
+    }
+
     /// `place A = disc(…) heading -90 deg`
     fn turned_place(&self) -> Option<Diagnostic> {
         let (close, word) = (self.second_before?, self.before?);
@@ -197,7 +212,7 @@ impl Place<'_> {
         let value = head.get(mark..)?.trim();
         let rest = self.rest_of_line(self.found.end);
         let (asked, other) = rest.split_once(" else ")?;
-        let other = other.trim_end_matches(',').trim();
+        let other = own(other).trim();
         if value.is_empty() || other.is_empty() || other.contains(['{', ';']) {
             return None;
         }
@@ -247,4 +262,21 @@ impl Place<'_> {
             .then(|| self.told(self.span(), message, "when elapsed >"))
             .flatten()
     }
+}
+
+/// The part of a text up to the comma or the bracket that belongs to what stands around it.
+fn own(text: &str) -> &str {
+    let mut open = 0_usize;
+    let ends = text.char_indices().find(|(_, letter)| {
+        match letter {
+            '(' | '{' => open += 1,
+            ')' | '}' if open > 0 => open -= 1,
+            ')' | '}' => return true,
+            ',' => return open == 0,
+            _ => {}
+        }
+        false
+    });
+    let end = ends.map_or(text.len(), |(at, _)| at);
+    text.get(..end).unwrap_or(text)
 }
