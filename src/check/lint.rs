@@ -20,6 +20,7 @@ mod rewards;
 mod same;
 mod tree;
 mod unused;
+mod view;
 mod world;
 
 use super::{Checker, Input};

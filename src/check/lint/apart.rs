@@ -1,5 +1,6 @@
 //! How near a robot's centre comes to what its body does not go into: walls, and other robots.
 
+use super::view::View;
 use crate::ir::expr::{Binary, Echo, Expr, ExprId, Pose};
 use crate::ir::world::{Robot, World};
 use crate::ir::{Id, Program};
@@ -9,27 +10,24 @@ const SLACK: f64 = 1e-6;
 
 /// The least distance that an expression can be, in metres, if it is one from a robot's centre to a wall or to
 /// another robot.
-pub fn least(program: &Program, id: ExprId) -> Option<f64> {
+pub fn least(View { program, robot }: View, id: ExprId) -> Option<f64> {
     let world = program.world.as_ref()?;
+    let radius = |id| world.robot_of(id).radius;
     let bound = match program.pool.get(id) {
-        Expr::NearestWall(Echo::Distance) if !has_doors(world) => thinnest(world, None),
-        Expr::Wall(wall, Echo::Distance) if world.walls[wall].when.is_none() => {
-            thinnest(world, None)
-        }
+        Expr::NearestWall(Echo::Distance) if !has_doors(world) => radius(robot),
+        Expr::Wall(wall, Echo::Distance) if world.walls[wall].when.is_none() => radius(robot),
         _ => {
-            let [one, other] = robots(program, id)?;
-            let radius = |robot: Option<Id<Robot>>, beside: Option<Id<Robot>>| match robot {
-                Some(id) => world.robot_of(id).radius,
-                None => thinnest(world, beside),
-            };
-            radius(one, other) + radius(other, one)
+            let both = robots(program, id)?.map(|of| of.unwrap_or(robot));
+            both.map(radius).iter().sum()
         }
     };
     Some(bound - SLACK)
 }
 
 /// Why a condition may hold never or always, as a note: it compares such a distance with less than it can be.
-pub fn because(program: &Program, condition: ExprId) -> Option<String> {
+pub fn because<'p>(view: impl Into<View<'p>>, condition: ExprId) -> Option<String> {
+    let view = view.into();
+    let program = view.program;
     let world = program.world.as_ref()?;
     let too_near = |part: ExprId| {
         let Expr::Binary(Binary::Lt | Binary::Le, one, other) = program.pool.get(part) else {
@@ -42,12 +40,7 @@ pub fn because(program: &Program, condition: ExprId) -> Option<String> {
             _ => return None,
         };
         let mut parts = parts(program, compared).into_iter();
-        parts.find_map(|id| {
-            Some((
-                id,
-                least(program, id).filter(|least| *least >= with - SLACK)?,
-            ))
-        })
+        parts.find_map(|id| Some((id, least(view, id).filter(|least| *least >= with - SLACK)?)))
     };
     let (distance, least) = parts(program, condition).into_iter().find_map(too_near)?;
     let centimetres = ((least + SLACK) * 1000.0).round() / 10.0;
@@ -104,13 +97,4 @@ fn robots(program: &Program, id: ExprId) -> Option<[Option<Id<Robot>>; 2]> {
 
 fn has_doors(world: &World) -> bool {
     world.walls.values().any(|wall| wall.when.is_some())
-}
-
-/// The radius of the thinnest robot, but for one.
-fn thinnest(world: &World, but: Option<Id<Robot>>) -> f64 {
-    let robots = world.robots().enumerate();
-    let others = robots.filter(|(at, _)| but.is_none_or(|but| but.index() != *at));
-    others
-        .map(|(_, robot)| robot.radius)
-        .fold(f64::INFINITY, f64::min)
 }

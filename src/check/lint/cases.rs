@@ -5,6 +5,7 @@
 
 use super::interval::Interval;
 use super::ranges::{range, values};
+use super::view::View;
 use crate::ir::expr::{Binary, Expr, ExprId, Unary};
 use crate::ir::tree::{Atom, Guard};
 use crate::ir::{Pool, Program};
@@ -158,13 +159,13 @@ fn covers(wider: &Case, narrower: &Case) -> bool {
 }
 
 /// When an expression is true, or when it is not, as `wanted` says.
-pub fn of_expr(program: &Program, id: ExprId, wanted: bool) -> Cases {
-    when(program, id, wanted, Numbers::Numbers)
+pub fn of_expr<'p>(view: impl Into<View<'p>>, id: ExprId, wanted: bool) -> Cases {
+    when(view.into(), id, wanted, Numbers::Numbers)
 }
 
 /// As [`of_expr`], where numbers may come to `numbers`.
-pub fn when(program: &Program, id: ExprId, wanted: bool, numbers: Numbers) -> Cases {
-    Reader { program, numbers }.expr(id, wanted, 0)
+pub fn when(view: View, id: ExprId, wanted: bool, numbers: Numbers) -> Cases {
+    Reader { view, numbers }.expr(id, wanted, 0)
 }
 
 /// When a guard holds, or when it does not, as `wanted` says.
@@ -183,7 +184,8 @@ pub fn of_guard(program: &Program, guard: &Guard, wanted: bool) -> Cases {
         Guard::And(guards) => parts(guards, true),
         Guard::Or(guards) => parts(guards, false),
         Guard::Atom(Atom::Predicate(id)) if let Some(when) = program.predicates[*id].when => {
-            of_expr(program, when, wanted)
+            let view = View::of(program, &program.predicates[*id].name);
+            of_expr(view, when, wanted)
         }
         Guard::Atom(atom) => Cases::one(About::Atom(*atom), Says::Is(wanted)),
     }
@@ -191,7 +193,7 @@ pub fn of_guard(program: &Program, guard: &Guard, wanted: bool) -> Cases {
 
 /// Reads conditions.
 struct Reader<'p> {
-    program: &'p Program,
+    view: View<'p>,
     numbers: Numbers,
 }
 
@@ -200,7 +202,7 @@ impl Reader<'_> {
         if depth > DEEPEST {
             return Cases::Unknown;
         }
-        let pool = &self.program.pool;
+        let pool = &self.view.program.pool;
         let of = |id, wanted| self.expr(id, wanted, depth + 1);
         match pool.get(id) {
             Expr::Bool(value) => Cases::constant(value == wanted),
@@ -213,7 +215,7 @@ impl Reader<'_> {
                     a.or(&b)
                 }
             }
-            Expr::Event(event) => of(self.program.events[event].when, wanted),
+            Expr::Event(event) => of(self.view.program.events[event].when, wanted),
             Expr::Binary(op @ (Binary::Eq | Binary::Ne), a, b) if truth(pool, b).is_some() => {
                 let is = truth(pool, b) == Some(op == Binary::Eq);
                 of(a, wanted == is)
@@ -237,9 +239,9 @@ impl Reader<'_> {
         if let Some(holds) = of_itself {
             return Some(Cases::constant(holds == wanted));
         }
-        let (of, within) = comparison(&self.program.pool, op, a, b, wanted)?;
+        let (of, within) = comparison(&self.view.program.pool, op, a, b, wanted)?;
         let holds = |value: f64| within.iter().flatten().any(|part| part.contains(value));
-        if let Some(count) = values(self.program, of) {
+        if let Some(count) = values(self.view.program, of) {
             let among = (0..count).filter(|index| holds(*index as f64));
             return match among.clone().count() {
                 0 => Some(Cases::constant(false)),
@@ -251,7 +253,7 @@ impl Reader<'_> {
                 }
             };
         }
-        let may = range(self.program, of);
+        let may = range(self.view, of);
         let within: Vec<Interval> = within.into_iter().flatten().collect();
         // Of all comparisons `!=` alone holds of what is not a number.
         let none = self.numbers == Numbers::Any && wanted == (op == Binary::Ne);

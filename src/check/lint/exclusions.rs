@@ -1,6 +1,7 @@
 //! Which predicates exclude one another, by what they compare: two values of one enum, two intervals of one reading.
 
 use super::cases::{About, Cases, Numbers, when};
+use super::view::View;
 use crate::ir::Program;
 use crate::ir::tree::{Atom, Exclusion};
 use std::collections::{BTreeMap, BTreeSet};
@@ -39,7 +40,10 @@ pub fn exclusions(program: &Program, atoms: &BTreeSet<Atom>) -> Vec<Exclusion> {
 fn of(program: &Program, atom: Atom, value: bool) -> Cases {
     match atom {
         Atom::Predicate(id) => match program.predicates[id].when {
-            Some(condition) => when(program, condition, value, Numbers::Any),
+            Some(condition) => {
+                let view = View::of(program, &program.predicates[id].name);
+                when(view, condition, value, Numbers::Any)
+            }
             None => Cases::Unknown,
         },
         Atom::Done(_) | Atom::Failed(_) => Cases::Unknown,

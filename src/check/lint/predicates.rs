@@ -2,10 +2,12 @@
 
 use super::apart::because;
 use super::cases::of_expr;
+use super::view::View;
 use crate::check::Checker;
 use crate::check::expr::plain_ref;
 use crate::check::names::Decl;
 use crate::diagnostic::Code;
+use crate::ir::expr::ExprId;
 use crate::ir::program::Predicate;
 use crate::ir::{Id, Name};
 use crate::spelling::spelled;
@@ -20,10 +22,8 @@ impl<'a> Checker<'a> {
         for item in items.clone() {
             match &item.kind {
                 ItemKind::Predicate(predicate) if predicate.params.is_none() => {
-                    let name = Name::word(&predicate.name.name);
-                    if let (Some(id), Some(value)) = (self.predicate_named(&name), &predicate.value)
-                    {
-                        self.constant_predicate(id, value);
+                    if let Some(value) = &predicate.value {
+                        self.constant_predicate(&predicate.name.name, value);
                     }
                 }
                 ItemKind::Task(task) => {
@@ -35,24 +35,30 @@ impl<'a> Checker<'a> {
         }
     }
 
-    fn predicate_named(&self, name: &Name) -> Option<Id<Predicate>> {
-        self.program.predicates.find(|other| other.name == *name)
-    }
-
-    fn constant_predicate(&mut self, id: Id<Predicate>, value: &Expr) {
-        let predicate = &self.program.predicates[id];
-        let Some(when) = predicate.when else { return };
+    /// Warns of a predicate that is constant for every robot that reads it.
+    fn constant_predicate(&mut self, name: &str, value: &Expr) {
+        let program = &self.program;
+        let read = program.predicates.values();
+        let read = read.filter(|predicate| predicate.name.family == name);
+        let read = read.filter_map(|it| Some((View::of(program, &it.name), it.when?)));
+        let read: Vec<(View, ExprId)> = read.collect();
+        let Some(&(view, when)) = read.first() else {
+            return;
+        };
         if self.says_one_thing_twice(value.span) {
             return;
         }
-        let says = match [true, false].map(|wanted| of_expr(&self.program, when, wanted).is_never())
-        {
-            [true, _] => "never",
-            [_, true] => "always",
+        let never = |wanted| {
+            let mut read = read.iter();
+            read.all(|(view, when)| of_expr(*view, *when, wanted).is_never())
+        };
+        let says = match (never(true), never(false)) {
+            (true, _) => "never",
+            (_, true) => "always",
             _ => return,
         };
-        let message = format!("the predicate `{}` {says} holds", predicate.name);
-        let why = because(&self.program, when);
+        let message = format!("the predicate `{name}` {says} holds");
+        let why = because(view, when);
         self.warning(Code::W0601, value.span, message)
             .label("whatever happens in the world")
             .note_if(why);

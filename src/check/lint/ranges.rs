@@ -2,6 +2,7 @@
 
 use super::apart;
 use super::interval::Interval;
+use super::view::View;
 use crate::ir::expr::{Binary, Echo, Expr, ExprId, Pose, Unary};
 use crate::ir::input::InputKind;
 use crate::ir::program::ValueKind;
@@ -51,16 +52,13 @@ fn is_target(program: &Program, variants: &[Name]) -> bool {
 }
 
 /// Between which numbers an expression is.
-pub fn range(program: &Program, id: ExprId) -> Interval {
-    Ranges {
-        program,
-        left: MOST,
-    }
-    .of(id)
+pub fn range(view: View, id: ExprId) -> Interval {
+    let left = MOST;
+    Ranges { view, left }.of(id)
 }
 
 struct Ranges<'p> {
-    program: &'p Program,
+    view: View<'p>,
     /// How many nodes may still be looked at.
     left: u32,
 }
@@ -71,13 +69,13 @@ impl Ranges<'_> {
             return Interval::ALL;
         };
         self.left = left;
-        match self.program.pool.get(id) {
+        match self.view.program.pool.get(id) {
             Expr::Num(value) => hull([value]),
             Expr::Pose(pose) | Expr::Robot(_, pose) => self.pose(pose),
             Expr::Elapsed | Expr::Visits => LENGTH,
             Expr::Progress => Interval::between(0.0, 1.0),
             Expr::NearestWall(Echo::Distance) | Expr::Wall(_, Echo::Distance) => {
-                let least = apart::least(self.program, id);
+                let least = apart::least(self.view, id);
                 least.map_or(LENGTH, |least| Interval::between(least, f64::INFINITY))
             }
             Expr::Sensor(sensor, Echo::Distance) => self.sensor(sensor),
@@ -87,7 +85,7 @@ impl Ranges<'_> {
             Expr::Unary(op, a) => self.unary(op, a),
             Expr::Binary(op, a, b) => {
                 let found = self.binary(op, a, b);
-                let least = apart::least(self.program, id);
+                let least = apart::least(self.view, id);
                 least.map_or(found, |least| found.and(Interval::above(least, false)))
             }
             Expr::Select(_, a, b) => {
@@ -100,7 +98,7 @@ impl Ranges<'_> {
 
     /// A robot is within the bounds of the arena.
     fn pose(&self, pose: Pose) -> Interval {
-        let Some(world) = &self.program.world else {
+        let Some(world) = &self.view.program.world else {
             return Interval::ALL;
         };
         let ([left, bottom], [right, top]) = world.arena.bounds();
@@ -113,8 +111,9 @@ impl Ranges<'_> {
 
     /// What a sensor without noise reads.
     fn sensor(&self, id: Id<Sensor>) -> Interval {
-        let world = self.program.world.as_ref();
-        let sensor = world.map(|world| &world.robot.sensors[id]);
+        let world = self.view.program.world.as_ref();
+        let robot = world.map(|world| world.robot_of(self.view.robot));
+        let sensor = robot.map(|robot| &robot.sensors[id]);
         match sensor
             .filter(|sensor| sensor.noise == 0.0)
             .map(|it| &it.kind)

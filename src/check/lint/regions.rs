@@ -2,10 +2,11 @@
 
 use super::apart::because;
 use super::cases::of_expr;
+use super::view::View;
 use crate::check::Checker;
 use crate::diagnostic::Code;
+use crate::ir::Name;
 use crate::ir::law::Law;
-use crate::ir::{Name, Program};
 use crate::source::Span;
 use crate::syntax::ast::{AspectKind, BehaviorBody, Clause, ClauseKind, Item, ItemKind};
 
@@ -20,9 +21,9 @@ impl<'a> Checker<'a> {
                 continue;
             };
             let behaviors = self.program.behaviors.values();
-            let laws: Vec<Law> = behaviors
+            let laws: Vec<(Name, Law)> = behaviors
                 .filter(|other| other.name.family == behavior.name.name)
-                .filter_map(|other| other.law.clone())
+                .filter_map(|other| Some((other.name.clone(), other.law.clone()?)))
                 .collect();
             if !laws.is_empty() {
                 self.regions_of(clauses, &laws);
@@ -30,7 +31,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    fn regions_of(&mut self, clauses: &'a [Clause], laws: &[Law]) {
+    fn regions_of(&mut self, clauses: &'a [Clause], laws: &[(Name, Law)]) {
         let first = |wanted: fn(&ClauseKind) -> bool| {
             let mut clauses = clauses.iter();
             clauses.find(|clause| wanted(&clause.kind)).map(place)
@@ -41,21 +42,24 @@ impl<'a> Checker<'a> {
         let drives =
             first(|kind| matches!(kind, ClauseKind::Control(block) if !block.stmts.is_empty()));
         let program = &self.program;
-        let every = |test: &dyn Fn(&Law) -> bool| laws.iter().all(test);
-        let requires_never = every(&|law| of_expr(program, law.requires, true).is_never());
-        let at_once = every(&|law| {
-            let allowed = of_expr(program, law.requires, true);
-            allowed.implies(&of_expr(program, law.succeed, true))
+        let every = |test: &dyn Fn(View, &Law) -> bool| {
+            let mut laws = laws.iter();
+            laws.all(|(name, law)| test(View::of(program, name), law))
+        };
+        let requires_never = every(&|view, law| of_expr(view, law.requires, true).is_never());
+        let at_once = every(&|view, law| {
+            let allowed = of_expr(view, law.requires, true);
+            allowed.implies(&of_expr(view, law.succeed, true))
         });
-        let shadowed = every(&|law| {
-            let fails = of_expr(program, law.fail, true);
-            fails.implies(&of_expr(program, law.succeed, true))
+        let shadowed = every(&|view, law| {
+            let fails = of_expr(view, law.fail, true);
+            fails.implies(&of_expr(view, law.succeed, true))
         });
-        let never_succeeds = every(&|law| succeeds_never(program, law));
-        let fails_at_once = every(&|law| {
-            let allowed = of_expr(program, law.requires, true);
-            let goes_on = allowed.and(&of_expr(program, law.succeed, false));
-            goes_on.implies(&of_expr(program, law.fail, true))
+        let never_succeeds = every(&|view, law| succeeds_never(view, law));
+        let fails_at_once = every(&|view, law| {
+            let allowed = of_expr(view, law.requires, true);
+            let goes_on = allowed.and(&of_expr(view, law.succeed, false));
+            goes_on.implies(&of_expr(view, law.fail, true))
         });
         if let (true, Some(at)) = (requires_never, requires) {
             self.warning(Code::W0302, at, "this behaviour never runs")
@@ -80,7 +84,7 @@ impl<'a> Checker<'a> {
                 );
         } else if let (true, Some(at)) = (never_succeeds, succeed) {
             let law = laws.first();
-            let why = law.and_then(|law| because(program, law.succeed));
+            let why = law.and_then(|(name, law)| because(View::of(program, name), law.succeed));
             self.warning(Code::W0302, at, "this behaviour never succeeds")
                 .label("what it waits for never holds")
                 .note_if(why);
@@ -114,10 +118,11 @@ impl<'a> Checker<'a> {
             for (place, id) in checked.written.choose.iter().zip(&checked.choose) {
                 let behavior = &self.program.behaviors[*id];
                 let law = behavior.law.as_ref();
-                let law = law.filter(|law| succeeds_never(&self.program, law));
+                let view = View::from(&self.program);
+                let law = law.filter(|law| succeeds_never(view, law));
                 let at = list.and_then(|list| list.get(*place));
                 if let (Some(law), Some(at), false) = (law, at, own(&behavior.name.family)) {
-                    let why = because(&self.program, law.succeed);
+                    let why = because(view, law.succeed);
                     found.push((at.span, behavior.name.bare(), why));
                 }
             }
@@ -131,9 +136,9 @@ impl<'a> Checker<'a> {
 }
 
 /// Whether a behaviour that is to succeed at some time never does.
-fn succeeds_never(program: &Program, law: &Law) -> bool {
-    let waits = program.pool.constant(law.succeed).is_none();
-    waits && of_expr(program, law.succeed, true).is_never()
+fn succeeds_never(view: View, law: &Law) -> bool {
+    let waits = view.program.pool.constant(law.succeed).is_none();
+    waits && of_expr(view, law.succeed, true).is_never()
 }
 
 /// The words that a clause begins with.
