@@ -16,6 +16,7 @@ mod mentions;
 mod predicates;
 mod ranges;
 mod regions;
+mod repaid;
 mod rewards;
 mod same;
 mod tree;

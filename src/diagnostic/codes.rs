@@ -191,7 +191,7 @@ codes! {
     W0516 "a sum without an end",
     W0517 "a rate of 0",
     W0518 "two choices that do the same",
-    W0519 "a reward for a predicate",
+    W0519 "a reward that is paid in every tick",
 
     W0601 "a condition that always or never holds",
     W0602 "a node that is never reached",

@@ -2,6 +2,7 @@
 
 use crate::program::{self, NoFiles, shown};
 use btc::check::exclusions;
+use btc::driver::diff::{Side, diff};
 use btc::driver::load::load;
 use btc::driver::verify;
 use btc::ir::tree::Atom;
@@ -119,4 +120,35 @@ fn what_excludes_one_another_is_found() {
             "not is_a and not is_b and not is_c",
         ]
     );
+}
+
+/// What `btc diff` tells rests on the same, and says so.
+#[test]
+fn changes_are_told_within_what_the_predicates_compare() {
+    let of = |tree: &str| {
+        let text = format!(
+            "input held: {{none, parcel, express}}\n\
+             predicate has_parcel = held == parcel\npredicate has_express = held == express\n\
+             behavior deliver\nbehavior hurry\nbehavior fetch\ntree hand = selector {{ {tree} }}\n"
+        );
+        load("made.bt", text.into(), &mut NoFiles)
+    };
+    let told = |old: &str, new: &str| {
+        let (old, new) = (of(old), of(new));
+        let (old, new) = (Side::Program(&old, None), Side::Program(&new, None));
+        diff(old, new, 1, 1).unwrap().human()
+    };
+    let turned = told(
+        "has_parcel => deliver, has_express => hurry, fetch",
+        "has_express => hurry, has_parcel => deliver, fetch",
+    );
+    let kept = told(
+        "has_parcel => deliver, fetch",
+        "has_parcel => deliver, has_parcel and not has_express => deliver, fetch",
+    );
+    let changed = told(
+        "has_parcel => deliver, fetch",
+        "has_parcel and not has_express => hurry, fetch",
+    );
+    insta::assert_snapshot!("changed_within_predicates", [turned, kept, changed].join("\n"));
 }

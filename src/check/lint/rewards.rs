@@ -105,6 +105,7 @@ impl<'a> Checker<'a> {
                 && !ends
             {
                 self.pays_again_and_again(condition);
+                self.pays_for_standing(condition.span, checked, place);
             }
             before.extend(cases.into_iter().map(|cases| (here, cases)));
         }
