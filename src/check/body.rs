@@ -42,6 +42,11 @@ impl Bodies<'_> {
         self.open.iter().any(|open| !open.unrolls)
     }
 
+    /// Whether what is at hand belongs to an expression or a behaviour that is checked for itself.
+    pub fn of_any_reader(&self) -> bool {
+        self.open.iter().any(|open| !open.unrolls && !open.of_tree)
+    }
+
     /// Whether the body at hand is checked under arguments.
     pub fn is_unrolling(&self) -> bool {
         self.open.last().is_some_and(|open| open.unrolls)
@@ -59,6 +64,8 @@ pub struct Open<'a> {
     pub library: bool,
     /// Whether it is checked under arguments, not for itself.
     pub unrolls: bool,
+    /// Whether it is of a tree.
+    pub of_tree: bool,
 }
 
 impl<'a> Checker<'a> {
@@ -85,6 +92,7 @@ impl<'a> Checker<'a> {
             name: &body.name,
             library: false,
             unrolls: false,
+            of_tree: region == Region::Tree,
         };
         let ((), found) = self.within(open, context, pass);
         let clean = !found.iter().any(Diagnostic::is_error);
@@ -133,6 +141,7 @@ impl<'a> Checker<'a> {
             name,
             library,
             unrolls: true,
+            of_tree: region == Region::Tree,
         };
         let (result, found) = self.within(open, context, pass);
         let mut seen: Vec<(Code, String)> = Vec::new();

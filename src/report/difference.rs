@@ -93,7 +93,7 @@ impl Difference {
     pub fn headline(&self) -> String {
         let [old, new] = &self.names;
         let within = match self.by_predicates {
-            true => format!(", consistent {POSSIBLE}"),
+            true => format!(", consistent with {POSSIBLE}"),
             false => String::new(),
         };
         match &self.outcome {

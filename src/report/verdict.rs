@@ -68,8 +68,7 @@ pub fn text(
     };
     let mut window = window(program, history);
     if matches!(environment, Environment::Possible(..)) {
-        window.push_str(" and ");
-        window.push_str(POSSIBLE);
+        window = format!("{POSSIBLE} and {window}");
     }
     match (verdict, greedy) {
         (Verdict::Equal(explored), Some(policy)) if explored.transitions == 0 => format!(
@@ -153,7 +152,7 @@ pub fn onward(program: &Program, (left, right): (&Name, &Name), onward: &Onward)
 }
 
 /// What a verdict is consistent with where what cannot hold at once is left out.
-pub const POSSIBLE: &str = "with what the predicates compare";
+pub const POSSIBLE: &str = "what the predicates compare";
 
 /// The history window in words.
 fn window(program: &Program, history: History) -> String {

@@ -12,13 +12,15 @@ use proptest::sample::select;
 
 #[test]
 fn claims_are_answered() {
-    insta::glob!("../cases/verified", "*.bt", |path| {
-        let name = path.file_name().unwrap().to_str().unwrap();
-        let loaded = program::named(name, path);
-        let claims = verify::claims(&loaded).unwrap();
-        let told: Vec<String> = claims.into_iter().map(|proved| proved.text).collect();
-        let told = format!("{}{}\n", shown(&loaded), told.join("\n"));
-        insta::assert_snapshot!("verified", told);
+    crate::snapshot::settings().bind(|| {
+        insta::glob!("../cases/verified", "*.bt", |path| {
+            let name = path.file_name().unwrap().to_str().unwrap();
+            let loaded = program::named(name, path);
+            let claims = verify::claims(&loaded).unwrap();
+            let told: Vec<String> = claims.into_iter().map(|proved| proved.text).collect();
+            let told = format!("{}{}\n", shown(&loaded), told.join("\n"));
+            insta::assert_snapshot!("verified", told);
+        });
     });
 }
 
@@ -64,9 +66,12 @@ proptest! {
         for (at, condition) in conditions.iter().enumerate() {
             text.push_str(&format!("predicate p{at} = {condition}\n"));
         }
+        let asked: Vec<String> = (0..conditions.len()).map(|at| format!("p{at}")).collect();
+        text.push_str(&format!("behavior go\ntree all = sequence {{ {}, go }}\n", asked.join(", ")));
         let loaded = load("made.bt", text.clone().into(), &mut NoFiles);
         let program = &loaded.program;
         let atoms = program.predicates.ids().map(Atom::Predicate).collect();
+        prop_assert_eq!(program.predicates.ids().count(), conditions.len(), "{}", shown(&loaded));
         let excluded = exclusions(program, &atoms);
         let numbers = [f64::NEG_INFINITY, -1.0, 0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0, f64::INFINITY, f64::NAN];
         for x in numbers {
@@ -94,7 +99,8 @@ proptest! {
 fn what_excludes_one_another_is_found() {
     let text = "input x: length\ninput mode: {a, b, c}\n\
                 predicate is_a = mode == a\npredicate is_b = mode == b\npredicate is_c = mode == c\n\
-                predicate near = x < 1 m\npredicate nearer = x <= 50 cm\npredicate far = x > 2 m\n";
+                predicate near = x < 1 m\npredicate nearer = x <= 50 cm\npredicate far = x > 2 m\n\
+                behavior go\ntree all = sequence { is_a, is_b, is_c, near, nearer, far, go }\n";
     let loaded = load("made.bt", text.into(), &mut NoFiles);
     let program = &loaded.program;
     let atoms = program.predicates.ids().map(Atom::Predicate).collect();
@@ -150,5 +156,8 @@ fn changes_are_told_within_what_the_predicates_compare() {
         "has_parcel => deliver, fetch",
         "has_parcel and not has_express => hurry, fetch",
     );
-    insta::assert_snapshot!("changed_within_predicates", [turned, kept, changed].join("\n"));
+    crate::snapshot::check(
+        "changed_within_predicates",
+        &[turned, kept, changed].join("\n"),
+    );
 }

@@ -94,7 +94,7 @@ impl<'a> Checker<'a> {
             return of(world.robot_of(self.subject)).map(Value::Sensor);
         }
         let unread = self.names.value(name, self.context.library).is_none();
-        let unknown = unread && self.bodies.of_any_robot();
+        let unknown = unread && self.bodies.of_any_reader();
         let known = unknown
             && world
                 .others
@@ -207,7 +207,7 @@ impl<'a> Checker<'a> {
                 (Type::Wall(kind), id.map(Value::Wall))
             }
             Decl::Sensor(_) => {
-                let acting = self.subject == World::acting() || self.bodies.of_any_robot();
+                let acting = self.subject == World::acting() || self.bodies.for_itself();
                 if !acting {
                     return self.sensor_of_another(reference);
                 }

@@ -82,6 +82,9 @@ impl<'a> Checker<'a> {
         if items.any(uses) {
             return;
         }
+        if runs_something(root) && self.program.tasks.is_empty() {
+            return;
+        }
         if runs_something(root) {
             return self.stands_where_a_condition_holds(&tree.root, root);
         }

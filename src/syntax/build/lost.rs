@@ -135,7 +135,11 @@ impl Builder<'_> {
                 .iter()
                 .any(|words| words.contains(&word))
         };
-        if first.is_some_and(|word| word == "enum" || !of_this(word)) {
+        let at_margin = self
+            .text
+            .get(..range.start)
+            .is_some_and(|text| text.is_empty() || text.ends_with('\n'));
+        if first.is_some_and(|word| word == "enum" || at_margin && !of_this(word)) {
             let line_end = match first {
                 Some("enum") => range.end,
                 _ => self.line_end(range.start),
