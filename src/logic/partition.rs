@@ -22,27 +22,50 @@ pub enum Partition {
     },
 }
 
-/// The classes of rows, each divided by the atom that makes the parts least mixed; `None` if the account is spent.
-///
-/// A row that leaves the atom free goes to both parts.
-pub fn partition(
-    columns: &Columns,
-    classes: &[Bits],
-    impurity: Impurity,
-    account: &Account,
-) -> Option<Partition> {
-    let mut rows: Vec<Row> = Vec::new();
-    for (class, members) in (0..).zip(classes) {
-        rows.extend(members.iter().map(|number| Row { number, class }));
+impl Partition {
+    /// The number of parts that are not divided.
+    pub fn leaves(&self) -> usize {
+        match self {
+            Self::Leaf(_) => 1,
+            Self::Split { parts, .. } => parts.iter().map(Self::leaves).sum(),
+        }
     }
-    rows.sort_unstable_by_key(|row| row.number);
-    let search = Search {
-        columns,
-        turns: Turns::new(columns),
-        impurity,
-        account,
-    };
-    search.divide(&rows)
+}
+
+/// Rows of classes that are to be divided, by one measure or by several.
+pub struct Classified<'a> {
+    columns: &'a Columns,
+    turns: Turns,
+    rows: Vec<Row>,
+}
+
+impl<'a> Classified<'a> {
+    /// The rows of these classes.
+    pub fn new(columns: &'a Columns, classes: &[Bits]) -> Self {
+        let mut rows: Vec<Row> = Vec::new();
+        for (class, members) in (0..).zip(classes) {
+            rows.extend(members.iter().map(|number| Row { number, class }));
+        }
+        rows.sort_unstable_by_key(|row| row.number);
+        Self {
+            columns,
+            turns: Turns::new(columns),
+            rows,
+        }
+    }
+
+    /// The rows divided by the atom that makes the parts least mixed, and so on; `None` if the account is spent.
+    ///
+    /// A row that leaves the atom free goes to both parts.
+    pub fn partition(&self, impurity: Impurity, account: &Account) -> Option<Partition> {
+        let search = Search {
+            columns: self.columns,
+            turns: &self.turns,
+            impurity,
+            account,
+        };
+        search.divide(&self.rows)
+    }
 }
 
 /// On which sides of an atom a row is: where it is 0, where it is 1, or both where the row leaves it free.
@@ -140,8 +163,8 @@ struct Row {
 /// So many more rows of a class on each side of an atom than of the atom before.
 #[derive(Clone, Copy, Default)]
 struct Change {
-    atom: usize,
-    class: usize,
+    atom: u32,
+    class: u32,
     zero: i32,
     one: i32,
 }
@@ -155,7 +178,7 @@ impl Change {
 
 struct Search<'a> {
     columns: &'a Columns,
-    turns: Turns,
+    turns: &'a Turns,
     impurity: Impurity,
     account: &'a Account,
 }
@@ -175,7 +198,8 @@ impl Search<'_> {
         }
         let turns = rows.iter().map(|row| self.turns.of(row.number).len());
         let turns: usize = turns.sum();
-        self.account.spend((8 * rows.len() + 4 * turns) as u64);
+        // The turns are sorted.
+        self.account.spend((8 * rows.len() + 12 * turns) as u64);
         if self.account.is_spent() {
             return None;
         }
@@ -205,14 +229,14 @@ impl Search<'_> {
         let changes = self.changes(rows, local, classes, turns);
         for changes in changes.chunk_by(|a, b| a.atom == b.atom) {
             for change in changes {
-                zero.change(change.class, change.zero);
-                one.change(change.class, change.one);
+                zero.change(change.class as usize, change.zero);
+                one.change(change.class as usize, change.one);
             }
             // Some rows are on one side only, and some on the other.
             let divides = zero.total() < total && one.total() < total;
             let mixed = zero.mixed() + one.mixed();
             if divides && best.is_none_or(|(least, _)| Impurity::better(mixed, least)) {
-                best = changes.first().map(|change| (mixed, change.atom));
+                best = changes.first().map(|change| (mixed, change.atom as usize));
             }
         }
         best.map(|(_, atom)| atom)
@@ -224,8 +248,8 @@ impl Search<'_> {
             let turns = self.turns.of(row.number).iter();
             turns.scan(BEFORE, move |from, (atom, to)| {
                 let mut change = Change {
-                    atom: *atom as usize,
-                    class: *class,
+                    atom: *atom,
+                    class: *class as u32,
                     ..Change::default()
                 };
                 change.turn(std::mem::replace(from, *to), *to);
@@ -240,7 +264,7 @@ impl Search<'_> {
         }
         let mut sums = vec![[0_i32; 2]; cells];
         for change in all {
-            if let Some([zero, one]) = sums.get_mut(change.atom * classes + change.class) {
+            if let Some([zero, one]) = sums.get_mut(change.atom as usize * classes + change.class as usize) {
                 *zero += change.zero;
                 *one += change.one;
             }
@@ -248,8 +272,8 @@ impl Search<'_> {
         let sums = sums.into_iter().enumerate();
         let changed = sums.filter(|(_, sum)| *sum != [0, 0]);
         let changed = changed.map(|(cell, [zero, one])| Change {
-            atom: cell / classes,
-            class: cell % classes,
+            atom: (cell / classes) as u32,
+            class: (cell % classes) as u32,
             zero,
             one,
         });

@@ -154,10 +154,9 @@ pub fn decanonicalise(policy: &Policy, options: &Options) -> Result<Decanonicali
     let by_paper = || paper::tree(&Minimiser::new(&problem, Account::unlimited()));
     let found = match (options.method, options.order) {
         (Method::Paper, _) => {
-            let paper = by_paper();
             Found {
-                tree: paper.clone(),
-                paper,
+                tree: None,
+                paper: by_paper(),
                 unfinished: Vec::new(),
             }
         }
@@ -169,11 +168,18 @@ pub fn decanonicalise(policy: &Policy, options: &Options) -> Result<Decanonicali
         },
     };
     let paper_size = found.paper.as_ref().map(Size::of);
-    let root = found.tree.or_else(by_paper).ok_or(Refuted::Undecided)?;
-    let proof = match &split {
+    let (root, proof) = match found.tree {
+        Some((root, proof)) => (root, Some(proof)),
+        None => {
+            let paper = found.paper.or_else(by_paper);
+            (paper.ok_or(Refuted::Undecided)?, None)
+        }
+    };
+    let proof = match (&split, proof) {
         // What was found on minterms is proved on the cubes.
-        Some(_) => Prover::new(policy).prove(&root)?,
-        None => problem.prover().prove(&root)?,
+        (Some(_), _) => Prover::new(policy).prove(&root)?,
+        (None, Some(proof)) => proof,
+        (None, None) => problem.prover().prove(&root)?,
     };
     Ok(Decanonicalised {
         size: Size::of(&root),

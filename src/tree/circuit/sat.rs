@@ -78,6 +78,12 @@ impl Solver {
         }
     }
 
+    /// How many of the clauses that it has learned were checked.
+    #[cfg(test)]
+    pub(in crate::tree) fn checked(&self) -> usize {
+        self.proof.borrow().checked
+    }
+
     /// Whether all of the signals can hold together.
     ///
     /// # Errors

@@ -15,7 +15,7 @@ use super::subunit::behaviors;
 use crate::ir::tree::Node;
 use crate::logic::covering::{Known, List, grouped, lists};
 use crate::logic::impurity::Impurity;
-use crate::logic::partition::{Partition, partition};
+use crate::logic::partition::{Classified, Partition};
 use crate::logic::{Account, Bits, Cover, Cube, Order};
 use crate::policy::Policy;
 use crate::tree::Size;
@@ -33,6 +33,11 @@ pub(super) const REACH: u64 = 60_000;
 const QUICK: usize = 40;
 pub(super) const THOROUGH: usize = 3000;
 
+/// How often a table is read before there is a tree.
+const READS: u64 = 4;
+/// The words that it takes to prove and to print what becomes of one leaf of a partition.
+const NODE: u64 = 1500;
+
 /// Partitions of all rows, and the trees that they come to.
 pub(super) struct Held {
     partitions: Vec<Partition>,
@@ -40,15 +45,24 @@ pub(super) struct Held {
 }
 
 /// Partitions by each measure. Only rows with many free atoms may spend an account before there is one.
+///
+/// The table and the first tree have their price whatever is allowed, as have the proof and the print of that tree: so a large table
+/// leaves less to the search.
 pub(super) fn held(problem: &Problem, account: &Account) -> Held {
-    let classes = problem.classes();
-    let unlimited = Account::unlimited();
-    let partitions = Impurity::ALL.into_iter().filter_map(|impurity| {
-        let first = impurity == Impurity::Gini && !problem.wide;
-        let account = if first { &unlimited } else { account };
-        partition(problem.columns(), &classes, impurity, account)
-    });
-    let partitions: Vec<Partition> = partitions.collect();
+    let columns = problem.columns();
+    account.spend(READS * (columns.atoms() * columns.rows()) as u64 / 64);
+    let classified = Classified::new(columns, &problem.classes());
+    let by = |impurity: Impurity| {
+        if problem.wide || impurity != Impurity::Gini {
+            return classified.partition(impurity, account);
+        }
+        let unlimited = Account::unlimited();
+        let partition = classified.partition(impurity, &unlimited);
+        account.settle(&unlimited);
+        account.spend(NODE * partition.as_ref().map_or(0, Partition::leaves) as u64);
+        partition
+    };
+    let partitions: Vec<Partition> = Impurity::ALL.into_iter().filter_map(by).collect();
     let trees = partitions.iter().map(|p| parted::plain(problem, p).node());
     Held {
         trees: trees.collect(),
@@ -58,6 +72,9 @@ pub(super) fn held(problem: &Problem, account: &Account) -> Held {
 
 /// Trees that are right on all rows, with groups if they are to be tight.
 pub(super) fn trees(problem: &Problem, held: &Held, tight: bool, account: &Account) -> Vec<Node> {
+    if account.is_spent() {
+        return Vec::new();
+    }
     let mut known = Known::default();
     if problem.policy.rows.len() <= WHOLE || problem.wide {
         let mut found = divided(problem, held, account);

@@ -16,7 +16,7 @@ use super::problem::Problem;
 use super::share::shared;
 use super::subunit::{Subunit, behaviors};
 use super::windows::Windows;
-use super::{Stage, paper};
+use super::{Proof, Stage, paper};
 use crate::ir::tree::Node;
 use crate::logic::{Account, Cover, Order};
 use crate::tree::Size;
@@ -27,11 +27,13 @@ const PROOFS: usize = 256;
 
 /// The trees whose windows are looked at, smallest first.
 const TIGHT: usize = 8;
+/// The most nodes of a tree whose windows are looked at.
+const WINDOWED: usize = 2000;
 
 /// What a search came to.
 pub(super) struct Found {
-    /// The smallest tree that was found and proved.
-    pub(super) tree: Option<Node>,
+    /// The smallest tree that was found, with its proof.
+    pub(super) tree: Option<(Node, Proof)>,
     /// The tree of Algorithm 1, if it was run to its end.
     pub(super) paper: Option<Node>,
     /// What was left unfinished because the effort was spent.
@@ -39,7 +41,7 @@ pub(super) struct Found {
 }
 
 /// A tree in a wanted order.
-pub(super) fn ordered(problem: &Problem, order: Order, account: &Account) -> Option<Node> {
+pub(super) fn ordered(problem: &Problem, order: Order, account: &Account) -> Option<(Node, Proof)> {
     let minimiser = Minimiser::new(problem, Account::unlimited());
     let mut found: Vec<(Size, Node)> = Vec::new();
     for subunits in configurations(&Minimiser::new(problem, account.part(2))) {
@@ -96,17 +98,18 @@ pub(super) fn tree(problem: &Problem, is_tight: bool, account: &Account) -> Foun
     if half.is_spent() || parts.iter().any(|(_, part)| part.is_spent()) {
         unfinished.push(Stage::Search);
     }
-    let sized = match is_tight {
+    let trees = match is_tight {
         true => tightened(problem, trees, account),
         false => sized(trees),
     };
-    let mut tree = smallest(problem, sized);
+    let mut tree = smallest(problem, trees);
     if tree.is_none() {
         // No partition of rows that leave atoms free.
         let minimiser = Minimiser::new(problem, Account::unlimited());
         let subunits = behaviors(problem);
         let list = in_order(&minimiser, &subunits, Order::Learned);
-        tree = list.map(|list| listed(&minimiser, &subunits, &list));
+        let listed = list.map(|list| listed(&minimiser, &subunits, &list));
+        tree = smallest(problem, sized(listed.into_iter().collect()));
     }
     Found {
         tree,
@@ -129,6 +132,7 @@ fn tightened(problem: &Problem, trees: Vec<Node>, account: &Account) -> Vec<(Siz
     let mut windows = Windows::new(problem, &part);
     let smallest = found.iter().take(TIGHT);
     let tight: Vec<Node> = smallest
+        .filter(|(size, _)| size.nodes <= WINDOWED)
         .filter_map(|(_, tree)| windows.tightened(tree))
         .collect();
     account.settle(&part);
@@ -137,12 +141,15 @@ fn tightened(problem: &Problem, trees: Vec<Node>, account: &Account) -> Vec<(Siz
 }
 
 /// The smallest of these that is proved.
-fn smallest(problem: &Problem, mut found: Vec<(Size, Node)>) -> Option<Node> {
+fn smallest(problem: &Problem, mut found: Vec<(Size, Node)>) -> Option<(Node, Proof)> {
     // Stable: of equal sizes the first found stands first.
     found.sort_by_key(|(size, _)| *size);
     found.dedup_by(|a, b| a.1 == b.1);
-    let mut smallest = found.into_iter().take(PROOFS).map(|(_, node)| node);
-    smallest.find(|node| problem.proves(node))
+    let mut smallest = found.into_iter().take(PROOFS);
+    smallest.find_map(|(_, node)| {
+        let proof = problem.prover().prove(&node).ok()?;
+        Some((node, proof))
+    })
 }
 
 /// Trees over the subunits of one configuration with memory nodes.

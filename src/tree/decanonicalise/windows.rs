@@ -20,8 +20,6 @@ const KINDS: usize = 12;
 const CHILDREN: usize = 8;
 /// One window may take this part of what is left.
 const WINDOWS: u64 = 16;
-/// The most nodes of a tree that is looked at.
-const NODES: usize = 2000;
 
 /// Whether a tree is made of selectors, units and behaviours alone.
 fn is_plain(node: &Node) -> bool {
@@ -57,7 +55,7 @@ impl<'a, 'p> Windows<'a, 'p> {
     /// The tree with every window as small as it can be, as far as the account goes; `None` if that is no smaller. A tree with
     /// memory is left as it is.
     pub(super) fn tightened(&mut self, tree: &Node) -> Option<Node> {
-        if self.problem.wide || !is_plain(tree) || Size::of(tree).nodes > NODES {
+        if self.problem.wide || !is_plain(tree) {
             return None;
         }
         let all = self.problem.all();

@@ -6,6 +6,8 @@
 
 mod onward;
 mod pairs;
+#[cfg(test)]
+mod proved;
 
 use super::unfold::Unfolded;
 use super::window::{Termination, Window, enter};
@@ -34,18 +36,7 @@ pub(super) fn explore(
     (history, excluded): (History, &[Exclusion]),
     may_fail: MayFail,
 ) -> Result<(Verdict, Onward), Unknown> {
-    let mut asked = atoms(left);
-    asked.extend(atoms(right));
-    let asked: Vec<Atom> = asked.into_iter().collect();
-    let tree = |root| CompiledTree::new(root, &asked).map_err(Unknown);
-    let trees = [tree(left)?, tree(right)?];
-    let mut search = SymbolicSearch {
-        pairs: Pairs::new(asked, trees, history, excluded),
-        solver: Solver::new(DECISIONS),
-        reached: Vec::new(),
-        known: FxHashSet::default(),
-        explored: Explored::default(),
-    };
+    let mut search = SymbolicSearch::new((left, right), (history, excluded))?;
     Ok(match search.run() {
         Ok(Some(trace)) => (Verdict::Differ(trace), Onward::Undecided),
         Ok(None) if !behaviors(left).into_iter().any(may_fail) => {
@@ -85,6 +76,24 @@ struct SymbolicSearch {
 }
 
 impl SymbolicSearch {
+    fn new(
+        (left, right): (&Node, &Node),
+        (history, excluded): (History, &[Exclusion]),
+    ) -> Result<Self, Unknown> {
+        let mut asked = atoms(left);
+        asked.extend(atoms(right));
+        let asked: Vec<Atom> = asked.into_iter().collect();
+        let tree = |root| CompiledTree::new(root, &asked).map_err(Unknown);
+        let trees = [tree(left)?, tree(right)?];
+        Ok(Self {
+            pairs: Pairs::new(asked, trees, history, excluded),
+            solver: Solver::new(DECISIONS),
+            reached: Vec::new(),
+            known: FxHashSet::default(),
+            explored: Explored::default(),
+        })
+    }
+
     /// The shortest trace on which the trees part.
     fn run(&mut self) -> Result<Option<Trace>, Exhausted> {
         let fresh = self.pairs.fresh();
