@@ -153,13 +153,11 @@ pub fn decanonicalise(policy: &Policy, options: &Options) -> Result<Decanonicali
     let account = Account::new(options.effort.saturating_mul(EFFORT));
     let by_paper = || paper::tree(&Minimiser::new(&problem, Account::unlimited()));
     let found = match (options.method, options.order) {
-        (Method::Paper, _) => {
-            Found {
-                tree: None,
-                paper: by_paper(),
-                unfinished: Vec::new(),
-            }
-        }
+        (Method::Paper, _) => Found {
+            tree: None,
+            paper: by_paper(),
+            unfinished: Vec::new(),
+        },
         (Method::Search, Order::Learned) => search::tree(&problem, options.tight, &account),
         (Method::Search, order) => Found {
             tree: search::ordered(&problem, order, &account),

@@ -48,7 +48,9 @@ fn pair(seed: u64, memory: bool, changed: Option<usize>) -> [Node; 2] {
         rules.push((guard, body));
     }
     let last = Node::Behavior(Id::new(3));
-    let units = rules.iter().map(|(guard, body)| guarded(guard.clone(), body.clone()));
+    let units = rules
+        .iter()
+        .map(|(guard, body)| guarded(guard.clone(), body.clone()));
     let left = selector(units.chain([last.clone()]));
     let mut right = last;
     for (at, (guard, body)) in rules.into_iter().enumerate().rev() {
