@@ -46,8 +46,8 @@ pub(super) struct Held {
 
 /// Partitions by each measure. Only rows with many free atoms may spend an account before there is one.
 ///
-/// The table and the first tree have their price whatever is allowed, as have the proof and the print of that tree: so a large table
-/// leaves less to the search.
+/// The table has its price whatever is allowed, as have the proof and the print of the first tree: so a large table leaves less to the
+/// search.
 pub(super) fn held(problem: &Problem, account: &Account) -> Held {
     let columns = problem.columns();
     account.spend(READS * (columns.atoms() * columns.rows()) as u64 / 64);
@@ -56,9 +56,7 @@ pub(super) fn held(problem: &Problem, account: &Account) -> Held {
         if problem.wide || impurity != Impurity::Gini {
             return classified.partition(impurity, account);
         }
-        let unlimited = Account::unlimited();
-        let partition = classified.partition(impurity, &unlimited);
-        account.settle(&unlimited);
+        let partition = classified.partition(impurity, &Account::unlimited());
         account.spend(NODE * partition.as_ref().map_or(0, Partition::leaves) as u64);
         partition
     };
