@@ -176,9 +176,6 @@ impl Change {
     }
 }
 
-/// The words that it takes to read a turn that is sorted.
-const SORTED: usize = 12;
-
 struct Search<'a> {
     columns: &'a Columns,
     turns: &'a Turns,
@@ -201,12 +198,7 @@ impl Search<'_> {
         }
         let turns = rows.iter().map(|row| self.turns.of(row.number).len());
         let turns: usize = turns.sum();
-        let each = if self.sorts(classes, turns) {
-            SORTED
-        } else {
-            4
-        };
-        self.account.spend((8 * rows.len() + each * turns) as u64);
+        self.account.spend((8 * rows.len() + 4 * turns) as u64);
         if self.account.is_spent() {
             return None;
         }
@@ -249,11 +241,6 @@ impl Search<'_> {
         best.map(|(_, atom)| atom)
     }
 
-    /// Whether so many turns are sorted; else they are counted, by atom and class.
-    fn sorts(&self, classes: usize, turns: usize) -> bool {
-        classes * self.columns.atoms() > 2 * turns
-    }
-
     /// The changes from each atom to the next, in the order of the atoms.
     fn changes(&self, rows: &[Row], local: &[usize], classes: usize, turns: usize) -> Vec<Change> {
         let all = rows.iter().zip(local).flat_map(|(row, class)| {
@@ -269,7 +256,7 @@ impl Search<'_> {
             })
         });
         let cells = classes * self.columns.atoms();
-        if self.sorts(classes, turns) {
+        if cells > 2 * turns {
             let mut all: Vec<Change> = all.collect();
             all.sort_unstable_by_key(|change| (change.atom, change.class));
             return all;

@@ -4,9 +4,6 @@ use crate::logic::account::Account;
 use crate::logic::bits::Bits;
 use crate::logic::columns::Columns;
 
-/// The words that it takes to make a set of rows, whatever is in it.
-const SET: usize = 8;
-
 pub(super) struct Table {
     pub(super) columns: Columns,
     /// The classes that have rows here, with these.
@@ -40,8 +37,7 @@ impl Table {
         let classes: Vec<(usize, Bits)> = classes
             .map(|(number, members)| (number, own(members)))
             .collect();
-        let sets = 4 + columns.atoms() + classes.len();
-        account.spend((sets * (rows.len() + SET)) as u64);
+        account.spend(((4 + columns.atoms() + classes.len()) * rows.len()) as u64);
         Self {
             columns: columns.pick(&rows),
             classes,

@@ -33,10 +33,11 @@ pub(super) const REACH: u64 = 60_000;
 const QUICK: usize = 40;
 pub(super) const THOROUGH: usize = 3000;
 
-/// How often a table is read before there is a tree.
+/// Tables of more rows have a price, and so have the proof and the print of their first tree: the words that are read of the table
+/// before there is a tree, and those that it takes to prove and print what becomes of one leaf.
+const PRICED: usize = 16_384;
 const READS: u64 = 4;
-/// The words that it takes to prove and to print what becomes of one leaf of a partition.
-const NODE: u64 = 1500;
+const LEAF: u64 = 2500;
 
 /// Partitions of all rows, and the trees that they come to.
 pub(super) struct Held {
@@ -46,18 +47,20 @@ pub(super) struct Held {
 
 /// Partitions by each measure. Only rows with many free atoms may spend an account before there is one.
 ///
-/// The table has its price whatever is allowed, as have the proof and the print of the first tree: so a large table leaves less to the
-/// search.
+/// Of a large table its own price is paid whatever is allowed, so that less is left to the search.
 pub(super) fn held(problem: &Problem, account: &Account) -> Held {
     let columns = problem.columns();
-    account.spend(READS * (columns.atoms() * columns.rows()) as u64 / 64);
     let classified = Classified::new(columns, &problem.classes());
     let by = |impurity: Impurity| {
         if problem.wide || impurity != Impurity::Gini {
             return classified.partition(impurity, account);
         }
         let partition = classified.partition(impurity, &Account::unlimited());
-        account.spend(NODE * partition.as_ref().map_or(0, Partition::leaves) as u64);
+        if columns.rows() > PRICED {
+            let leaves = partition.as_ref().map_or(0, Partition::leaves) as u64;
+            let words = (columns.atoms() * columns.rows()) as u64 / 64;
+            account.spend(READS * words + LEAF * leaves);
+        }
         partition
     };
     let partitions: Vec<Partition> = Impurity::ALL.into_iter().filter_map(by).collect();
