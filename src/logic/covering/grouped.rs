@@ -88,15 +88,13 @@ pub fn grouped(
     known: &mut Known,
     account: &Account,
 ) -> Option<Grouped> {
-    let sought = known.sought;
-    known.sought += 1;
     let mut search = Search {
         columns,
         classes,
         reach,
         known,
         account,
-        random: Random::new(sought),
+        random: Random::new(0),
         passes: false,
     };
     let all = Bits::full(columns.rows());
@@ -109,7 +107,7 @@ pub fn grouped(
         if account.is_spent() || vain > VAIN {
             break;
         }
-        search.passes = sought > 0 || attempt > 0;
+        search.passes = attempt > 0;
         let found = search.divided(&all, list.clone(), DEPTH);
         vain += 1;
         if best

@@ -35,8 +35,6 @@ pub struct Known {
     pub cubes: Vec<Cube>,
     /// The best list.
     pub list: Option<List>,
-    /// How often groups were sought: each time other divisions are passed over.
-    pub sought: u64,
 }
 
 /// The smallest lists that are found within the account before `patience` attempts find no smaller one, the best last.
@@ -67,7 +65,6 @@ pub fn lists(
     *known = Known {
         cubes: search.pool.cubes(),
         list: search.kept.last().cloned(),
-        sought: known.sought,
     };
     search.kept
 }

@@ -77,14 +77,13 @@ impl<'a> Core<'a> {
 
     /// Solves the core and adds rows for which the cover is wrong; true if there are none, `None` if the account is spent.
     pub(in crate::logic) fn refine(&mut self, account: &Account) -> Option<bool> {
-        // Single bits are gathered.
-        let bits = self.core_on.count() + self.core_off.count();
-        account.spend((bits * self.columns.atoms()) as u64);
         if account.is_spent() {
             return None;
         }
         let rows = |bits: &Bits| bits.iter().collect::<Vec<usize>>();
         let instance = Instance::new(self.columns, &rows(&self.core_on), &rows(&self.core_off));
+        // Single bits are gathered.
+        account.spend((instance.rows() * self.columns.atoms()) as u64);
         self.solution = solve(&instance, self.effort, account)?;
         self.rounds += 1;
         let cover = &self.solution.cover;

@@ -55,8 +55,10 @@ pub(super) fn held(problem: &Problem, account: &Account) -> Held {
         if problem.wide || impurity != Impurity::Gini {
             return classified.partition(impurity, account);
         }
-        let partition = classified.partition(impurity, &Account::unlimited());
+        let unlimited = Account::unlimited();
+        let partition = classified.partition(impurity, &unlimited);
         if columns.rows() > PRICED {
+            account.settle(&unlimited);
             let leaves = partition.as_ref().map_or(0, Partition::leaves) as u64;
             let words = (columns.atoms() * columns.rows()) as u64 / 64;
             account.spend(READS * words + LEAF * leaves);
@@ -83,21 +85,14 @@ pub(super) fn trees(problem: &Problem, held: &Held, tight: bool, account: &Accou
         return found;
     }
     let mut core = Core::first(problem);
-    let mut listed = None;
-    // All else begins with a list that is right on all rows: where half of the account does not suffice, half of what is left.
-    for _ in 0..2 {
-        let part = account.part(2);
-        listed = core.lists(&mut known, &part);
-        account.settle(&part);
-        if !part.is_spent() || !matches!(&listed, Some(lists) if lists.is_empty()) {
-            break;
-        }
-    }
+    let part = account.part(2);
+    let listed = core.lists(&mut known, &part);
+    account.settle(&part);
     let mut found: Vec<Node> = Vec::new();
     if let Some(lists) = &listed {
         let listed = |list: &List| Children::listed(problem, list).node();
         found.extend(lists.iter().map(listed));
-        let grouped = tight.then(|| in_groups(problem, lists, &mut known, account, 3));
+        let grouped = tight.then(|| in_groups(problem, lists, &mut known, account));
         found.extend(grouped.flatten().map(|(node, _)| node));
     }
     // A list of classes looks at a core of its own for each class.
@@ -107,27 +102,13 @@ pub(super) fn trees(problem: &Problem, held: &Held, tight: bool, account: &Accou
     found.extend(list.map(|list| shared(in_place(&minimiser, &subunits, &list))));
     account.settle(&minimiser.account);
     found.extend(divided(problem, held, account));
-    let Some(lists) = listed else {
+    if listed.is_none() {
         return found;
-    };
-    found.extend(on_cores(&mut core, &mut known, tight, account));
-    if tight {
-        // What the others have left, but for what tightens the trees.
-        let rest = Account::new(account.left() / 4 * 3);
-        let grouped = in_groups(problem, &lists, &mut known, &rest, 1);
-        account.settle(&rest);
-        found.extend(grouped.map(|(node, _)| node));
     }
-    found
-}
-
-/// Trees by all methods at once on cores that grow until the best tree is right on all rows.
-fn on_cores(core: &mut Core, known: &mut Known, tight: bool, account: &Account) -> Vec<Node> {
-    let mut found = Vec::new();
     while core.rows.count() <= SEARCHED {
         let policy = core.policy();
         let part = account.part(2);
-        let mut best = searched(&Problem::new(&policy), known, tight, &part);
+        let mut best = searched(&Problem::new(&policy), &mut known, tight, &part);
         account.settle(&part);
         best.sort_by_key(Size::of);
         best.truncate(TRIED);
@@ -148,18 +129,17 @@ fn on_cores(core: &mut Core, known: &mut Known, tight: bool, account: &Account) 
     found
 }
 
-/// The best grouped list from these lists, and its cubes, within one of so many parts of what is left.
+/// The best grouped list from these lists, and its cubes.
 fn in_groups(
     problem: &Problem,
     lists: &[List],
     known: &mut Known,
     account: &Account,
-    parts: usize,
 ) -> Option<(Node, Vec<Cube>)> {
     if problem.wide {
         return None;
     }
-    let part = account.part(parts);
+    let part = account.part(3);
     let (columns, classes) = (problem.columns(), problem.classes());
     let best = known.list.take();
     let found = grouped(columns, &classes, lists, REACH, known, &part);
@@ -280,7 +260,7 @@ fn searched(problem: &Problem, known: &mut Known, tight: bool, account: &Account
     let (columns, classes) = (problem.columns(), problem.classes());
     let ruled: Vec<List> = lists(columns, &classes, REACH, THOROUGH, known, &part);
     account.settle(&part);
-    let in_groups = tight.then(|| in_groups(problem, &ruled, known, account, 3));
+    let in_groups = tight.then(|| in_groups(problem, &ruled, known, account));
     let in_groups = in_groups.flatten();
     let orders = [Order::Learned, Order::Given, Order::Rarest];
     let minimisers = orders.map(|_| Minimiser::new(problem, account.part(6)));
