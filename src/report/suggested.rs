@@ -58,10 +58,20 @@ pub struct Report<'a> {
 }
 
 impl Report<'_> {
-    /// What holds, the greatest gain first.
+    /// What holds, the greatest gain first; before it one that the program declares, if its gain may be as great.
     fn held(&self) -> Vec<&Tried> {
         let mut held: Vec<&Tried> = self.tried.iter().filter(|tried| tried.holds()).collect();
         held.sort_by(|a, b| b.duel.gain.mean.total_cmp(&a.duel.gain.mean));
+        let bounds = |tried: &Tried| tried.duel.gain.ci95;
+        if let Some([least, _]) = held.first().map(|best| bounds(best)) {
+            let declared = |tried: &&Tried| {
+                let [_, most] = bounds(tried);
+                tried.item.is_none() && most >= least
+            };
+            if let Some(at) = held.iter().position(declared) {
+                held.get_mut(..=at).unwrap_or_default().rotate_right(1);
+            }
+        }
         held
     }
 
