@@ -8,7 +8,7 @@ use crate::ir::tree::{Atom, Composite, Guard, Node};
 use crate::tree::guard::{and, not, or};
 use crate::tree::unit::{guarded, selector};
 
-const ATOMS: usize = 26;
+const ATOMS: usize = 60;
 
 /// Numbers below a bound, the same for each seed.
 fn drawn(seed: u64) -> impl FnMut(usize) -> usize {
