@@ -116,9 +116,9 @@ impl<'a> Checker<'a> {
             ) => (children, nodes, *kind),
             _ => return,
         };
-        let children = children.iter().zip(nodes);
+        let mut children = children.iter().zip(nodes);
         if kind == Composite::Sequence {
-            if let Some((written, node)) = children.last() {
+            if let Some((written, node)) = children.next_back() {
                 self.stands_where_a_condition_holds(written, node);
             }
             return;

@@ -149,7 +149,7 @@ impl Place<'_> {
         let begins = matches!(opens.of(self.text), "(" | ",");
         let declares = self.expects(Rule::colon) && is_word(ty) && is_word(self.found);
         let ends = matches!(self.after_found(), ")" | "," | "=");
-        if !(begins && declares && ends) || !self.same_line_as_before() {
+        if !(begins && declares && ends && self.same_line_as_before()) {
             return None;
         }
         let span = self.span_of(ty).to(self.span());
