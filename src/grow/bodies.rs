@@ -89,12 +89,11 @@ fn conditions<W: World>(
     let mut left: Vec<Tried> = rows
         .filter_map(|(row, key)| {
             let cell = evidence.cells(row).get(choice)?;
-            // Minterms count alike, however often a good tree comes by.
-            let all = cell.count.min(KNOWN);
-            (all > 0.0).then_some(Tried {
+            let refused = cell.refused() * cell.count;
+            (cell.count > 0.0).then_some(Tried {
                 key: *key,
-                all,
-                refused: cell.refused() * all,
+                all: cell.count,
+                refused,
             })
         })
         .collect();
