@@ -31,7 +31,7 @@ pub const ASPECTS: [&str; 7] = [
 ];
 
 /// The behaviours of the library.
-pub(super) const DRIVING: [&str; 12] = [
+pub const DRIVING: [&str; 12] = [
     "goto",
     "approach",
     "chase",

@@ -11,22 +11,7 @@ use crate::ir::task::Task;
 use crate::ir::{Id, Name};
 use crate::spelling::spelled;
 use crate::syntax::ast::{Expr, ExprKind, Ident, Ref};
-
-/// The behaviours of the library.
-const LIBRARY: [&str; 12] = [
-    "goto",
-    "approach",
-    "chase",
-    "follow",
-    "flee",
-    "patrol",
-    "turn_to",
-    "dock",
-    "follow_wall",
-    "wander",
-    "idle",
-    "wait",
-];
+use crate::syntax::words::DRIVING;
 
 impl<'a> Checker<'a> {
     /// The declaration of a value's name as seen from the text at hand, with whether it is of the library.
@@ -222,7 +207,7 @@ impl<'a> Checker<'a> {
     fn lacks_library(&self, name: &str) -> bool {
         let idle = self.names.value("idle", true);
         let used = idle.is_some_and(|(_, library)| library);
-        !used && LIBRARY.contains(&name)
+        !used && DRIVING.contains(&name)
     }
 
     /// Reports, once, that the program does not use the library.
@@ -389,7 +374,7 @@ fn hint(name: &str, what: &str) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::LIBRARY;
+    use super::DRIVING;
     use crate::source::FileId;
     use crate::syntax::ast::ItemKind;
     use crate::syntax::parse;
@@ -401,6 +386,6 @@ mod tests {
             ItemKind::Behavior(behavior) => Some(behavior.name.name.as_str()),
             _ => None,
         });
-        assert_eq!(behaviors.collect::<Vec<_>>(), LIBRARY);
+        assert_eq!(behaviors.collect::<Vec<_>>(), DRIVING);
     }
 }

@@ -198,10 +198,7 @@ fn the_compiled_tree_ticks_as_the_naive_one() {
     for seed in 1..=500 {
         let random = &mut Random::new(seed);
         let root = any_node(random, 4);
-        let atoms: Vec<Atom> = (0..70)
-            .map(|i| Atom::Predicate(Id::new(i)))
-            .chain([Atom::Done(Id::new(0))])
-            .collect();
+        let atoms = asked();
         let mut runner = Runner::new(&root, &atoms).unwrap();
         let mut keyed = runner.clone();
         let mut memory = Memory::new();
@@ -258,10 +255,7 @@ fn a_batch_answers_in_each_row_as_a_fresh_runner() {
     for seed in 1..=300 {
         let random = &mut Random::new(seed);
         let root = any_node(random, 4);
-        let atoms: Vec<Atom> = (0..70)
-            .map(|i| Atom::Predicate(Id::new(i)))
-            .chain([Atom::Done(Id::new(0))])
-            .collect();
+        let atoms = asked();
         let keys: Vec<u128> = (0..1 + random.below(2 * Rows::MOST))
             .map(|_| u128::from(random.next() & random.next()) | u128::from(random.next()) << 64)
             .collect();
@@ -319,6 +313,12 @@ fn a_batch_answers_in_each_row_as_a_fresh_runner() {
             "seed {seed}: {root:?}"
         );
     }
+}
+
+/// What [`any_node`] asks.
+fn asked() -> Vec<Atom> {
+    let predicates = (0..70).map(|i| Atom::Predicate(Id::new(i)));
+    predicates.chain([Atom::Done(Id::new(0))]).collect()
 }
 
 /// Any tree over 70 predicates, `done(0)` and five behaviours.
