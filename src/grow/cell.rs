@@ -1,7 +1,7 @@
 //! What is counted of one choice in one minterm, and what is to be expected of it.
 
-use super::gathered::Taken;
 use crate::learn::solve::Outlook;
+use crate::trial::decisions::Taken;
 use serde::{Deserialize, Serialize};
 
 /// The most that a cell counts: beyond, older decisions make room. Where counts fade everywhere, what is seldom visited

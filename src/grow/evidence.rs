@@ -2,12 +2,13 @@
 
 pub use super::cell::{Cell, KNOWN, Sight};
 use super::cell::{Hazard, MOST};
-use super::gathered::{Excursion, Gathered, Taken};
+use super::gathered::{Excursion, Gathered};
 use super::ground::Ground;
 use crate::learn::discount::Discounting;
 use crate::learn::episode::Controller;
 use crate::learn::process::{End, Key, World};
 use crate::learn::solve::{Problem, Solution};
+use crate::trial::decisions::Taken;
 use crate::world::Start;
 use rustc_hash::FxHashMap;
 use serde::{Deserialize, Serialize};
@@ -145,9 +146,7 @@ impl Evidence {
             episodes += gathered.len() as u64;
             for gathered in gathered {
                 used += gathered.ticks;
-                for taken in &gathered.taken {
-                    self.count(taken);
-                }
+                self.count_all(&gathered.taken);
                 if let (Some(first), true) =
                     (gathered.visits.first(), start.lines == ground.start.lines)
                 {
@@ -162,6 +161,11 @@ impl Evidence {
             *count /= episodes as f64;
         }
         (visits, used)
+    }
+
+    /// Counts the decisions of an episode.
+    pub fn count_all(&mut self, taken: &[Taken]) {
+        taken.iter().for_each(|taken| self.count(taken));
     }
 
     /// Counts a decision.

@@ -10,33 +10,13 @@ use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::{Node, Status};
 use crate::learn::episode::Controller;
-use crate::learn::process::{Earned, End, Key, Process, World};
+use crate::learn::process::{End, Key, Process, World};
 use crate::random::Random;
 use crate::tree::Runner;
+use crate::trial::decisions::{Driver, Taken, Watched};
 use crate::trial::play::Ticked;
-use crate::world::{self, Start, Tick};
+use crate::world::Start;
 use rayon::prelude::*;
-
-/// A decision with its outcome.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Taken {
-    pub(super) from: Key,
-    pub(super) choice: usize,
-    pub(super) to: Key,
-    pub(super) reward: f64,
-    pub(super) ticks: u64,
-    pub(super) status: Status,
-    pub(super) end: End,
-    /// Whether something went wrong, see [`Ground::harm`].
-    pub(super) harmed: bool,
-}
-
-impl Taken {
-    /// Whether it failed in its first tick.
-    pub(super) fn is_refused(&self) -> bool {
-        self.status == Status::Failure && self.ticks == 1
-    }
-}
 
 /// What one episode gave.
 #[derive(Debug, Default)]
@@ -90,6 +70,7 @@ impl Gathered {
     ) -> Self {
         let mut random = Random::new(start.seed, EXPLORATION + start.stream, start.episode);
         let mut gathered = Self::default();
+        let mut process = Watched::new(process, ground.watch());
         process.start(start);
         controller.reset();
         let mut excursion: Option<Excursion> = None;
@@ -101,89 +82,40 @@ impl Gathered {
             }
             let end = match &mut excursion {
                 Some(trip) => {
-                    let (end, driver) = gathered.follow(ground, process, &mut trip.runner);
+                    let (end, driver) = gathered.follow(&mut process, &mut trip.runner);
                     if trip.is_over(driver) || random.unit() < HOME {
                         excursion = None;
                     }
                     end
                 }
-                None => gathered.follow(ground, process, controller).0,
+                None => gathered.follow(&mut process, controller).0,
             };
             if end != End::Not {
                 gathered.ticks = process.ticks();
+                gathered.taken = process.into_taken();
                 return gathered;
             }
         }
     }
 
-    fn visit(&mut self, key: Key) {
-        if self.visits.last() != Some(&key) {
-            self.visits.push(key);
-        }
-    }
-
-    /// Ticks the controller until a decision is due. It is counted where one behaviour alone was ticked all along.
-    fn follow<W: World>(
+    /// Ticks the controller until a decision is over.
+    fn follow(
         &mut self,
-        ground: &Ground<W>,
-        process: &mut impl Process,
+        process: &mut Watched<impl Process>,
         controller: &mut impl Controller,
-    ) -> (End, Option<(Id<Behavior>, Status)>) {
-        let from = process.key();
-        let patience = ground.patience.unwrap_or(u64::MAX);
-        let mut ticks = 0;
-        let mut driver: Option<(Id<Behavior>, Status)> = None;
-        let mut alone = true;
-        let mut earned = Earned::default();
-        let broken = ground.broken(process.events());
-        loop {
+    ) -> (End, Driver) {
+        let over = loop {
             process.begin_tick();
-            let before = driver;
-            let mut heard = Heard {
-                process: &mut *process,
-                calls: 0,
-                driver,
-            };
-            controller.tick(&mut heard);
-            let calls = heard.calls;
-            driver = heard.driver;
-            let tick = process.end_tick();
-            ticks += 1;
-            let same =
-                before.is_none_or(|(behavior, _)| driver.is_some_and(|(b, _)| b == behavior));
-            alone = alone && calls == 1 && same;
-            let due = tick.terminated || tick.closed || process.key() != from || ticks >= patience;
-            let Some(reward) = earned.after(&tick, due || tick.end.is_some()) else {
-                continue;
-            };
-            let end = match tick.end {
-                None => End::Not,
-                Some(world::End::On(line)) => End::Terminal(line),
-                Some(world::End::Cut) if due => End::Limit,
-                Some(world::End::Cut) => End::Cut,
-            };
-            let choice = driver.and_then(|(behavior, _)| {
-                ground.choices.iter().position(|choice| *choice == behavior)
-            });
-            if let (Some(choice), Some((_, status))) = (choice, driver) {
-                self.visit(from);
-                if alone {
-                    self.taken.push(Taken {
-                        from,
-                        choice,
-                        to: process.key(),
-                        reward,
-                        ticks,
-                        status,
-                        end,
-                        harmed: tick.lost || ground.broken(process.events()) > broken,
-                    });
-                }
-            } else {
-                self.visit(from);
+            controller.tick(process);
+            process.end_tick();
+            if let Some(over) = process.over() {
+                break over;
             }
-            return (end, driver);
+        };
+        if self.visits.last() != Some(&over.from) {
+            self.visits.push(over.from);
         }
+        (over.end, over.driver)
     }
 }
 
@@ -216,55 +148,11 @@ impl Excursion {
             .collect()
     }
 
-    fn is_over(&self, driver: Option<(Id<Behavior>, Status)>) -> bool {
+    fn is_over(&self, driver: Driver) -> bool {
         match driver {
             None | Some((_, Status::Failure)) => true,
             Some((behavior, Status::Success)) => self.last == Some(behavior),
             Some(_) => false,
         }
-    }
-}
-
-/// A process that notes which behaviours are ticked.
-struct Heard<'p, P> {
-    process: &'p mut P,
-    calls: usize,
-    driver: Option<(Id<Behavior>, Status)>,
-}
-
-impl<P: Process> Process for Heard<'_, P> {
-    fn start(&mut self, start: Start) {
-        self.process.start(start);
-    }
-
-    fn key(&self) -> Key {
-        self.process.key()
-    }
-
-    fn atoms(&self) -> Key {
-        self.process.atoms()
-    }
-
-    fn begin_tick(&mut self) {
-        self.process.begin_tick();
-    }
-
-    fn act(&mut self, behavior: Id<Behavior>) -> Status {
-        let status = self.process.act(behavior);
-        self.calls += 1;
-        self.driver = Some((behavior, status));
-        status
-    }
-
-    fn end_tick(&mut self) -> Tick {
-        self.process.end_tick()
-    }
-
-    fn ticks(&self) -> u64 {
-        self.process.ticks()
-    }
-
-    fn events(&self) -> &[u64] {
-        self.process.events()
     }
 }

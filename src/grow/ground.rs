@@ -9,6 +9,7 @@ use crate::learn::episode::Episode;
 use crate::learn::process::World;
 use crate::learn::simulated::Purpose;
 use crate::learn::statistics::Mean;
+use crate::trial::decisions::Watch;
 use crate::trial::paired::{Trials, error};
 use crate::world::Start;
 
@@ -43,9 +44,14 @@ pub struct Ground<'w, W> {
 const APART: u64 = 1 << 20;
 
 impl<'w, W: World> Ground<'w, W> {
-    /// Episodes that nothing was chosen by so far: those of a purpose, from race number `race` on.
-    pub fn trials(&self, purpose: Purpose, race: u64) -> Trials<'w, W> {
-        Trials::new(self.world, self.patience, self.episodes(purpose, race))
+    /// Episodes that nothing was chosen by so far: those of a purpose, from race number `race` on. Where trees grow, their
+    /// decisions are noted.
+    pub fn trials(&self, purpose: Purpose, race: u64) -> Trials<'_, W> {
+        let trials = Trials::new(self.world, self.patience, self.episodes(purpose, race));
+        match purpose {
+            Purpose::Grow => trials.watched(self.watch()),
+            _ => trials,
+        }
     }
 
     /// The start of these episodes.
@@ -65,13 +71,18 @@ impl<'w, W: World> Ground<'w, W> {
 
     /// What went wrong in an episode: an end that costs, and each event that is claimed never to happen.
     pub fn harm(&self, episode: &Episode) -> u64 {
-        self.broken(&episode.events).max(u64::from(episode.lost))
+        self.watch()
+            .broken(&episode.events)
+            .max(u64::from(episode.lost))
     }
 
-    /// How many of the events that are claimed never to happen have happened, by how often each event has fired.
-    pub fn broken(&self, events: &[u64]) -> u64 {
-        let fired = |event: &&usize| events.get(**event).is_some_and(|count| *count > 0);
-        self.never.iter().filter(fired).count() as u64
+    /// What counts as a decision, and what as harm.
+    pub fn watch(&self) -> Watch<'_> {
+        Watch {
+            choices: self.choices,
+            patience: self.patience,
+            never: &self.never,
+        }
     }
 }
 

@@ -116,6 +116,7 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
                 Step::Refine(stage) => self.refine(base, stage),
                 Step::Done => (base, Step::Done),
             };
+            self.count_noted();
             part.keep(|| self.halted(&base, &step));
         }
         part.save(|| self.halted(&base, &step));
@@ -124,6 +125,12 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
             visited: self.visited,
             price: self.price,
         })
+    }
+
+    /// Counts what the races have shown.
+    fn count_noted(&mut self) {
+        self.evidence.count_all(&self.judge.noted);
+        self.judge.noted.clear();
     }
 
     /// Where the search stands.

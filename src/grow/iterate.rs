@@ -19,6 +19,7 @@ use crate::learn::q_table::QTable;
 use crate::learn::simulated::Purpose;
 use crate::learn::statistics::Mean;
 use crate::random::Random;
+use crate::trial::decisions::{Taken, Watched};
 use crate::trial::paired::error;
 use crate::world::Start;
 use rayon::prelude::*;
@@ -180,7 +181,7 @@ impl<W: World> Iteration<'_, '_, W> {
                 }
             }
             if round == 1 {
-                ticks += self.act(&evidence, &mut base);
+                ticks += self.act(&mut evidence, &mut base);
             }
             base.played.clear();
             let candidates = self.candidates(&evidence, &base.choices, &mut random);
@@ -238,7 +239,7 @@ impl<W: World> Iteration<'_, '_, W> {
 
     /// Takes decisions that do not fail at once, unless they are surely worse: a tree would not wait there, but go on to
     /// something else. Gives the ticks that it took to find out.
-    fn act(&self, evidence: &Evidence, base: &mut Candidate) -> u64 {
+    fn act(&self, evidence: &mut Evidence, base: &mut Candidate) -> u64 {
         let mut acting = Candidate {
             choices: self.acting(evidence, base.choices.clone()),
             played: Vec::new(),
@@ -247,7 +248,12 @@ impl<W: World> Iteration<'_, '_, W> {
             return 0;
         }
         let start = self.ground.episodes(Purpose::Improve, 1 << 12);
-        let used = self.play([&mut *base, &mut acting].into_iter(), start, TELLING);
+        let used = self.play(
+            evidence,
+            [&mut *base, &mut acting].into_iter(),
+            start,
+            TELLING,
+        );
         let gain = gain(&acting, base);
         if gain.mean >= -error(&gain) {
             *base = acting;
@@ -346,8 +352,8 @@ impl<W: World> Iteration<'_, '_, W> {
             if standing.is_empty() {
                 return (None, used);
             }
-            used += self.play(std::iter::once(&mut *base), start, episodes);
-            used += self.play(standing.iter_mut(), start, episodes);
+            used += self.play(evidence, std::iter::once(&mut *base), start, episodes);
+            used += self.play(evidence, standing.iter_mut(), start, episodes);
             if episodes >= TELLING {
                 standing.retain(|candidate| {
                     let gain = gain(candidate, base);
@@ -379,9 +385,10 @@ impl<W: World> Iteration<'_, '_, W> {
         (standing.into_iter().next().filter(surely), used)
     }
 
-    /// Lets policies play up to a number of episodes, on all threads, and counts the ticks.
+    /// Lets policies play up to a number of episodes, on all threads, and counts what came of it and the ticks.
     fn play<'c>(
         &self,
+        evidence: &mut Evidence,
         candidates: impl Iterator<Item = &'c mut Candidate>,
         start: Start,
         episodes: usize,
@@ -397,7 +404,7 @@ impl<W: World> Iteration<'_, '_, W> {
             .enumerate()
             .flat_map(|(i, (candidate, _))| (candidate.played.len()..episodes).map(move |n| (i, n)))
             .collect();
-        let played: Vec<Option<Episode>> = due
+        let played: Vec<Option<(Episode, Vec<Taken>)>> = due
             .par_iter()
             .map_init(
                 || self.ground.world.process(),
@@ -407,13 +414,17 @@ impl<W: World> Iteration<'_, '_, W> {
                         episode: start.episode + *n as u64,
                         ..start
                     };
-                    Some(play(process, &mut greedy, start, self.ground.patience))
+                    let mut watched = Watched::new(process, self.ground.watch());
+                    let episode = play(&mut watched, &mut greedy, start, self.ground.patience);
+                    Some((episode, watched.into_taken()))
                 },
             )
             .collect();
         let mut ticks = 0;
         for ((i, _), episode) in due.into_iter().zip(played) {
-            if let (Some(episode), Some((candidate, _))) = (episode, candidates.get_mut(i)) {
+            if let (Some((episode, taken)), Some((candidate, _))) = (episode, candidates.get_mut(i))
+            {
+                evidence.count_all(&taken);
                 ticks += episode.ticks;
                 candidate.played.push(episode);
             }

@@ -10,7 +10,7 @@
 //! of is tried: the learner learns with it, and what it learns is improved for a little while and played.
 
 use super::evidence::{Evidence, KNOWN, Sight};
-use super::gathered::{Excursion, Gathered, Taken};
+use super::gathered::{Excursion, Gathered};
 use super::ground::Ground;
 use super::iterate::{Iteration, Pace};
 use crate::checkpoint::{Forgetful, Part};
@@ -21,6 +21,7 @@ use crate::learn::greedy;
 use crate::learn::process::{Key, World};
 use crate::learn::simulated::Purpose;
 use crate::tree::Runner;
+use crate::trial::decisions::Taken;
 use crate::trial::play::Ticked;
 
 /// The parts of the decisions that explore, in turn.

@@ -8,6 +8,7 @@ use crate::learn::process::World;
 use crate::learn::simulated::Purpose;
 use crate::learn::statistics::Mean;
 use crate::tree::Size;
+use crate::trial::decisions::Taken;
 use crate::trial::paired::{Contender, Trials, error};
 use serde::{Deserialize, Serialize};
 
@@ -141,6 +142,8 @@ pub struct Judge<'g, 'w, W> {
     pub seen: Seen,
     /// Whether the effort is so small that no race begins with many episodes.
     sparing: bool,
+    /// The decisions of the races that are not yet counted.
+    pub noted: Vec<Taken>,
 }
 
 impl<'g, 'w, W: World> Judge<'g, 'w, W> {
@@ -149,6 +152,7 @@ impl<'g, 'w, W: World> Judge<'g, 'w, W> {
         Self {
             ground,
             sparing: effort < ENOUGH,
+            noted: Vec::new(),
             seen: Seen {
                 ticks: 0,
                 races: 0,
@@ -165,7 +169,7 @@ impl<'g, 'w, W: World> Judge<'g, 'w, W> {
     }
 
     /// A tree that has not played; `None` if it asks what the world does not know.
-    pub fn entrant(&self, trials: &Trials<'w, W>, root: &Node) -> Option<Entrant> {
+    pub fn entrant(&self, trials: &Trials<'_, W>, root: &Node) -> Option<Entrant> {
         Some(Entrant {
             root: root.clone(),
             nodes: Size::of(root).nodes,
@@ -185,7 +189,7 @@ impl<'g, 'w, W: World> Judge<'g, 'w, W> {
     /// Lets trees play up to a number of episodes.
     pub fn play(
         &mut self,
-        trials: &Trials<'w, W>,
+        trials: &Trials<'_, W>,
         entrants: &mut [Entrant],
         episodes: usize,
         known: Option<&Entrant>,
@@ -193,7 +197,9 @@ impl<'g, 'w, W: World> Judge<'g, 'w, W> {
         let contenders = entrants.iter_mut().map(|entrant| &mut entrant.contender);
         let mut contenders: Vec<&mut Contender> = contenders.collect();
         let known = known.map(|known| &known.contender);
-        self.seen.ticks += trials.play(&mut contenders, episodes, known);
+        let simulated = trials.play(&mut contenders, episodes, known);
+        self.seen.ticks += simulated.ticks;
+        self.noted.extend(simulated.taken);
         let first = entrants.first().map(|entrant| entrant.contender.length());
         let first = first.filter(|length| *length > 0);
         self.seen.length = first.unwrap_or(self.seen.length);

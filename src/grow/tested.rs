@@ -64,8 +64,8 @@ pub(super) fn test<W: World>(
         Some((name.as_str(), root, contender))
     });
     let mut others: Vec<Other> = known.collect();
-    let mut ticks = trials.play(&mut [&mut before], all, None);
-    ticks += trials.play(&mut [&mut after], all, Some(&before));
+    let mut ticks = trials.play(&mut [&mut before], all, None).ticks;
+    ticks += trials.play(&mut [&mut after], all, Some(&before)).ticks;
     ticks += play_best(&trials, &mut others, [some, all]);
     judge.seen.ticks += ticks;
     let figures = |contender: &Contender, root: &Node| Figures {
@@ -111,12 +111,12 @@ fn play_best<W: World>(
     let mut ticks = 0;
     if trees.len() > 1 {
         let each = trees.iter_mut().map(|(_, _, contender)| contender);
-        ticks += trials.play(&mut each.collect::<Vec<_>>(), some, None);
+        ticks += trials.play(&mut each.collect::<Vec<_>>(), some, None).ticks;
         let mean = |(_, _, contender): &Other| contender.returns().mean;
         trees.sort_by(|a, b| mean(b).total_cmp(&mean(a)));
     }
     if let Some((_, _, best)) = trees.first_mut() {
-        ticks += trials.play(&mut [best], all, None);
+        ticks += trials.play(&mut [best], all, None).ticks;
     }
     ticks
 }

@@ -2,10 +2,11 @@
 //!
 //! [`play`] plays episodes under a tree or a policy, [`learned`] measures a learned tree, [`claim`] tests claims on
 //! events, until [`anytime`] says enough. [`paired`] compares trees on common seeds; what they do alike there is not played twice,
-//! see [`trace`]. [`mod@test`] ticks a tree without a world. [`duel`] does so for two trees in different worlds.
+//! see [`trace`]; what their decisions led to is noted, see [`decisions`]. [`mod@test`] ticks a tree without a world. [`duel`] does so for two trees in different worlds.
 
 pub mod anytime;
 pub mod claim;
+pub mod decisions;
 pub mod duel;
 pub mod learned;
 pub mod paired;

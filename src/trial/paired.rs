@@ -1,5 +1,6 @@
 //! Trees compared on the same seeds.
 
+use super::decisions::{Taken, Watch, Watched};
 use super::trace::{Paths, Recorded, Trace};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
@@ -17,14 +18,24 @@ use std::sync::Arc;
 pub struct Trials<'w, W> {
     world: &'w W,
     patience: Option<u64>,
+    watch: Option<Watch<'w>>,
     start: Start,
 }
 
-/// An episode with its trace.
+/// An episode that was played.
 #[derive(Debug)]
 struct Played {
     episode: Episode,
     trace: Trace,
+}
+
+/// What was simulated.
+#[derive(Debug, Default)]
+pub struct Simulated {
+    /// Its ticks.
+    pub ticks: u64,
+    /// The decisions of its episodes, in their order, if they are watched.
+    pub taken: Vec<Taken>,
 }
 
 /// A tree with the episodes that it has played, from number 0.
@@ -107,7 +118,16 @@ impl<'w, W: World> Trials<'w, W> {
         Self {
             world,
             patience,
+            watch: None,
             start,
+        }
+    }
+
+    /// The same, with the decisions of the episodes noted.
+    pub fn watched(self, watch: Watch<'w>) -> Self {
+        Self {
+            watch: Some(watch),
+            ..self
         }
     }
 
@@ -127,14 +147,14 @@ impl<'w, W: World> Trials<'w, W> {
         })
     }
 
-    /// Lets every contender play the episodes below `episodes` that it has not played yet, on all threads, and counts
-    /// the ticks. Episodes in which a contender does what `known` did are not played again.
+    /// Lets every contender play the episodes below `episodes` that it has not played yet, on all threads, and gives
+    /// what was simulated. Episodes in which a contender does what `known` did are not played again.
     pub fn play(
         &self,
         contenders: &mut [&mut Contender],
         episodes: usize,
         known: Option<&Contender>,
-    ) -> u64 {
+    ) -> Simulated {
         let due: Vec<(usize, usize)> = contenders
             .iter()
             .enumerate()
@@ -143,34 +163,46 @@ impl<'w, W: World> Trials<'w, W> {
         let runners = contenders.iter().map(|contender| &contender.runner);
         let runners: Vec<&Runner> = runners.collect();
         let make = || self.world.process();
-        let played: Vec<(Arc<Played>, u64)> = due
+        let played: Vec<(Arc<Played>, u64, Vec<Taken>)> = due
             .par_iter()
             .map_init(make, |process, &(i, n)| {
                 let mut runner = runners.get(i).map(|r| (*r).clone())?;
                 if let Some(same) = known.and_then(|known| known.played.get(n))
                     && same.trace.replays(&mut runner)
                 {
-                    return Some((same.clone(), 0));
+                    return Some((same.clone(), 0, Vec::new()));
                 }
                 let start = Start {
                     episode: self.start.episode + n as u64,
                     ..self.start
                 };
                 let mut recorded = Recorded::new(runner);
-                let episode = play_episode(process, &mut recorded, start, self.patience);
+                let (episode, taken) = match self.watch {
+                    None => (
+                        play_episode(process, &mut recorded, start, self.patience),
+                        Vec::new(),
+                    ),
+                    Some(watch) => {
+                        let mut watched = Watched::new(process, watch);
+                        let episode =
+                            play_episode(&mut watched, &mut recorded, start, self.patience);
+                        (episode, watched.into_taken())
+                    }
+                };
                 let ticks = episode.ticks;
                 let trace = recorded.into_trace();
-                Some((Arc::new(Played { episode, trace }), ticks))
+                Some((Arc::new(Played { episode, trace }), ticks, taken))
             })
             .flatten()
             .collect();
-        let mut ticks = 0;
-        for ((i, _), (played, took)) in due.into_iter().zip(played) {
-            ticks += took;
+        let mut simulated = Simulated::default();
+        for ((i, _), (played, ticks, taken)) in due.into_iter().zip(played) {
+            simulated.ticks += ticks;
+            simulated.taken.extend(taken);
             if let Some(contender) = contenders.get_mut(i) {
                 contender.played.push(played);
             }
         }
-        ticks
+        simulated
     }
 }
