@@ -234,7 +234,7 @@ impl<'a> Checker<'a> {
         let found = METHODS.iter().find(|(name, _)| *name == word);
         if found.is_none() {
             // `q-learning` is a difference.
-            let written = print::expr(value).replace(" - ", "_");
+            let written = print::expr(value).replace(" - ", "-").replace('-', "_");
             let likely = suggest::nearest(&written, METHODS.iter().map(|(name, _)| *name));
             let message = "no method of learning has this name";
             let draft = self.error(Code::E0501, value.span, message);

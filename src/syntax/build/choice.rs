@@ -40,10 +40,13 @@ impl<'i> Builder<'i> {
             if let Some(rest) = rest.trim_start().strip_prefix("else") {
                 let end = self.text.len() - rest.len();
                 let word = Span::new(self.file, end - "else".len(), end);
-                let diagnostic =
-                    Diagnostic::new(Code::E0101, word, "both values of a choice stand in braces")
-                        .label("what follows has none")
-                        .help("`if CONDITION { … } else { … }`");
+                let diagnostic = Diagnostic::new(
+                    Code::E0126,
+                    place,
+                    "both values of a choice stand in braces",
+                )
+                .label("write `if CONDITION { … } else { … }`")
+                .also(word, "what follows has none");
                 self.report(diagnostic);
                 return Otherwise::Yield(self.no_yield(then.after()));
             }

@@ -88,7 +88,7 @@ impl Place<'_> {
             let title = "a history keeps the last ends";
             return diagnostic.fix(title, self.span().before(), "last ", Applicability::Safe);
         }
-        if self.before() == "last" && self.expects(Rule::quantity) && is_word(self.found) {
+        if self.before() == "last" && wants_value && is_word(self.found) {
             let title = "say how many";
             let before = self.span().before();
             return diagnostic.fix(title, before, "1 ", Applicability::Unsafe);
@@ -187,7 +187,7 @@ impl Place<'_> {
                 if self.line_begins_with("claim")
                     && matches!(self.after_found(), "confidence" | "prob" | "p") =>
             {
-                "how sure it is is said by `with probability >= 95%`"
+                "`with probability >= 95%` says how sure it is"
             }
             (Rule::strict_item, "with") if self.line_begins_with("claim") => {
                 "how sure it is follows last: `… within TIME with probability >= 95%`"
@@ -272,9 +272,6 @@ impl Place<'_> {
                 };
             }
             (Rule::strict_child, "then") => "a guard is followed by `=>`: `CONDITION => NODE`",
-            (_, "otherwise") if self.failure.strict == Rule::strict_stmt => {
-                "what is done if a condition does not hold follows `else`"
-            }
             _ if self.is_choice_without_braces() => {
                 "both values of a choice stand in braces: `if CONDITION { … } else { … }`"
             }
@@ -297,9 +294,6 @@ impl Place<'_> {
             }
             (Rule::strict_item, "probability") if self.line_begins_with("claim") => {
                 "how sure it is follows `with`: `with probability >= 95%`"
-            }
-            (Rule::strict_aspect, "and") if self.before() == "success" => {
-                "the ends that a history keeps are parted by commas"
             }
             (_, "then") => "what depends on a condition stands in braces",
             (Rule::strict_reward, ":") if self.expects(Rule::comma) => {
@@ -396,7 +390,7 @@ impl Place<'_> {
                 Some(("what it is counted by follows `per`", "per"))
             }
             (Rule::strict_item, "confidence" | "prob" | "p") if self.before() == "with" => {
-                Some(("how sure it is is a probability", "probability"))
+                Some(("a claim says a probability", "probability"))
             }
             (Rule::strict_child, "=") if self.expects(Rule::guards) => {
                 Some(("a guard is followed by `=>`", "=>"))
