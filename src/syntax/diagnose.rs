@@ -7,6 +7,7 @@ mod foreign;
 mod forms;
 mod pieces;
 mod places;
+mod respelled;
 mod rewrite;
 mod words;
 
