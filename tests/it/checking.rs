@@ -74,7 +74,7 @@ fn a_used_file_is_checked_with_those_that_use_it() {
     let alone = btc(path, &["check", "part.bt"]);
     assert_eq!(alone.status.code(), Some(1));
     let together = btc(path, &["check", "."]);
-    assert_eq!(out(&together), "./whole.bt: ok\n");
+    assert_eq!(out(&together), "ok\n");
     assert_eq!(together.status.code(), Some(0), "{}", err(&together));
     fs::write(path.join("whole.bt"), whole.replace("50%", "5 m")).unwrap();
     let broken = btc(path, &["check", "."]);

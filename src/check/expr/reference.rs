@@ -130,6 +130,10 @@ impl<'a> Checker<'a> {
     /// Reports that no value of the enum `of` is called so, unless the name is like another one.
     fn no_value_of(&mut self, name: &Ident, of: Option<String>) -> bool {
         let Some(of) = of else { return false };
+        // An enum or a kind is no misspelt value.
+        if self.names.types.contains_key(name.name.as_str()) {
+            return false;
+        }
         let help = self.values_of(&Type::Enum(of.clone()));
         let variants = self.variants(&of);
         let variants: Vec<String> = variants.iter().map(ToString::to_string).collect();
