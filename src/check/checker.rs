@@ -61,6 +61,8 @@ pub struct Checker<'a> {
     pub positions: Vec<(Span, Point)>,
     /// The parameter that the expression at hand is given to, with what it is a parameter of.
     pub given: Option<(&'a str, &'a str)>,
+    /// The enum of which the name at hand is to be a value.
+    pub wanted: Option<String>,
     /// The numbers that may be tuned.
     pub tunes: Tunes,
     /// The names that bodies of the user bind, by where they are bound.
@@ -85,8 +87,8 @@ pub struct Checker<'a> {
     pub tick: Option<f64>,
     /// Whether there is a world, right or wrong.
     pub has_world: bool,
-    /// Whether the drive of the robot is known.
-    pub drive_known: bool,
+    /// Whether the drive of some robot was not understood.
+    pub drive_unsure: bool,
     /// Whether it was reported that the library is not used.
     pub library_missed: bool,
     /// How many names may still be looked at for one that was likely meant.
@@ -118,6 +120,7 @@ impl<'a> Checker<'a> {
             again: BTreeMap::new(),
             positions: Vec::new(),
             given: None,
+            wanted: None,
             tunes: Tunes::default(),
             bound: BTreeMap::new(),
             predicates: BTreeMap::new(),
@@ -130,7 +133,7 @@ impl<'a> Checker<'a> {
             scripts: Vec::new(),
             tick: None,
             has_world: false,
-            drive_known: false,
+            drive_unsure: false,
             library_missed: false,
             guesses: Cell::new(GUESSES),
         }

@@ -47,7 +47,7 @@ impl<'a> Checker<'a> {
 
     /// Checks the value that a name is set to.
     pub fn set_to(&mut self, name: &Ident, value: &'a Expr, ty: &Type, role: &str) -> Typed {
-        let typed = self.expr(value);
+        let typed = self.expr_like(value, ty);
         if !typed.ty.fits(ty) {
             self.clashes_with(name, typed.span, &typed.ty);
         }

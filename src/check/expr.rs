@@ -27,6 +27,10 @@ impl<'a> Checker<'a> {
     /// Checks an expression; one with a mistake is of `Type::Error`.
     pub fn expr(&mut self, expr: &'a Expr) -> Typed {
         self.depth += 1;
+        let wanted = self.wanted.take();
+        if plain_ref(expr).is_some() {
+            self.wanted = wanted;
+        }
         let typed = if self.depth > DEEP {
             self.too_much(expr.span, "this is nested too deeply within");
             None
@@ -34,11 +38,21 @@ impl<'a> Checker<'a> {
             self.meaning(expr)
         };
         self.depth -= 1;
+        self.wanted = None;
         let typed = self.settled(typed, expr);
         if let ExprKind::Ref(reference) = &expr.kind {
             self.is_of_type(&reference.name, &typed.ty);
         }
         typed
+    }
+
+    /// Checks an expression that stands where one of type `like` is meant.
+    pub fn expr_like(&mut self, expr: &'a Expr, like: &Type) -> Typed {
+        self.wanted = match like {
+            Type::Enum(of) => Some(of.clone()),
+            _ => None,
+        };
+        self.expr(expr)
     }
 
     /// What an expression came to, as a value of that expression.

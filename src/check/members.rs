@@ -264,6 +264,9 @@ impl<'a> Checker<'a> {
     pub fn combinations(&mut self, params: &'a Params) -> Option<Vec<Vec<Binding<'a>>>> {
         let mut ranges = Vec::new();
         for param in &params.params {
+            if self.unsure.contains(&param.span) {
+                return None;
+            }
             let ty = self.type_expr(&param.ty);
             let words = param.ty.factors.iter().map(|(name, _)| name.name.as_str());
             let called = words.collect::<Vec<_>>().join("/");
@@ -271,6 +274,18 @@ impl<'a> Checker<'a> {
             ranges.push((&param.name, ty, members));
         }
         self.products(ranges, params.span)
+    }
+
+    /// Reports the parameters of a family whose type has no members; what they stand for is not known.
+    pub fn only_ranging(&mut self, params: &'a Params, scope: &mut [Binding<'a>]) {
+        for (param, bound) in params.params.iter().zip(scope) {
+            let words = param.ty.factors.iter().map(|(name, _)| name.name.as_str());
+            let called = words.collect::<Vec<_>>().join("/");
+            if self.members_of(&bound.ty, param.ty.span, &called).is_none() {
+                bound.ty = Type::Error;
+                self.unsure.push(param.span);
+            }
+        }
     }
 
     fn products(

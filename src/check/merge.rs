@@ -60,6 +60,9 @@ pub fn merge(sorted: &mut Vec<Diagnostic>, declared: impl Fn(Span) -> Option<Spa
                 continue;
             }
             // One name, taken again and again for what it is not.
+            Code::E0601 if declared(found.span()).is_some() => {
+                format!("{:?}", declared(found.span()))
+            }
             Code::E0302 if declared(found.span()).is_some() => {
                 let wanted = found.message.rsplit(" is ").next().unwrap_or_default();
                 format!("{:?} {wanted}", declared(found.span()))

@@ -159,6 +159,8 @@ pub struct Names<'a> {
     pub other_sensors: Vec<(&'a Ident, &'a Ident)>,
     /// The names of declarations that were not understood.
     lost: BTreeSet<String>,
+    /// The declarations without parameters whose bodies seem to need one: what gives them arguments is not to blame.
+    pub lacking: BTreeSet<String>,
     /// Whether the variants of an enum are missing, so that any name may be one of them.
     pub lost_values: bool,
     /// Whether a world was not understood.

@@ -1,10 +1,12 @@
 //! Matching arguments to parameters.
 
 use super::Checker;
+use super::context::Region;
 use super::report::listed;
 use crate::diagnostic::{Applicability, Code};
 use crate::source::Span;
 use crate::syntax::ast::{Arg, ArgKind, Expr, Ident, Ref};
+use crate::syntax::print;
 
 /// The arguments that something takes.
 pub struct Signature<'s> {
@@ -150,10 +152,18 @@ impl<'a> Checker<'a> {
                 .help("`any`, `all`, `count`, `nearest` range over a kind, and so do the lines of `observe`, `choose` and `reward`")
                 .none()
             }
-            (ArgKind::Range(..), _) => self
-                .error(Code::E0305, arg.span, format!("{owner} takes no range"))
-                .label("only `tune` takes one")
-                .none(),
+            (ArgKind::Range(low, high), _) => {
+                let right = format!("{}, {}", print::expr(low), print::expr(high));
+                self.error(Code::E0305, arg.span, format!("{owner} takes no range"))
+                    .label("only `tune` takes one")
+                    .fix(
+                        format!("give both ends: `{right}`"),
+                        arg.span,
+                        right,
+                        Applicability::Unsafe,
+                    )
+                    .none()
+            }
             (ArgKind::Positional(_), _) => {
                 *position += 1;
                 Some(*position - 1)
@@ -228,6 +238,19 @@ impl<'a> Checker<'a> {
     ) -> Option<Vec<&'a Expr>> {
         let name = &reference.name.name;
         let Some(args) = &reference.args else {
+            if name == "min" && self.context.region == Region::Schedule {
+                let message = "a time is a number with its unit";
+                return self
+                    .error(Code::E0301, reference.span, message)
+                    .label("how many minutes?")
+                    .fix(
+                        "of one minute: write `1 min`",
+                        reference.span,
+                        "1 min",
+                        Applicability::Unsafe,
+                    )
+                    .none();
+            }
             return self
                 .error(
                     Code::E0305,

@@ -41,6 +41,7 @@ impl<'a> Checker<'a> {
         };
         let mut ends = 0;
         let mut seen: BTreeMap<&str, Span> = BTreeMap::new();
+        let mut said: BTreeMap<String, Span> = BTreeMap::new();
         // A `start` may refer to a `history` that comes after it.
         let mut starts = Vec::new();
         for aspect in &task.aspects {
@@ -83,6 +84,15 @@ impl<'a> Checker<'a> {
                         built.written.end_on.push(ends);
                     }
                     ends += 1;
+                    let text = print::expr(event);
+                    match said.get(&text) {
+                        Some(first) => {
+                            self.said_twice(&format!("end on {text}"), aspect.span, *first)
+                        }
+                        None => {
+                            said.insert(text, aspect.span);
+                        }
+                    }
                 }
                 AspectKind::EndAfter(ticks) => {
                     built.end_after = self.ticks(ticks, "`end after`").unwrap_or(0);
@@ -162,7 +172,7 @@ impl<'a> Checker<'a> {
         (chosen, places)
     }
 
-    fn once<T: PartialEq>(&mut self, list: &mut Vec<T>, item: T, span: Span) {
+    pub fn once<T: PartialEq>(&mut self, list: &mut Vec<T>, item: T, span: Span) {
         if list.contains(&item) {
             self.error(Code::E0503, span, "this is in the list already")
                 .label("listed a second time");

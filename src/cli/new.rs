@@ -17,6 +17,16 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if folder.exists() {
         return Err(files::complain(&format!("{name}: this is there already")));
     }
+    if let Err(failure) = fill(folder) {
+        // Half a project would be in the way of a whole one; what cannot be taken away is in the way of that, too.
+        let _ = std::fs::remove_dir_all(folder);
+        return Err(failure);
+    }
+    files::print(&welcome(name))
+}
+
+/// Writes the files of a project.
+fn fill(folder: &Path) -> Result<(), Failure> {
     for (path, text) in FILES {
         let path = folder.join(path);
         if let Some(parent) = path.parent() {
@@ -25,5 +35,5 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         }
         files::write(&path, text)?;
     }
-    files::print(&welcome(name))
+    Ok(())
 }

@@ -3,7 +3,7 @@
 use strsim::osa_distance;
 
 /// What people who come from other languages and tools write, and what it is called here, where that is known at all.
-const FOREIGN: [(&str, &str); 185] = [
+const FOREIGN: [(&str, &str); 192] = [
     // shapes and worlds
     ("circle", "disc"),
     ("disk", "disc"),
@@ -120,6 +120,13 @@ const FOREIGN: [(&str, &str); 185] = [
     ("heading", "course"),
     ("angular", "turn"),
     ("omega", "turn"),
+    ("steer", "turn"),
+    ("steering", "turn"),
+    ("yaw_rate", "turn"),
+    ("angular_velocity", "turn"),
+    ("linear", "speed"),
+    ("linear_velocity", "speed"),
+    ("tick_rate", "tick"),
     ("move_to", "goto"),
     ("go_to", "goto"),
     ("stop", "idle"),

@@ -103,7 +103,7 @@ pub struct Lost {
     pub any: bool,
     /// The names that declarations seem to declare which were not understood.
     pub names: Vec<String>,
-    /// Whether a `use` was not understood, or a declaration without a name.
+    /// Whether a `use` was not understood, or a declaration without a name, or the rest of the file is missing.
     pub unnamed: bool,
     /// Whether a world was not understood.
     pub world: bool,

@@ -5,7 +5,9 @@ mod characters;
 mod ends;
 mod foreign;
 mod forms;
+mod pieces;
 mod places;
+mod respelled;
 mod rewrite;
 mod words;
 
@@ -79,6 +81,7 @@ pub(super) fn failure(
         .or_else(|| place.text())
         .or_else(|| place.effect())
         .or_else(|| place.item_within())
+        .or_else(|| place.word_before_name())
         .or_else(|| place.given_by_colon())
         .or_else(|| place.grouped_digits())
         .or_else(|| place.unit())

@@ -8,6 +8,7 @@ use std::cmp::Ordering;
 /// Leaves out what follows from another mistake, and notes where the text was not understood.
 pub(super) fn left_out(text: &str, tree: &mut File, sorted: Vec<Diagnostic>) -> Vec<Diagnostic> {
     tree.lost.any = sorted.iter().any(Diagnostic::is_error);
+    tree.lost.unnamed |= is_cut(text, &sorted);
     let mut places: Vec<Span> = tree
         .lost
         .places
@@ -50,6 +51,15 @@ pub(super) fn left_out(text: &str, tree: &mut File, sorted: Vec<Diagnostic>) -> 
     }
     tree.lost.places = places;
     told
+}
+
+/// Whether the rest of the text is missing: it ends within a line, in what was not understood.
+fn is_cut(text: &str, found: &[Diagnostic]) -> bool {
+    let end = text.trim_end().len();
+    let at_end = |found: &Diagnostic| {
+        found.code == Code::E0102 || lines(text, found.span()).range().end >= end
+    };
+    !text.is_empty() && !text.ends_with('\n') && found.iter().any(|it| it.is_error() && at_end(it))
 }
 
 /// The mistakes of one place that do not follow from others there.

@@ -63,6 +63,25 @@ fn folders_are_walked() {
     assert!(err(&output).ends_with("\n2 errors\n"), "{}", err(&output));
 }
 
+/// A file that others use may need what they declare: it is checked as a part of them, while one of them is sound.
+#[test]
+fn a_used_file_is_checked_with_those_that_use_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    fs::write(path.join("part.bt"), "let quarter: ratio = half / 2\n").unwrap();
+    let whole = "use \"part.bt\"\n\nlet half: ratio = 50%\n";
+    fs::write(path.join("whole.bt"), whole).unwrap();
+    let alone = btc(path, &["check", "part.bt"]);
+    assert_eq!(alone.status.code(), Some(1));
+    let together = btc(path, &["check", "."]);
+    assert_eq!(out(&together), "ok\n");
+    assert_eq!(together.status.code(), Some(0), "{}", err(&together));
+    fs::write(path.join("whole.bt"), whole.replace("50%", "5 m")).unwrap();
+    let broken = btc(path, &["check", "."]);
+    assert_eq!(broken.status.code(), Some(1));
+    assert!(err(&broken).contains("part.bt:1:22"), "{}", err(&broken));
+}
+
 #[test]
 fn safe_fixes_are_applied() {
     let folder = folder();

@@ -4,12 +4,13 @@ use crate::check::Checker;
 use crate::check::context::Region;
 use crate::check::signature::{Signature, Takes};
 use crate::check::types::{Type, Typed};
-use crate::diagnostic::Code;
+use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::ir::expr::{Binary, Expr, Pose, Unary};
 use crate::ir::law::Stmt;
 use crate::ir::world::{DriveKind, Robot};
 use crate::source::Span;
-use crate::syntax::ast::{self, Else, Ref, StmtKind};
+use crate::syntax::ast::{self, Arg, ArgKind, Else, Ref, StmtKind};
+use crate::syntax::print;
 
 /// What `drive` commands.
 const COMMANDS: [(&str, Type); 4] = [
@@ -42,10 +43,11 @@ impl<'a> Checker<'a> {
         };
         let matched = self.matched(&signature, call.args.as_deref().unwrap_or_default());
         let mut fine = matched.fine;
+        let told = self.diagnostics.len();
         let mut commands = [None, None, None, None];
         for ((arg, (name, ty)), command) in matched.args().zip(COMMANDS).zip(&mut commands) {
             let Some((arg, value)) = arg else { continue };
-            if name == "strafe" && self.drive_known && !self.is_holonomic() {
+            if name == "strafe" && !self.drive_unsure && !self.is_holonomic() {
                 self.error(
                     Code::E0305,
                     arg.span,
@@ -57,27 +59,25 @@ impl<'a> Checker<'a> {
             }
             *command = Some(self.expect(value, &ty, &format!("`{name}`")));
         }
+        self.commands_by_name(call.args.as_deref().unwrap_or_default(), told);
         let [speed, turn, strafe, course] = commands;
         if let Some(course) = course {
             return self.drive_on_course(call, [speed, turn, strafe], &course);
         }
-        for (name, command, still) in [
-            (
-                "speed",
-                &speed,
-                "to turn on the spot, write `speed = 0 m/s`",
-            ),
-            ("turn", &turn, "to go straight on, write `turn = 0 rad/s`"),
-        ] {
-            if command.is_none() && fine {
-                self.error(
-                    Code::E0305,
-                    call.name.span,
-                    format!("`drive` needs its `{name}`"),
-                )
-                .label(format!("`{name}` is not given"))
+        let lacks = match (&speed, &turn) {
+            (None, None) => Some((
+                "`speed` and its `turn`",
+                "to stand, leave `drive` out: `drive(speed = 20 cm/s, turn = 0 rad/s)` goes straight on",
+            )),
+            (None, Some(_)) => Some(("`speed`", "to turn on the spot, write `speed = 0 m/s`")),
+            (Some(_), None) => Some(("`turn`", "to go straight on, write `turn = 0 rad/s`")),
+            (Some(_), Some(_)) => None,
+        };
+        if let Some((what, still)) = lacks.filter(|_| fine) {
+            let message = format!("`drive` needs its {what}");
+            self.error(Code::E0305, call.name.span, message)
+                .label("not given")
                 .help(still);
-            }
         }
         let zero = self.program.pool.num(0.0);
         Some(Stmt::Drive {
@@ -147,6 +147,45 @@ impl<'a> Checker<'a> {
             strafe: zero,
             turn,
         })
+    }
+
+    /// Makes one mistake of commands that stand in each other's place, if each is told by its type.
+    fn commands_by_name(&mut self, args: &'a [Arg], told: usize) {
+        let wrong = self.diagnostics.get(told..).unwrap_or_default();
+        let mismatch = |found: &Diagnostic| {
+            matches!(found.code, Code::E0301 | Code::E0302) && found.fixes.is_empty()
+        };
+        if wrong.is_empty() || !wrong.iter().all(mismatch) {
+            return;
+        }
+        let mut free: Vec<(&str, Type)> = COMMANDS.to_vec();
+        let mut named = Vec::new();
+        for arg in args {
+            let ArgKind::Positional(value) = &arg.kind else {
+                return;
+            };
+            let (typed, _) = self.captured(|checker| checker.expr(value));
+            let fits = |(_, ty): &(&str, Type)| typed.ty != Type::Error && typed.ty.fits(ty);
+            let Some(at) = free.iter().position(fits) else {
+                return;
+            };
+            let (name, _) = free.remove(at);
+            named.push(format!("{name} = {}", print::expr(value)));
+        }
+        let (Some(first), Some(last)) = (args.first(), args.last()) else {
+            return;
+        };
+        self.diagnostics.truncate(told);
+        let span = first.span.to(last.span);
+        let right = named.join(", ");
+        self.error(Code::E0305, span, "the commands of `drive` go by name")
+            .label("by position they are a speed and a turn rate")
+            .fix(
+                format!("write `{right}`"),
+                span,
+                right,
+                Applicability::Unsafe,
+            );
     }
 
     fn is_holonomic(&self) -> bool {

@@ -18,7 +18,10 @@ pub type EventId = Id<Event>;
 impl<'a> Checker<'a> {
     /// `event name(params) = expr`
     pub fn event(&mut self, event: &'a ast::Event) {
-        let scope = self.unknown_parameters(event.params.as_ref());
+        let mut scope = self.unknown_parameters(event.params.as_ref());
+        if let Some(params) = &event.params {
+            self.only_ranging(params, &mut scope);
+        }
         let mut when = None;
         self.body_for_itself(&event.name, Region::Event, scope, |checker| {
             when = checker.event_condition(event);
@@ -171,6 +174,9 @@ impl<'a> Checker<'a> {
             return None;
         };
         let params = &event.params.as_ref()?.params;
+        if params.is_empty() {
+            return None;
+        }
         let args = reference.args.as_deref().unwrap_or_default();
         let unbound = |arg: &Arg| match &arg.kind {
             ArgKind::Positional(value) => {
@@ -221,11 +227,11 @@ impl<'a> Checker<'a> {
     /// `on name(params) { … }`: for each member, with the parameters bound to what the event is about.
     fn on_family(&mut self, name: &'a Ident, params: &'a Params, block: &'a ast::Block) {
         let event = self.family_of_events(name);
-        let scope = self.unknown_parameters(Some(params));
+        let mut scope = self.unknown_parameters(Some(params));
         for param in &params.params {
             self.needs(param.name.span);
         }
-        let fits = event.is_some_and(|event| self.binds_as_declared(event, params, &scope));
+        let fits = event.is_some_and(|event| self.binds_as_declared(event, params, &mut scope));
         // Once for itself, so that a mistake is told once.
         self.context = Context::new(Region::Effect);
         self.context.scope = scope;
@@ -255,7 +261,7 @@ impl<'a> Checker<'a> {
         &mut self,
         event: &'a ast::Event,
         params: &'a Params,
-        bound: &[Binding<'a>],
+        bound: &mut [Binding<'a>],
     ) -> bool {
         let declared = event.params.as_ref().map_or(&[][..], |p| &p.params);
         let name = &event.name.name;
@@ -272,12 +278,18 @@ impl<'a> Checker<'a> {
         }
         let mut fits = true;
         for ((declared, param), bound) in declared.iter().zip(&params.params).zip(bound) {
+            if self.unsure.contains(&declared.span) {
+                bound.ty = Type::Error;
+                fits = false;
+                continue;
+            }
             let wanted = self.type_expr(&declared.ty);
             if !bound.ty.fits(&wanted) {
                 let message = format!("`{}` of `{name}` is {wanted}", declared.name.name);
                 self.error(Code::E0302, param.ty.span, message)
                     .this_is(&bound.ty)
                     .also(declared.span, "declared here");
+                bound.ty = Type::Error;
                 fits = false;
             }
         }

@@ -83,7 +83,7 @@ impl<'a> Checker<'a> {
         value: &'a ast::Expr,
         locals: &mut Table<Local>,
     ) -> bool {
-        let typed = self.declared(ty, value, &name.name);
+        let typed = self.declared_or_unsure(ty, value, &name.name);
         let holds = match &typed.ty {
             Type::Bool | Type::Quantity(_) | Type::Ratio | Type::Point | Type::Enum(_) => true,
             Type::Error => true,

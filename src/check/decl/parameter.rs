@@ -60,6 +60,9 @@ impl<'a> Checker<'a> {
             .iter()
             .map(|param| param.name.name.as_str())
             .collect();
+        if params.is_empty() && self.names.lacking.contains(name) {
+            return None;
+        }
         let signature = Signature {
             owner: &format!("`{name}`"),
             takes: Takes::Parameters {

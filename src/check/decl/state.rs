@@ -43,7 +43,9 @@ impl<'a> Checker<'a> {
             return;
         };
         // Once for itself, so that a mistake is told once.
-        self.context.scope = self.unknown_parameters(Some(params));
+        let mut scope = self.unknown_parameters(Some(params));
+        self.only_ranging(params, &mut scope);
+        self.context.scope = scope;
         for param in &params.params {
             self.reads(param.name.span);
         }

@@ -302,6 +302,8 @@ impl<'a> Checker<'a> {
                     .help(help)
                     .none()
             }
+            // Its declaration is told.
+            None if self.names.is_lost(name) => None,
             None if START_WORDS.contains(&name) => self
                 .error(Code::E0310, target.span, cannot)
                 .label("said where an episode starts, in `start { … }`")

@@ -2,6 +2,7 @@
 
 use crate::check::Checker;
 use crate::check::context::Binding;
+use crate::check::expr::expect::is_literal;
 use crate::check::types::{Type, Typed, Value};
 use crate::diagnostic::Code;
 use crate::source::Span;
@@ -91,7 +92,28 @@ impl<'a> Checker<'a> {
 
     /// The value of a `let`, of the type that it says.
     pub fn binding_value(&mut self, binding: &'a ast::Binding) -> Typed {
-        self.declared(binding.ty.as_ref(), &binding.value, &binding.name.name)
+        self.declared_or_unsure(binding.ty.as_ref(), &binding.value, &binding.name.name)
+    }
+
+    /// A value with its declared type, if there is one. Where the two do not agree nobody knows which is right, unless it
+    /// is only the unit that is missing.
+    pub fn declared_or_unsure(
+        &mut self,
+        ty: Option<&ast::TypeExpr>,
+        value: &'a Expr,
+        name: &str,
+    ) -> Typed {
+        let Some(written) = ty else {
+            return self.expr(value);
+        };
+        let ty = self.type_expr(written);
+        let typed = self.expr_like(value, &ty);
+        let plain = typed.ty == Type::Error || is_literal(value);
+        let mut typed = self.coerce(typed, value, &ty, &format!("`{name}`"));
+        if ty != Type::Error && (plain || typed.ty != Type::Error) {
+            typed.ty = ty;
+        }
+        typed
     }
 
     /// A value with its declared type, if there is one.

@@ -16,7 +16,7 @@ use crate::syntax::print;
 impl<'a> Checker<'a> {
     /// Checks an expression that has to be of a type.
     pub fn expect(&mut self, expr: &'a Expr, wanted: &Type, role: &str) -> Typed {
-        let typed = self.expr(expr);
+        let typed = self.expr_like(expr, wanted);
         self.coerce(typed, expr, wanted, role)
     }
 
@@ -33,7 +33,7 @@ impl<'a> Checker<'a> {
 
     /// Checks an expression that has to be of the type of another one.
     pub fn expect_like(&mut self, expr: &'a Expr, first: &Typed, role: &str) -> Typed {
-        let typed = self.expr(expr);
+        let typed = self.expr_like(expr, &first.ty);
         if first.ty.join(&typed.ty).is_some() {
             self.warn_plain_ratio(expr, &first.ty);
             return typed;
@@ -45,14 +45,18 @@ impl<'a> Checker<'a> {
 
     fn mismatch(&mut self, typed: &Typed, expr: &Expr, wanted: &Type, role: &str) -> Draft<'_> {
         let message = format!("{role} is {wanted}, not {}", typed.ty);
-        let help = conversion(typed, expr, wanted).or_else(|| self.values_of(wanted));
+        let named = plain_ref(expr)
+            .and_then(|name| self.names.value(&name.name.name, self.context.library));
+        let is_variant = matches!(named, Some((Decl::Variant(..), _)));
+        let help = conversion(typed, expr, wanted, is_variant).or_else(|| self.values_of(wanted));
         let kind = self.misspelt_kind(expr, &typed.ty, wanted);
         let place = (&typed.ty, wanted) == (&Type::Robot, &Type::Point);
         let draft = self
             .unlike(typed, wanted, message)
             .this_is(&typed.ty)
             .help_if(help)
-            .unit_for(expr, wanted.dim().filter(|_| typed.ty.dim().is_some()));
+            .unit_for(expr, wanted.dim().filter(|_| typed.ty.dim().is_some()))
+            .units_within(expr, wanted.dim().filter(|_| typed.ty == Type::NUMBER));
         if let Some((kind, meant)) = kind {
             let title = format!("did you mean the kind `{meant}`?");
             return draft.also(kind, "its kind is said here").fix(
@@ -71,7 +75,7 @@ impl<'a> Checker<'a> {
     }
 
     /// The values of an enum, as advice.
-    fn values_of(&self, wanted: &Type) -> Option<String> {
+    pub fn values_of(&self, wanted: &Type) -> Option<String> {
         let Type::Enum(of) = wanted else { return None };
         let names: Vec<String> = self.variants(of).iter().map(ToString::to_string).collect();
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
@@ -214,12 +218,21 @@ pub const PLACE_FOR_WALL: &str =
     "what a robot goes to is a place: `place NAME = disc((1 m, 2 m), 20 cm)`";
 
 /// How a number of one unit becomes one of another that people take for it, and a place one of a kind.
-fn conversion(typed: &Typed, expr: &Expr, wanted: &Type) -> Option<String> {
+fn conversion(typed: &Typed, expr: &Expr, wanted: &Type, is_variant: bool) -> Option<String> {
     if let (Type::Place(None), Type::Place(Some(kind))) = (&typed.ty, wanted) {
         let place = print::expr(expr);
         return Some(format!(
             "a kind stands behind the name: `place {place}: {kind} = …`"
         ));
+    }
+    let is_target = typed.ty.is_named_target() || typed.ty == Type::Target;
+    if is_target && matches!(expr.kind, ExprKind::Ref(_)) {
+        let target = print::expr(expr);
+        match wanted.dim() {
+            Some(Dim::ANGLE) => return Some(format!("the way to it: `direction({target})`")),
+            Some(Dim::LENGTH) => return Some(format!("how far it is: `distance({target})`")),
+            _ => {}
+        }
     }
     if let (Type::Point, Type::Shape) = (&typed.ty, wanted) {
         let point = print::expr(expr);
@@ -264,7 +277,7 @@ fn conversion(typed: &Typed, expr: &Expr, wanted: &Type) -> Option<String> {
         return Some(format!("in so many of all cases: `chance({odds})`"));
     }
     if *wanted == Type::Bool {
-        return as_condition(typed, expr);
+        return as_condition(typed, expr, is_variant);
     }
     let (is, wanted) = (typed.ty.dim()?, wanted.dim()?);
     let literal = match &expr.kind {
@@ -279,7 +292,10 @@ fn conversion(typed: &Typed, expr: &Expr, wanted: &Type) -> Option<String> {
         return Some(format!("it is one divided by that: `1 / ({asked})`"));
     }
     if is != Dim::TIME && is.times(Dim::TIME, -1) == wanted {
-        let literal = literal?;
+        let Some(literal) = literal else {
+            let off = print::expr(expr);
+            return Some(format!("a gain makes a rate of it: `2 Hz * {off}`"));
+        };
         let unit = &literal.unit.as_ref()?.text;
         return Some(format!("per second: `{} {unit}/s`", literal.digits));
     }
@@ -297,13 +313,14 @@ fn conversion(typed: &Typed, expr: &Expr, wanted: &Type) -> Option<String> {
 }
 
 /// What asks whether something holds of a value that is no truth value.
-fn as_condition(typed: &Typed, expr: &Expr) -> Option<String> {
+fn as_condition(typed: &Typed, expr: &Expr, is_variant: bool) -> Option<String> {
     if matches!(expr.kind, ExprKind::Number(_)) {
         return None;
     }
     let asked = print::expr(expr);
     match &typed.ty {
         Type::Behavior => Some(format!("whether it has ended: `success({asked})`")),
+        Type::Enum(_) if is_variant => Some(format!("compare something with it: `… == {asked}`")),
         Type::Enum(_) => Some(format!("compare it: `{asked} == …`")),
         Type::Place(_) => Some(format!("whether the robot is there: `inside({asked})`")),
         Type::Sensor => Some(format!("what it measures: `distance({asked}) < …`")),
@@ -326,6 +343,49 @@ pub fn is_literal(expr: &Expr) -> bool {
 }
 
 impl Draft<'_> {
+    /// Offers to write the unit of a dimension after each literal among the arguments of a function that passes it on.
+    pub fn units_within(self, expr: &Expr, dim: Option<Dim>) -> Self {
+        let ExprKind::Ref(Ref {
+            name,
+            args: Some(args),
+            ..
+        }) = &expr.kind
+        else {
+            return self;
+        };
+        let Some(unit) = dim.and_then(Dim::unit) else {
+            return self;
+        };
+        let values = args.iter().map(|arg| match &arg.kind {
+            ArgKind::Positional(value) if is_literal(value) => Some(print::expr(value)),
+            _ => None,
+        });
+        let Some(values) = values.collect::<Option<Vec<String>>>() else {
+            return self;
+        };
+        if !PASSING.contains(&name.name.as_str()) || values.is_empty() {
+            return self;
+        }
+        // As for one number: whole angles are degrees.
+        let whole = values.iter().all(|value| !value.contains('.'));
+        let unit = if unit == "rad" && whole {
+            "deg"
+        } else {
+            unit.as_str()
+        };
+        let values: Vec<String> = values
+            .iter()
+            .map(|value| format!("{value} {unit}"))
+            .collect();
+        let right = format!("{}({})", name.name, values.join(", "));
+        self.fix(
+            format!("give each its unit: `{right}`"),
+            expr.span,
+            right,
+            Applicability::Unsafe,
+        )
+    }
+
     /// Offers to write the unit of a dimension after a literal that lacks it.
     pub fn unit_for(self, expr: &Expr, dim: Option<Dim>) -> Self {
         let Some(unit) = dim.filter(|_| is_literal(expr)).and_then(Dim::unit) else {

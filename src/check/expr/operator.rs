@@ -6,7 +6,7 @@ use crate::check::expr::plain_ref;
 use crate::check::report::listed;
 use crate::check::types::units::Dim;
 use crate::check::types::{Type, Typed};
-use crate::diagnostic::Code;
+use crate::diagnostic::{Applicability, Code};
 use crate::ir::Pool;
 use crate::ir::expr::{Binary, ExprId, Unary};
 use crate::source::Span;
@@ -88,6 +88,25 @@ impl<'a> Checker<'a> {
         if !a.ty.fits(&Type::Bool) && !b.ty.fits(&Type::Bool) {
             return self.joins_no_truths(sign, [(left, &a), (right, &b)]);
         }
+        if let Type::Enum(of) = &b.ty
+            && let Some(asked) = self.asked_before(left, of)
+        {
+            let right_text = format!("{asked}{}", print::expr(right));
+            return self
+                .error(
+                    Code::E0302,
+                    b.span,
+                    format!("each side of `{word}` is a comparison of its own"),
+                )
+                .this_is(&b.ty)
+                .fix(
+                    format!("write `{right_text}`"),
+                    b.span,
+                    right_text,
+                    Applicability::Unsafe,
+                )
+                .none();
+        }
         let role = format!("each side of `{word}`");
         let a = self.coerce(a, left, &Type::Bool, &role);
         let b = self.coerce(b, right, &Type::Bool, &role);
@@ -95,6 +114,23 @@ impl<'a> Checker<'a> {
             return None;
         }
         Some(self.lift_binary(op, Type::Bool, &a, &b, span))
+    }
+
+    /// `weather == ` of `weather == misty`, which a further value of that enum follows.
+    fn asked_before(&mut self, left: &'a Expr, of: &str) -> Option<String> {
+        match &left.kind {
+            ExprKind::Binary { op, left, .. } if matches!(op.node, BinaryOp::Eq | BinaryOp::Ne) => {
+                let (typed, _) = self.captured(|checker| checker.expr(left));
+                let same = matches!(&typed.ty, Type::Enum(is) if is == of);
+                same.then(|| format!("{} {} ", print::expr(left), op.node.spelling()))
+            }
+            ExprKind::Binary { op, right, .. }
+                if matches!(op.node, BinaryOp::And | BinaryOp::Or) =>
+            {
+                self.asked_before(right, of)
+            }
+            _ => None,
+        }
     }
 
     /// Reports `0 or 3`: neither side holds or does not.
@@ -209,7 +245,8 @@ impl<'a> Checker<'a> {
         if self.may_be_value(left, right) || self.may_be_value(right, left) {
             return Typed::unknown(Type::Bool, span);
         }
-        let (a, b) = (self.expr(left), self.expr(right));
+        let a = self.expr(left);
+        let b = self.expr_like(right, &a.ty);
         if a.ty == Type::Error || b.ty == Type::Error {
             return Typed::unknown(Type::Bool, span);
         }
@@ -352,6 +389,12 @@ impl<'a> Checker<'a> {
                 .this_is(&b.ty)
                 .also(a.span, format!("this is {}", a.ty))
                 .help_if(help);
+            return;
+        }
+        if (&a.ty, &b.ty) == (&Type::Point, &Type::Point) {
+            self.error(Code::E0302, op, "two points are hardly ever the same")
+                .label("points are not compared")
+                .help("how far apart they are: `distance(POINT, POINT) < 10 cm`");
             return;
         }
         let (message, label) = match a.ty {

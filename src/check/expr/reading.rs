@@ -9,6 +9,7 @@ use crate::diagnostic::Code;
 use crate::geometry::{Point, Segment, Shape};
 use crate::ir::Pool;
 use crate::ir::expr::{Binary, Echo, Expr, ExprId, Pose, Unary};
+use crate::ir::world::World;
 use crate::source::Span;
 use crate::syntax::ast::{self, Ref};
 
@@ -96,11 +97,12 @@ impl<'a> Checker<'a> {
         Some(target)
     }
 
-    /// Whether only one robot reads what is at hand: events and what they do are read by the one that learns, and bodies
-    /// by the robot that they are unrolled for.
+    /// Whether only one robot reads what is at hand: events and what they do are read by the one that learns, scripts
+    /// by the robot that runs them, and bodies by the robot that they are unrolled for.
     fn reader_is_known(&self) -> bool {
         let region = self.context.region;
-        region.sees_events()
+        self.subject != World::acting()
+            || region.sees_events()
             || matches!(region, Region::EachTick | Region::Start)
             || !self.bodies.of_any_robot()
     }

@@ -4,12 +4,12 @@ use crate::check::Checker;
 use crate::check::builtin;
 use crate::check::names::{Decl, is_built_in};
 use crate::check::types::{Type, Typed, Value};
-use crate::diagnostic::{Applicability, Code};
+use crate::diagnostic::{Applicability, Code, suggest};
 use crate::ir::expr::Expr;
 use crate::ir::world::{Robot, World};
 use crate::ir::{Id, Name};
 use crate::source::Span;
-use crate::syntax::ast::Ref;
+use crate::syntax::ast::{Ident, Ref};
 
 impl<'a> Checker<'a> {
     /// A name, or a call.
@@ -127,8 +127,42 @@ impl<'a> Checker<'a> {
         .none()
     }
 
+    /// Reports that no value of the enum `of` is called so, unless the name is like another one.
+    fn no_value_of(&mut self, name: &Ident, of: Option<String>) -> bool {
+        let Some(of) = of else { return false };
+        // An enum or a kind is no misspelt value.
+        if self.names.types.contains_key(name.name.as_str()) {
+            return false;
+        }
+        let help = self.values_of(&Type::Enum(of.clone()));
+        let variants = self.variants(&of);
+        let variants: Vec<String> = variants.iter().map(ToString::to_string).collect();
+        let variants = || variants.iter().map(String::as_str);
+        let meant = suggest::nearest(&name.name, variants());
+        let elsewhere = self.likely(&name.name, self.names.values(|_| true));
+        if meant.is_none() && elsewhere.is_some() {
+            return false;
+        }
+        let message = format!("`{}` is not declared", name.name);
+        let draft = self
+            .error(Code::E0202, name.span, message)
+            .label(format!("no value of `{of}` has this name"));
+        match meant {
+            Some(meant) => draft.likely(name, Some(meant)).emit(),
+            None => draft.help_if(help).emit(),
+        }
+        true
+    }
+
+    /// The name of the body at hand, if it has no parameters: what is not declared in it may be one that it lacks.
+    fn body_without_parameters(&self) -> Option<String> {
+        let open = self.bodies.open.last()?;
+        self.context.scope.is_empty().then(|| open.name.to_owned())
+    }
+
     fn unknown_reference(&mut self, reference: &Ref) -> Option<Typed> {
         let name = &reference.name;
+        let wanted = self.wanted.take();
         let mut others = self.names.other_sensors.iter();
         if reference.args.is_none() && others.any(|(_, other)| other.name == name.name) {
             return self.sensor_of_another(reference);
@@ -149,6 +183,12 @@ impl<'a> Checker<'a> {
                     "add it to the robot: `sensor {missing} = scanner(from = …, to = …, range = …)`"
                 ))
                 .none();
+        }
+        if reference.args.is_none() && self.no_value_of(name, wanted) {
+            return None;
+        }
+        if reference.args.is_none() && name.name.len() == 1 {
+            self.names.lacking.extend(self.body_without_parameters());
         }
         let scope = self.context.scope.iter();
         let scope = scope.map(|bound| bound.name.name.as_str());

@@ -122,6 +122,11 @@ impl<'a> Checker<'a> {
             if kind == Composite::Sequence && !memory {
                 held = held.and(&passes);
             }
+            // A bare condition in a selector has a warning of its own.
+            let bare = kind == Composite::Selector && matches!(node, Node::Condition(_));
+            if bare && !is_switch(child) && at + 1 < nodes.len() {
+                continue;
+            }
             let next = match (memory, passes.is_never()) {
                 (false, _) => open.and(&passes),
                 // A child of a memory node may have ended in an earlier tick.

@@ -10,7 +10,7 @@ use crate::ir::law::Behavior;
 use crate::ir::task::Task;
 use crate::ir::{Id, Name};
 use crate::spelling::spelled;
-use crate::syntax::ast::{Expr, ExprKind, Ident, Ref};
+use crate::syntax::ast::{self, Expr, ExprKind, Ident, Ref};
 use crate::syntax::words::DRIVING;
 
 impl<'a> Checker<'a> {
@@ -147,7 +147,13 @@ impl<'a> Checker<'a> {
         // Nor is a word of logic.
         let of_logic = what.starts_with("function") && ranging(&name.name).is_some();
         let likely = likely.filter(|_| !of_logic);
+        let input = self.input_with(&name.name);
+        let likely = likely.filter(|_| input.is_none());
         let hint = match (likely, place) {
+            _ if input.is_some() => input.map(|input| {
+                let (name, input) = (spelled(&name.name), spelled(input));
+                format!("`{name}` is a value of `{input}`: `predicate NAME = {input} == {name}`")
+            }),
             (Some(_), _) => None,
             (None, Some((decl, _))) if what == "type" => Some(format!(
                 "`{0}` is {1}; members are of a kind, which stands behind their names: `{0}: KIND = …`",
@@ -164,6 +170,16 @@ impl<'a> Checker<'a> {
         .label(format!("no {what} has this name"))
         .likely(name, likely)
         .help_if(hint)
+    }
+
+    /// The input that has a value of this name.
+    fn input_with(&self, value: &str) -> Option<&'a str> {
+        let has = |input: &ast::Input| match &input.kind {
+            ast::InputKind::Category(values) => values.iter().any(|known| known.name == value),
+            ast::InputKind::Number(_) => false,
+        };
+        let is = |decl| matches!(decl, Decl::Input(input) if has(input));
+        self.names.values(is).next()
     }
 
     /// What a name stands for in another space than that in which a `what` is looked for, and what to do about it.

@@ -27,6 +27,10 @@ impl<'a> Checker<'a> {
             }
             None => 0,
         };
+        let mut kept: Vec<Outcome> = Vec::new();
+        for outcome in outcomes {
+            self.once(&mut kept, outcome.node, outcome.span);
+        }
         let keeps = |outcome| outcomes.iter().any(|kept| kept.node == outcome);
         History {
             window: window_length,

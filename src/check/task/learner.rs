@@ -4,13 +4,15 @@ use crate::check::Checker;
 use crate::check::context::{Context, Region};
 use crate::check::names::learned_name;
 use crate::check::types::Type;
-use crate::diagnostic::{Applicability, Code};
+use crate::diagnostic::{Applicability, Code, suggest};
 use crate::ir::expr::{Binary, Expr};
 use crate::ir::law::Behavior;
 use crate::ir::task::{Discount, Learner, Method, Objective};
 use crate::ir::{Id, Name};
 use crate::source::Span;
+use crate::spelling::spelled;
 use crate::syntax::ast::{self, ExprKind, LearnEntry, Link, Ref, Setting};
+use crate::syntax::print;
 use crate::syntax::words::{LEARNER, home};
 use std::collections::BTreeMap;
 
@@ -25,7 +27,10 @@ impl<'a> Checker<'a> {
     /// `learn name for task { … }`
     pub fn learn(&mut self, learn: &'a ast::Learn) {
         self.context = Context::new(Region::Schedule);
-        let task = self.task_of(&learn.task);
+        let task = match self.lacks_its_task(learn) {
+            true => None,
+            false => self.task_of(&learn.task),
+        };
         let pool = &mut self.program.pool;
         // The defaults: steps of visits^-0.7, exploration from 30 % to 5 %.
         let visits = pool.leaf(Expr::Visits);
@@ -107,6 +112,35 @@ impl<'a> Checker<'a> {
         if task.is_some() {
             self.program.learners.push(built);
         }
+    }
+
+    /// Reports `learn NAME { … }`, which says no task, where one is known.
+    fn lacks_its_task(&mut self, learn: &ast::Learn) -> bool {
+        let name = &learn.task;
+        let mut tasks = self.names.tasks.keys();
+        let (Some(only), None) = (tasks.next().copied(), tasks.next()) else {
+            return false;
+        };
+        let known = name.name == only || self.names.is_lost(&name.name);
+        let another = self.names.value(&name.name, false).is_some();
+        let like = suggest::nearest(&name.name, [only]).is_some();
+        if learn.name.is_some() || known || another || like {
+            return false;
+        }
+        let right = format!(" for {}", spelled(only));
+        let message = format!("`{}` is not declared", name.name);
+        self.error(Code::E0202, name.span, message)
+            .label("no task has this name")
+            .fix(
+                format!(
+                    "if the learner is called so, say its task: `{}{right}`",
+                    name.name
+                ),
+                name.span.after(),
+                right,
+                Applicability::Unsafe,
+            );
+        true
     }
 
     fn setting(&mut self, setting: &'a Setting, learner: &mut Learner) {
@@ -199,12 +233,20 @@ impl<'a> Checker<'a> {
         };
         let found = METHODS.iter().find(|(name, _)| *name == word);
         if found.is_none() {
-            self.error(
-                Code::E0501,
-                value.span,
-                "no method of learning has this name",
-            )
-            .label("unknown")
+            // `q-learning` is a difference.
+            let written = print::expr(value).replace(" - ", "-").replace('-', "_");
+            let likely = suggest::nearest(&written, METHODS.iter().map(|(name, _)| *name));
+            let message = "no method of learning has this name";
+            let draft = self.error(Code::E0501, value.span, message);
+            match likely {
+                Some(likely) => draft.label(format!("did you mean `{likely}`?")).fix(
+                    format!("write `{likely}`"),
+                    value.span,
+                    likely,
+                    Applicability::Unsafe,
+                ),
+                None => draft.label("unknown"),
+            }
             .help("there are: q_learning, double_q, model");
         }
         found.map(|(_, method)| *method)
@@ -313,8 +355,24 @@ impl<'a> Checker<'a> {
                 .help("or by time: `per 1 s`")
                 .none();
         };
-        if is_decision(tail) {
+        if is_word(tail, &["decision"]) {
             return Some(Discount::PerDecision(factor));
+        }
+        if is_word(tail, &["decisions", "step", "steps", "action", "choice"]) {
+            return self
+                .error(
+                    Code::E0501,
+                    tail.span,
+                    "a discount is counted by decisions, or by time",
+                )
+                .label("write `decision`")
+                .fix(
+                    "write `decision`",
+                    tail.span,
+                    "decision",
+                    Applicability::Unsafe,
+                )
+                .none();
         }
         let seconds = self.constant(tail, &Type::TIME, "the time of a discount")?;
         if seconds > 0.0 {
@@ -329,7 +387,7 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// Whether an expression is the word `decision`.
-fn is_decision(expr: &ast::Expr) -> bool {
-    matches!(&expr.kind, ExprKind::Ref(Ref { name, args: None, .. }) if name.name == "decision")
+/// Whether an expression is one of some words.
+fn is_word(expr: &ast::Expr, words: &[&str]) -> bool {
+    matches!(&expr.kind, ExprKind::Ref(Ref { name, args: None, .. }) if words.contains(&name.name.as_str()))
 }

@@ -87,6 +87,16 @@ impl<'a> Checker<'a> {
                     .help(format!("the history says what has ended: `{right}`"))
                     .none()
             }
+            ExprKind::Binary { op, right, .. }
+                if op.node <= BinaryOp::Ge && self.node_named(right).is_some() =>
+            {
+                let sign = op.node.spelling();
+                let message = format!("a guard is followed by `=>`, not by `{sign}`");
+                self.error(Code::E0116, op.span, message)
+                    .label("write `=>`")
+                    .fix("write `=>`", op.span, "=>", Applicability::Unsafe)
+                    .none()
+            }
             ExprKind::Binary { op, .. } if op.node <= BinaryOp::Ge => {
                 let help = format!("give it one: {}", declaration(expr));
                 self.no_predicate(expr.span, "this comparison has none", Some(help))
@@ -95,6 +105,24 @@ impl<'a> Checker<'a> {
                 let label = "this is neither a predicate nor `and`, `or`, `not` of some";
                 let number =
                     matches!(&expr.kind, ExprKind::Number(number) if number.unit.is_some());
+                let written = print::expr(expr).replace(' ', "");
+                if self.names.value(&written, false).is_some() {
+                    let right = spelled(&written);
+                    return self
+                        .error(
+                            Code::E0202,
+                            expr.span,
+                            "a name with marks stands in backquotes",
+                        )
+                        .label(format!("write `{right}`"))
+                        .fix(
+                            "put it in backquotes",
+                            expr.span,
+                            right,
+                            Applicability::Unsafe,
+                        )
+                        .none();
+                }
                 let help = "in a test `for` says how long: `tick for 3 s => …`";
                 self.no_predicate(expr.span, label, number.then(|| help.to_owned()))
             }
@@ -166,7 +194,7 @@ impl<'a> Checker<'a> {
             }
             Some(Decl::Variant(_, of, _)) => {
                 let (called, of) = (spelled(name), &of.name.name);
-                format!("ask a state of the enum `{of}`: `predicate NAME = STATE is {called}`")
+                format!("ask a state of the enum `{of}`: `predicate NAME = STATE == {called}`")
             }
             None if matches!(name, "success" | "failure") => {
                 let history = match name {

@@ -129,9 +129,9 @@ impl<'a> Checker<'a> {
         if let Some(radius) = body.and_then(|field| self.body(&field.value)) {
             robot.radius = radius;
         }
-        if let Some(drive) = drive.and_then(|field| self.drive(&field.value)) {
-            robot.drive = drive;
-            self.drive_known = true;
+        match drive.and_then(|field| self.drive(&field.value)) {
+            Some(drive) => robot.drive = drive,
+            None => self.drive_unsure = true,
         }
         if let Some(field) = contact {
             match word(&field.value) {

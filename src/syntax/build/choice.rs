@@ -36,6 +36,20 @@ impl<'i> Builder<'i> {
             return Otherwise::If(Box::new(choice), span.to(end));
         }
         if parts.has(Rule::missing_else) {
+            let rest = self.text.get(then.range().end..).unwrap_or_default();
+            if let Some(rest) = rest.trim_start().strip_prefix("else") {
+                let end = self.text.len() - rest.len();
+                let word = Span::new(self.file, end - "else".len(), end);
+                let diagnostic = Diagnostic::new(
+                    Code::E0126,
+                    place,
+                    "both values of a choice stand in braces",
+                )
+                .label("write `if CONDITION { … } else { … }`")
+                .also(word, "what follows has none");
+                self.report(diagnostic);
+                return Otherwise::Yield(self.no_yield(then.after()));
+            }
             let diagnostic = Diagnostic::new(Code::E0126, place, "a value by `if` needs an `else`")
                 .label("what is the value if this does not hold?")
                 .also(then, "the value if it holds");

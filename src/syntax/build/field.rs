@@ -108,8 +108,11 @@ impl<'i> Builder<'i> {
             let inner = args
                 .strip_prefix('(')
                 .and_then(|args| args.strip_suffix(')'));
-            if let Some(inner) = inner.filter(|_| one_of(&ENDS)) {
+            if let Some(inner) = inner.filter(|_| one_of(&ENDS) || name == "inside") {
                 return Ok(format!("{name}({inner}, by = {owner})"));
+            }
+            if let Some(inner) = inner.filter(|inner| name == "distance" && !inner.is_empty()) {
+                return Ok(format!("{name}({owner}, {inner})"));
             }
             return Err(Some(format!(
                 "what another robot does is asked so: `success({name}{args}, by = {owner})`"
@@ -126,6 +129,9 @@ impl<'i> Builder<'i> {
                 return Err(None);
             }
             return Ok(format!("pose({owner})"));
+        }
+        if args.is_none() && self.declares_family(owner) && self.declares(name) {
+            return Ok(format!("{owner}({name})"));
         }
         if args.is_none() && self.declared_by(owner, &["input"]) {
             return Ok(format!("{owner} == {name}"));

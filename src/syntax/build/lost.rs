@@ -158,6 +158,20 @@ impl Builder<'_> {
                 .names
                 .push([self.bare(left), self.bare(right)].join("_"));
         }
+        // So is one with a mark in it, or with a word of the language.
+        if let [declares, left, rest @ ..] = code.as_slice()
+            && DECLARING.contains(&word(declares))
+            && self.is_name(left)
+        {
+            let right = match rest {
+                [mark, right, ..] if word(mark) == "-" => Some(right),
+                [right, ..] => Some(right),
+                [] => None,
+            };
+            let right = right.filter(|right| right.kind == Kind::Word);
+            let joined = right.map(|right| [self.bare(left), self.bare(right)].join("_"));
+            self.lost.names.extend(joined);
+        }
         // However it is said, what brings the library brings names.
         let mut unnamed = first.is_some_and(|word| BRINGING.contains(&word))
             || code

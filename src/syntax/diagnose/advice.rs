@@ -71,12 +71,27 @@ impl Place<'_> {
             let before = self.span().before();
             return diagnostic.fix(title, before, "probability >= ", Applicability::Unsafe);
         }
+        let begins_value = matches!(self.found.kind, Kind::Word | Kind::Number | Kind::Name)
+            && !RESERVED.contains(&found);
+        if let Some(before) = self.before
+            && begins_value
+            && self.expects(Rule::comma)
+            && self.open_is_paren()
+        {
+            let place = self.span_of(before).after();
+            return diagnostic.fix("put a comma", place, ",", Applicability::Unsafe);
+        }
         if self.before() == "history"
             && self.expects(Rule::kw_last)
             && self.found.kind == Kind::Number
         {
             let title = "a history keeps the last ends";
             return diagnostic.fix(title, self.span().before(), "last ", Applicability::Safe);
+        }
+        if self.before() == "last" && wants_value && is_word(self.found) {
+            let title = "say how many";
+            let before = self.span().before();
+            return diagnostic.fix(title, before, "1 ", Applicability::Unsafe);
         }
         if self.before() == "probability" && self.found.kind == Kind::Number {
             let title = "say that it is as probable or more";
@@ -144,6 +159,9 @@ impl Place<'_> {
             (Rule::strict_aspect, "when" | "if") if self.before() == "end" => {
                 "an episode ends on an event: `event NAME = CONDITION`, then `end on NAME`"
             }
+            (Rule::strict_test_entry, "=" | "==") if self.expects(Rule::answer) => {
+                "what a behaviour answers is `succeeds`, `fails` or `runs`"
+            }
             (Rule::strict_test_entry, "=" | "==") => {
                 "a predicate is said to hold by its name: `given low`, `given not low`"
             }
@@ -165,6 +183,12 @@ impl Place<'_> {
             }
             (_, "[") if self.expects(Rule::children) => "the children of a node stand in braces",
             (_, "[") if self.expects(Rule::open_paren) => "arguments stand in parentheses",
+            (Rule::strict_item, "with")
+                if self.line_begins_with("claim")
+                    && matches!(self.after_found(), "confidence" | "prob" | "p") =>
+            {
+                "`with probability >= 95%` says how sure it is"
+            }
             (Rule::strict_item, "with") if self.line_begins_with("claim") => {
                 "how sure it is follows last: `… within TIME with probability >= 95%`"
             }
@@ -217,7 +241,14 @@ impl Place<'_> {
             (_, "in") if self.expects(Rule::or_op) && is_word_next(self.next()) => {
                 "whether the robot is in a place: `inside(PLACE)`, another robot: `inside(PLACE, by = ROBOT)`"
             }
-            (_, "in") | (_, "not") if self.expects(Rule::or_op) => {
+            (_, "in") if self.expects(Rule::or_op) && self.range_follows() => {
+                "each end is a comparison of its own: `x >= a and x <= b`"
+            }
+            (Rule::strict_test_entry, "not") if self.expects(Rule::comma) => {
+                "a comma parts what holds: `low, not full`"
+            }
+            (_, "not") if self.expects(Rule::or_op) => "conditions are joined: `a and not b`",
+            (_, "in") if self.expects(Rule::or_op) => {
                 "each comparison says what it compares: `x == a or x == b`"
             }
             _ if matches!(self.before(), "exists" | "forall" | "some" | "every")
@@ -241,6 +272,29 @@ impl Place<'_> {
                 };
             }
             (Rule::strict_child, "then") => "a guard is followed by `=>`: `CONDITION => NODE`",
+            _ if self.is_choice_without_braces() => {
+                "both values of a choice stand in braces: `if CONDITION { … } else { … }`"
+            }
+            (_, "equals" | "equal") if self.expects(Rule::or_op) => {
+                "two values are compared with `==`"
+            }
+            (_, "~") if self.expects(Rule::or_op) => "what differs is asked with `!=`",
+            (_, "'") if wants_value => {
+                "the language has no values of text: name something, without quotation marks"
+            }
+            (_, "'") if self.expects(Rule::name) => {
+                "a name with marks in it stands in backquotes: `` `a-b` ``"
+            }
+            (_, "^" | "%") if self.after_found() == "=" => {
+                "what sets a state is `=`, `+=`, `-=`, `*=` or `/=`"
+            }
+            (_, "{") if wants_value => "a value stands without braces",
+            (Rule::strict_item, "{") if self.before() == "=" && self.begins_with("behavior") => {
+                "the clauses of a behaviour follow its name, without `=`"
+            }
+            (Rule::strict_item, "probability") if self.line_begins_with("claim") => {
+                "how sure it is follows `with`: `with probability >= 95%`"
+            }
             (_, "then") => "what depends on a condition stands in braces",
             (Rule::strict_reward, ":") if self.expects(Rule::comma) => {
                 "a price says what time it is for: `while CONDITION, per 1 s: …`"
@@ -259,83 +313,18 @@ impl Place<'_> {
         diagnostic.help(help)
     }
 
-    /// What is written in place of the token.
-    fn respelled(&self) -> Option<(&'static str, &'static str)> {
-        match (self.failure.strict, self.found()) {
-            (Rule::strict_child | Rule::strict_item, ":") if self.expects(Rule::guards) => {
-                Some(("a guard is followed by `=>`", "=>"))
-            }
-            (Rule::strict_item, "==" | "=") if self.line_begins_with("claim") => {
-                Some(("a claim says it in words", "equals"))
-            }
-            (Rule::strict_item, "eventually" | "achieves" | "finally" | "gets")
-                if self.line_begins_with("claim") =>
-            {
-                Some(("a claim says it in words", "reaches"))
-            }
-            (Rule::strict_item, "is" | "same") if self.line_begins_with("claim") => {
-                Some(("a claim says it in words", "equals"))
-            }
-            (Rule::strict_item, "of") if self.line_begins_with("learn") => {
-                Some(("a learner is for a task", "for"))
-            }
-            (Rule::strict_item, "of") if self.line_begins_with("tree") => {
-                Some(("a tree is for a task", "for"))
-            }
-            (Rule::strict_item, ":")
-                if self.line_begins_with("tree") && self.expects(Rule::kw_for) =>
-            {
-                // `tree NAME: TASK = NODE`
-                let at = self
-                    .tokens
-                    .partition_point(|token| token.end <= self.found.end);
-                let names_task = self.tokens.get(at + 1);
-                match names_task.is_some_and(|then| then.of(self.text) == "=") {
-                    true => Some(("a tree is for a task", " for")),
-                    false => Some(("what a tree is follows `=`", " =")),
-                }
-            }
-            (Rule::strict_item, "for")
-                if self.line_begins_with("test") && self.expects(Rule::kw_of) =>
-            {
-                Some(("a test is of a tree", "of"))
-            }
-            (Rule::strict_aspect, "in" | "at" | "within") if self.before() == "end" => Some((
-                "how long an episode lasts at most is said by `after`",
-                "after",
-            )),
-            (Rule::strict_clause, "if" | "once") if matches!(self.before(), "fail" | "succeed") => {
-                Some(("a clause asks by `when`", "when"))
-            }
-            (Rule::strict_test_entry, "SUCCESS" | "Success" | "Succeeded" | "ok") => {
-                Some(("what a behaviour answers is said by a verb", "succeeds"))
-            }
-            (Rule::strict_test_entry, "FAILURE" | "Failure") => {
-                Some(("what a behaviour answers is said by a verb", "fails"))
-            }
-            (Rule::strict_test_entry, "RUNNING" | "Running") => {
-                Some(("what a behaviour answers is said by a verb", "runs"))
-            }
-            (Rule::strict_item, "avoids" | "not") if self.line_begins_with("claim") => {
-                Some(("a claim says it in words", "never"))
-            }
-            (Rule::strict_item, "before" | "in" | "by" | "under" | "after")
-                if self.line_begins_with("claim")
-                    && (self.expects(Rule::kw_within) || self.expects(Rule::within)) =>
-            {
-                Some(("how soon is said by `within`", "within"))
-            }
-            (Rule::strict_child, "=") if self.expects(Rule::guards) => {
-                Some(("a guard is followed by `=>`", "=>"))
-            }
-            (Rule::strict_item, ";") if self.begins_with("enum") => {
-                Some(("the values of an enum are parted by commas", ","))
-            }
-            (Rule::strict_child | Rule::strict_item, ";") if self.expects(Rule::comma) => {
-                Some(("the children of a node are parted by commas", ","))
-            }
-            _ => None,
-        }
+    /// Whether `..` or a second `,` shows that a range is meant by what follows `in`.
+    fn range_follows(&self) -> bool {
+        let rest = self.text.get(self.found.end..).unwrap_or_default();
+        rest.lines().next().is_some_and(|line| line.contains(".."))
+    }
+
+    /// Whether a choice goes on without braces: an `else` follows on the line.
+    fn is_choice_without_braces(&self) -> bool {
+        let wants_block = self.expects(Rule::open_brace);
+        let rest = self.text.get(self.found.start..).unwrap_or_default();
+        let rest = rest.lines().next().unwrap_or_default();
+        wants_block && rest.contains(" else ") && !rest.contains('{')
     }
 
     /// Whether the token stands in parentheses or brackets that the word of a node opens.

@@ -87,6 +87,18 @@ impl Place<'_> {
             self.found()
         );
         let meant = match self.found().to_ascii_lowercase().as_str() {
+            "and" | "or" => {
+                let before = self.before.map_or(self.span(), |token| self.span_of(token));
+                let joined = Span {
+                    start: before.end,
+                    ..self.span()
+                };
+                return Some(
+                    Diagnostic::new(Code::E0101, self.span(), message)
+                        .label("they are parted by commas")
+                        .fix("put a comma", joined, ",", Applicability::Unsafe),
+                );
+            }
             "done" | "succeeded" | "successes" | "succeeds" | "success" => Some("success"),
             "failed" | "failures" | "fails" | "fail" | "failure" => Some("failure"),
             _ => None,

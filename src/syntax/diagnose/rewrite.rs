@@ -11,6 +11,23 @@ use crate::syntax::words::UNITS;
 /// The words that declare one name.
 const DECLARING: [&str; 5] = ["event", "predicate", "behavior", "task", "tree"];
 
+/// The types that are built in.
+const TYPES: [&str; 13] = [
+    "bool",
+    "number",
+    "ratio",
+    "length",
+    "time",
+    "angle",
+    "speed",
+    "turn_rate",
+    "frequency",
+    "point",
+    "place",
+    "wall",
+    "target",
+];
+
 /// What other languages call the way that a robot stands in a place.
 const WAYS: [&str; 6] = [
     "heading",
@@ -34,11 +51,15 @@ impl Place<'_> {
             .or_else(|| self.other_length())
             .or_else(|| self.ended_by_time())
             .or_else(|| self.bare_point())
+            .or_else(|| self.in_pieces())
     }
 
     /// `position = 1 m, 3 m`
     fn bare_point(&self) -> Option<Diagnostic> {
-        let start = self.failure.strict == Rule::strict_start_line;
+        let start = matches!(
+            self.failure.strict,
+            Rule::strict_start_line | Rule::strict_stmt
+        );
         if !start || self.before() != "," || self.found.kind != Kind::Number {
             return None;
         }
@@ -94,7 +115,7 @@ impl Place<'_> {
         Span::new(self.file, end, end)
     }
 
-    fn told(
+    pub(super) fn told(
         &self,
         span: Span,
         message: impl Into<String>,
@@ -153,6 +174,10 @@ impl Place<'_> {
             return None;
         }
         let span = self.span_of(ty).to(self.span());
+        if TYPES.contains(&self.found()) && !TYPES.contains(&ty.of(self.text)) {
+            let right = format!("{}: {}", ty.of(self.text), self.found());
+            return self.told(span, "a `:` parts a parameter from its type", right);
+        }
         let right = format!("{}: {}", self.found(), ty.of(self.text));
         self.told(span, "the name of a parameter goes before its type", right)
     }
@@ -203,24 +228,61 @@ impl Place<'_> {
 
     /// `a if c else b`
     fn chosen_backwards(&self) -> Option<Diagnostic> {
-        if self.found() != "if" || !self.same_line_as_before() {
-            return None;
-        }
-        let head = self.text.get(..self.found.start)?;
-        let line = head.rfind('\n').map_or(0, |at| at + 1);
-        let mark = head.get(line..)?.rfind(['=', ':', '('])? + line + 1;
+        let asks = match self.found() {
+            "if" if self.same_line_as_before() => self.found,
+            // `a = b if c` is a statement with another behind it.
+            "else" => self.before_on_line("if")?,
+            _ => return None,
+        };
+        let head = self.text.get(..asks.start)?;
+        let mark = self.value_begins_behind(asks)?.end;
         let value = head.get(mark..)?.trim();
-        let rest = self.rest_of_line(self.found.end);
+        let rest = self.rest_of_line(asks.end);
         let (asked, other) = rest.split_once(" else ")?;
         let other = own(other).trim();
         if value.is_empty() || other.is_empty() || other.contains(['{', ';']) {
             return None;
         }
         let start = head.len() - head.get(mark..)?.trim_start().len();
-        let end = self.found.end + rest.find(" else ")? + " else ".len() + other.len();
+        let end = asks.end + rest.find(" else ")? + " else ".len() + other.len();
+        if value.contains(['{', '}']) || asked.contains('{') {
+            return None;
+        }
         let right = format!("if {} {{ {value} }} else {{ {other} }}", asked.trim());
         let span = Span::new(self.file, start, end);
         self.told(span, "the condition of a choice goes first", right)
+    }
+
+    /// The last token of this spelling before the one that was found, on its line and not at its beginning.
+    fn before_on_line(&self, word: &str) -> Option<Token> {
+        let line = self.tokens.iter().rev();
+        let mut line = line.skip_while(|token| token.start >= self.found.start);
+        let token = line.find(|token| token.of(self.text) == word)?;
+        let between = self.text.get(token.start..self.found.start)?;
+        let head = self.text.get(..token.start)?;
+        let begins = head
+            .trim_end_matches([' ', '\t'])
+            .ends_with(['\n', '{', '}']);
+        (!between.contains('\n') && !begins).then_some(*token)
+    }
+
+    /// The mark behind which the value before a token begins.
+    fn value_begins_behind(&self, end: Token) -> Option<Token> {
+        let mut closed = 0_usize;
+        let before = self.tokens.iter().rev();
+        for token in before.skip_while(|token| token.start >= end.start) {
+            match token.of(self.text) {
+                ")" | "]" => closed += 1,
+                "(" | "[" if closed > 0 => closed -= 1,
+                "(" | "[" | "{" | "," | ":" | "=" | "+=" | "-=" | "*=" | "/=" | ":="
+                    if closed == 0 =>
+                {
+                    return Some(*token);
+                }
+                _ => {}
+            }
+        }
+        None
     }
 
     /// `while hot per 1 min: -0.2`

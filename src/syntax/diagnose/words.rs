@@ -34,6 +34,16 @@ impl Place<'_> {
         if self.open_paren().is_some() && matches!(self.after_found(), ":" | "=") {
             return Some(comma_before(self.span(), word, self.before));
         }
+        if after_unit && expected::words(&[Rule::wrong_unit]).is_empty() && is_unit_word(word) {
+            let drop = self.before.map_or(self.span(), |before| {
+                Span::new(self.file, before.end, self.found.end)
+            });
+            return Some(
+                Diagnostic::new(Code::E0114, self.span(), "a number has one unit")
+                    .label(format!("`{}` says it already", self.before()))
+                    .fix(format!("drop `{word}`"), drop, "", Applicability::Unsafe),
+            );
+        }
         Some(no_such_unit(self.span(), word, links))
     }
 
@@ -152,6 +162,34 @@ impl Place<'_> {
                 format!("`{word}`"),
                 Applicability::Unsafe,
             ),
+        )
+    }
+
+    /// `let mut x`, `enum class x`: a word of another language before the name.
+    pub(super) fn word_before_name(&self) -> Option<Diagnostic> {
+        let (begins, word) = (self.second_before?, self.before?);
+        let known = match begins.of(self.text) {
+            "let" | "state" => ["mut", "const", "var", "static"].as_slice(),
+            "enum" => &["class", "struct"],
+            _ => return None,
+        };
+        let said = known.contains(&word.of(self.text));
+        let name = matches!(self.found.kind, Kind::Word | Kind::Name);
+        if !said || !name || !self.same_line_as_before() {
+            return None;
+        }
+        let spelling = word.of(self.text);
+        let span = Span::new(self.file, word.start, self.found.start);
+        let message = format!("expected a name, found `{spelling}`");
+        Some(
+            Diagnostic::new(Code::E0101, self.span_of(word), message)
+                .label("this is not said here")
+                .fix(
+                    format!("drop `{spelling}`"),
+                    span,
+                    "",
+                    Applicability::Unsafe,
+                ),
         )
     }
 
@@ -291,6 +329,13 @@ impl Place<'_> {
                     .label("this stands in a tree")
                     .help("the `}` of its tree stands above: is there one too many?")
             }
+            None if self.failure.strict == Rule::strict_item
+                && matches!(self.after_found(), "=" | ":=") =>
+            {
+                diagnostic.label("not known here").help(format!(
+                    "what stays is `let {word} = …`, what changes `state {word} = …`"
+                ))
+            }
             None => diagnostic.label("not known here"),
         };
         // Who has another word for it may write it otherwise, too.
@@ -335,6 +380,24 @@ impl Place<'_> {
 /// How a place or a wall is made one of a kind.
 pub(super) fn of_kind(kind: &str) -> String {
     format!("say it where a place or a wall is of this kind: `place NAME: {kind} = …`")
+}
+
+/// Whether a word is a unit as other languages spell it.
+fn is_unit_word(word: &str) -> bool {
+    let plain = word.trim_end_matches('s');
+    UNITS.contains(&word)
+        || matches!(
+            plain,
+            "percent"
+                | "meter"
+                | "metre"
+                | "second"
+                | "sec"
+                | "minute"
+                | "hour"
+                | "degree"
+                | "radian"
+        )
 }
 
 /// "a, b or c"

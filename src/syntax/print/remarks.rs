@@ -82,7 +82,13 @@ impl Layout<'_> {
     pub(super) fn leading(&mut self, span: Span, apart: bool) {
         let start = span.range().start;
         self.entry = self.lines.len();
-        while self.whole_line_before(start) {}
+        // What is moved above the entry goes behind the comments that stand there, but for its documentation.
+        while self.whole_line_before(start) {
+            let documents = |line: &Line| line.cells.iter().any(|cell| cell.starts_with("///"));
+            if !self.lines.last().is_some_and(documents) {
+                self.entry = self.lines.len();
+            }
+        }
         self.blank = match &self.remarks {
             Some(remarks) => !self.first && remarks.blank_line_before(start),
             None => apart,

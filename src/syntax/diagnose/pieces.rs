@@ -1,0 +1,103 @@
+//! Numbers, units and signs that stand in pieces or where none belongs.
+
+use super::Place;
+use crate::diagnostic::{Applicability, Code, Diagnostic};
+use crate::source::Span;
+use crate::syntax::tokens::{Kind, Token};
+use crate::syntax::words::UNITS;
+
+impl Place<'_> {
+    /// A number or a sign in two pieces, a unit behind no number, a value behind `return`.
+    pub(super) fn in_pieces(&self) -> Option<Diagnostic> {
+        self.decimal_comma()
+            .or_else(|| self.torn_sign())
+            .or_else(|| self.mixed_units())
+            .or_else(|| self.unit_of_a_call())
+            .or_else(|| self.returned())
+    }
+
+    /// `1,5 m`: a decimal comma.
+    fn decimal_comma(&self) -> Option<Diagnostic> {
+        let (first, comma) = (self.second_before?, self.before?);
+        let touching = first.end == comma.start && comma.end == self.found.start;
+        let digits = |token: Token| {
+            token.kind == Kind::Number && token.of(self.text).bytes().all(|it| it.is_ascii_digit())
+        };
+        if !touching || !digits(first) || !digits(self.found) || comma.of(self.text) != "," {
+            return None;
+        }
+        if self.found().len() == 3 {
+            return None;
+        }
+        let span = self.span_of(first).to(self.span());
+        let right = format!("{}.{}", first.of(self.text), self.found());
+        self.told(span, "a decimal fraction has a point", right)
+    }
+
+    /// `< =`, `= >`: a sign in two pieces.
+    fn torn_sign(&self) -> Option<Diagnostic> {
+        let before = self.before.filter(|_| self.same_line_as_before())?;
+        let sign = match (before.of(self.text), self.found()) {
+            ("<", "=") => "<=",
+            (">", "=") => ">=",
+            ("=", "=") => "==",
+            ("!", "=") => "!=",
+            ("=", ">") => "=>",
+            _ => return None,
+        };
+        let span = self.span_of(before).to(self.span());
+        self.told(span, format!("`{sign}` is one sign"), sign)
+    }
+
+    /// `20 s 500 ms`: a quantity of two units.
+    fn mixed_units(&self) -> Option<Diagnostic> {
+        let (number, unit) = (self.second_before?, self.before?);
+        let quantity = number.kind == Kind::Number && UNITS.contains(&unit.of(self.text));
+        let next = self.next()?;
+        let another = self.found.kind == Kind::Number && UNITS.contains(&next.of(self.text));
+        if !quantity || !another || !self.same_line_as_before() || self.parted(number, unit) {
+            return None;
+        }
+        let span = self.span_of(number).to(self.span_of(next));
+        let first = self.text.get(number.start..unit.end)?;
+        let second = self.text.get(self.found.start..next.end)?;
+        self.told(
+            span,
+            "a quantity has one unit",
+            format!("({first} + {second})"),
+        )
+    }
+
+    /// `uniform(-90, 90) deg`: a unit behind what is no number.
+    fn unit_of_a_call(&self) -> Option<Diagnostic> {
+        let unit = UNITS.contains(&self.found()) && self.found() != "%";
+        if !unit || self.before() != ")" || !self.same_line_as_before() {
+            return None;
+        }
+        let message = "a unit follows a number";
+        Some(
+            Diagnostic::new(Code::E0114, self.span(), message)
+                .label("this follows a call")
+                .help(format!(
+                    "each number has its own: `uniform(1 {0}, 2 {0})`",
+                    self.found()
+                )),
+        )
+    }
+
+    /// `return x`: the value alone is what is said.
+    fn returned(&self) -> Option<Diagnostic> {
+        let word = self.before.filter(|word| word.of(self.text) == "return")?;
+        let value = matches!(self.found.kind, Kind::Word | Kind::Number | Kind::Name)
+            || matches!(self.found(), "(" | "-");
+        if !value || !self.same_line_as_before() {
+            return None;
+        }
+        let span = Span::new(self.file, word.start, self.found.start);
+        Some(
+            Diagnostic::new(Code::E0101, self.span_of(word), "nothing is returned")
+                .label("the value itself is what is said")
+                .fix("drop `return`", span, "", Applicability::Safe),
+        )
+    }
+}
