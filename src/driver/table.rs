@@ -143,7 +143,15 @@ fn located(file: FileId, text: &str, error: &TableError) -> Diagnostic {
             }
         }
         TableErrorKind::Wide => found.help("write out what it leaves open with `-`"),
-        TableErrorKind::Disagreement { earlier } => found.also(span(earlier), "this row differs"),
+        TableErrorKind::Disagreement { earlier, rounded } => {
+            let found = found.also(span(earlier), "this row differs");
+            match rounded {
+                Some([one, other]) => {
+                    found.note(format!("`{one}` and `{other}` round to one number of 64 bits"))
+                }
+                None => found,
+            }
+        }
         TableErrorKind::Empty => found.label("a table has a header and a row for each minterm"),
         TableErrorKind::MissingColumn {
             likely: Some(likely),
@@ -207,6 +215,10 @@ fn located(file: FileId, text: &str, error: &TableError) -> Diagnostic {
 /// What to do about a cell that is to be a number and has more in it.
 fn number_help(cell: &str) -> Option<&'static str> {
     let digits = |text: &str| text.trim().parse::<f64>().is_ok();
+    let out_of_range = |value: f64| value.is_infinite() || value == 0.0;
+    if cell.ends_with(|c: char| c.is_ascii_digit()) && cell.parse().is_ok_and(out_of_range) {
+        return Some("the largest is about 1.8e308, the smallest above 0 about 4.9e-324");
+    }
     let unit = cell.trim_end_matches(|c: char| c.is_ascii_alphabetic() || matches!(c, '%' | '/'));
     if unit.len() < cell.len() && digits(unit) {
         return Some(

@@ -54,6 +54,12 @@ impl Account {
         Self::new(self.left() / parts.max(1) as u64)
     }
 
+    /// An account of what is left but for one of so many equal parts.
+    #[must_use]
+    pub fn but(&self, parts: usize) -> Self {
+        Self::new(self.left() - self.left() / parts.max(1) as u64)
+    }
+
     /// Counts what was spent of a part.
     pub fn settle(&self, part: &Self) {
         self.spend(part.spent.load(Ordering::Relaxed));

@@ -7,12 +7,14 @@
 mod grouped;
 mod pool;
 mod rebuild;
+mod regrouped;
 mod rule;
 mod table;
 mod tidy;
 
 pub use grouped::{Grouped, Part, grouped};
 pub use rebuild::{Known, lists};
+pub use regrouped::Regroup;
 
 use super::account::Account;
 use super::bits::Bits;

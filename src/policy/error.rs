@@ -78,6 +78,8 @@ pub enum TableErrorKind {
     Disagreement {
         /// The row that says otherwise.
         earlier: Range<usize>,
+        /// Two numbers in these rows that are one in 64 bits.
+        rounded: Option<[String; 2]>,
     },
     /// A minterm without a row among the decisions.
     Unseen,
@@ -183,7 +185,7 @@ impl fmt::Display for TableError {
                 )
             }
             TableErrorKind::Disagreement { .. } => {
-                write!(f, "an earlier row does something else in this state")
+                write!(f, "an earlier row does something else in the same state")
             }
             TableErrorKind::Unseen => write!(f, "no decision is known in this minterm"),
             TableErrorKind::Several => {

@@ -20,6 +20,7 @@ pub use rows::{Columns, Holds, Opens, Test};
 use super::names::AtomName;
 use super::table::Behaviors;
 use crate::ir::input::Measure;
+use rustc_hash::FxHashMap;
 use std::ops::Range;
 
 /// The code of a cell that leaves its input open.
@@ -51,6 +52,8 @@ pub struct Column {
     pub kind: Kind,
     /// The code of each row's cell, [`OPEN`] where it is left open.
     pub codes: Vec<u32>,
+    /// The numbers of rows that are written otherwise than the number of their code, which is the same in 64 bits.
+    pub(super) rounded: FxHashMap<usize, Decimal>,
 }
 
 /// What the cells of a column hold.

@@ -32,6 +32,16 @@ pub enum Part {
     Group(Cube, Grouped),
 }
 
+impl Part {
+    /// Where it decides.
+    pub fn cube(&self) -> &Cube {
+        match self {
+            Self::Rule(rule) => &rule.cube,
+            Self::Group(cube, _) => cube,
+        }
+    }
+}
+
 impl Grouped {
     /// The nodes as a tree, as those of [`List::nodes`].
     pub fn nodes(&self) -> usize {
@@ -56,6 +66,36 @@ impl Grouped {
     }
 }
 
+impl Grouped {
+    /// The same without groups: each rule asks what its groups do.
+    pub(super) fn flat(&self) -> List {
+        let mut rules = Vec::new();
+        self.flatten(&Cube::default(), &mut rules);
+        List {
+            rules,
+            last: self.last,
+        }
+    }
+
+    fn flatten(&self, above: &Cube, rules: &mut Vec<Rule>) {
+        for part in &self.parts {
+            let literals = above.literals().iter().chain(part.cube().literals());
+            let cube = Cube::new(literals.copied());
+            match part {
+                Part::Rule(rule) => rules.push(Rule {
+                    class: rule.class,
+                    cube,
+                }),
+                Part::Group(_, inner) => {
+                    inner.flatten(&cube, rules);
+                    let class = inner.last;
+                    rules.push(Rule { class, cube });
+                }
+            }
+        }
+    }
+}
+
 impl From<List> for Grouped {
     fn from(list: List) -> Self {
         Self {
@@ -66,7 +106,7 @@ impl From<List> for Grouped {
 }
 
 /// Groups within groups.
-const DEPTH: usize = 4;
+pub(super) const DEPTH: usize = 4;
 /// Cubes that are tried for a group, and divisions for which lists are sought.
 const CUBES: usize = 12;
 const SOUGHT: usize = 3;
@@ -88,15 +128,13 @@ pub fn grouped(
     known: &mut Known,
     account: &Account,
 ) -> Option<Grouped> {
-    let mut search = Search {
-        columns,
-        classes,
+    let bounds = Bounds {
         reach,
-        known,
-        account,
-        random: Random::new(0),
+        patience: PATIENCE,
+        sought: SOUGHT,
         passes: false,
     };
+    let mut search = Search::new(columns, classes, known, account, 0, bounds);
     let all = Bits::full(columns.rows());
     let mut best: Option<Grouped> = None;
     let mut vain = 0;
@@ -107,7 +145,7 @@ pub fn grouped(
         if account.is_spent() || vain > VAIN {
             break;
         }
-        search.passes = attempt > 0;
+        search.bounds.passes = attempt > 0;
         let found = search.divided(&all, list.clone(), DEPTH);
         vain += 1;
         if best
@@ -121,15 +159,26 @@ pub fn grouped(
     best
 }
 
-struct Search<'a> {
+/// What a search looks at.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bounds {
+    /// The words that may be read in the search for one rule of one class.
+    pub(super) reach: u64,
+    /// Attempts at a smaller list for a part.
+    pub(super) patience: usize,
+    /// Divisions for which lists are sought.
+    pub(super) sought: usize,
+    /// Whether some divisions are passed over at random.
+    pub(super) passes: bool,
+}
+
+pub(super) struct Search<'a> {
     columns: &'a Columns,
     classes: &'a [Bits],
-    reach: u64,
     known: &'a mut Known,
     account: &'a Account,
     random: Random,
-    /// Whether some divisions are passed over at random.
-    passes: bool,
+    bounds: Bounds,
 }
 
 /// A list divided by a cube.
@@ -150,9 +199,27 @@ impl Division {
     }
 }
 
-impl Search<'_> {
+impl<'a> Search<'a> {
+    pub(super) fn new(
+        columns: &'a Columns,
+        classes: &'a [Bits],
+        known: &'a mut Known,
+        account: &'a Account,
+        seed: u64,
+        bounds: Bounds,
+    ) -> Self {
+        Self {
+            columns,
+            classes,
+            known,
+            account,
+            random: Random::new(seed),
+            bounds,
+        }
+    }
+
     /// A grouped list for these rows, all of which the list decides rightly.
-    fn divided(&mut self, rows: &Bits, list: List, depth: usize) -> Grouped {
+    pub(super) fn divided(&mut self, rows: &Bits, list: List, depth: usize) -> Grouped {
         let flat = list.nodes();
         if depth == 0 || list.rules.len() < 3 || self.account.is_spent() {
             return list.into();
@@ -160,11 +227,11 @@ impl Search<'_> {
         let mut divisions = self.divisions(rows, &list);
         divisions.sort_by_key(Division::nodes);
         divisions.dedup_by(|a, b| a.cube == b.cube && a.front == b.front);
-        if self.passes {
+        if self.bounds.passes {
             let random = &mut self.random;
             divisions.retain(|_| random.below(100) >= PASSED);
         }
-        divisions.truncate(SOUGHT);
+        divisions.truncate(self.bounds.sought);
         for division in &mut divisions {
             self.sought(&mut division.inside);
             self.sought(&mut division.outside);
@@ -237,28 +304,17 @@ impl Search<'_> {
     }
 
     /// Looks for a smaller list for these rows.
-    fn sought(&mut self, (rows, list): &mut (Bits, List)) {
+    pub(super) fn sought(&mut self, (rows, list): &mut (Bits, List)) {
         if list.rules.len() < 2 || self.account.is_spent() {
             return;
         }
-        let rows: Vec<usize> = rows.iter().collect();
-        let columns = self.columns.pick(&rows);
-        let own = |own: &Bits| {
-            let own = rows
-                .iter()
-                .enumerate()
-                .filter(|(_, row)| own.contains(**row));
-            Bits::collect(rows.len(), own.map(|(at, _)| at))
-        };
-        let classes: Vec<Bits> = self.classes.iter().map(own).collect();
-        let work = (self.columns.atoms() + classes.len()) * rows.len();
-        self.account.spend(work as u64);
+        let (columns, classes) = picked(self.columns, self.classes, rows, self.account);
         self.known.list = Some(list.clone());
         let found = lists(
             &columns,
             &classes,
-            self.reach,
-            PATIENCE,
+            self.bounds.reach,
+            self.bounds.patience,
             self.known,
             self.account,
         );
@@ -267,6 +323,26 @@ impl Search<'_> {
             *list = found;
         }
     }
+}
+
+/// Some rows alone, and those of them that each class has.
+pub(super) fn picked(
+    columns: &Columns,
+    classes: &[Bits],
+    rows: &Bits,
+    account: &Account,
+) -> (Columns, Vec<Bits>) {
+    let rows: Vec<usize> = rows.iter().collect();
+    account.spend(((columns.atoms() + classes.len()) * rows.len()) as u64);
+    let own = |own: &Bits| {
+        let own = rows
+            .iter()
+            .enumerate()
+            .filter(|(_, row)| own.contains(**row));
+        Bits::collect(rows.len(), own.map(|(at, _)| at))
+    };
+    let classes = classes.iter().map(own).collect();
+    (columns.pick(&rows), classes)
 }
 
 /// Whether all literals of a cube are in another.

@@ -61,10 +61,11 @@ pub fn lists(
     for cube in &known.cubes {
         search.pool.add(&table, cube, account);
     }
-    search.run(known.list.take(), patience);
+    let list = known.list.take();
+    search.run(list.clone(), patience);
     *known = Known {
         cubes: search.pool.cubes(),
-        list: search.kept.last().cloned(),
+        list: search.kept.last().cloned().or(list),
     };
     search.kept
 }

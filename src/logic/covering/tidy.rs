@@ -41,26 +41,31 @@ fn dropped(
     }
     right.reverse();
     let mut reach = among.clone();
-    for at in 0..list.rules.len() {
+    let mut dropped = false;
+    let mut at = 0;
+    // What goes changes nothing of what is right behind it.
+    for after in right.iter().skip(1) {
         let Some(rule) = list.rules.get_mut(at) else {
             break;
         };
-        if right
-            .get(at + 1)
-            .is_some_and(|after| reach.is_subset(after))
-        {
+        if reach.is_subset(after) {
             list.rules.remove(at);
-            return true;
+            dropped = true;
+            continue;
         }
-        let literals = rule.cube.literals();
-        account.spend((2 * literals.len() * literals.len() * words) as u64);
-        let shorter = literals.iter().map(|literal| rule.cube.without(*literal));
         let pure = |cube: &_| columns.cube_meets(cube, &reach).is_subset(own(rule.class));
-        if let Some(shorter) = shorter.into_iter().find(pure) {
+        loop {
+            let literals = rule.cube.literals();
+            account.spend((2 * literals.len() * literals.len() * words) as u64);
+            let mut shorter = literals.iter().map(|literal| rule.cube.without(*literal));
+            let Some(shorter) = shorter.find(pure) else {
+                break;
+            };
             rule.cube = shorter;
-            return true;
+            dropped = true;
         }
         reach.subtract(&columns.cube_rows(&rule.cube, &reach));
+        at += 1;
     }
-    false
+    dropped
 }

@@ -110,6 +110,7 @@ impl Builder {
                 place: place.clone(),
                 kind,
                 codes: Vec::new(),
+                rounded: FxHashMap::default(),
             },
             numbers: FxHashMap::default(),
             names: FxHashMap::default(),
@@ -136,7 +137,8 @@ impl Builder {
             let name = open.column.name.clone();
             return self.report(place, TableErrorKind::RepeatedColumn(name));
         }
-        match open.code(text) {
+        let row = self.decided.len();
+        match open.code(text, row) {
             Ok(code) => self.say(column, code),
             Err(kind) => self.report(place, kind),
         }
@@ -235,8 +237,8 @@ impl Builder {
 }
 
 impl Open {
-    /// The code of what a cell says.
-    fn code(&mut self, text: &str) -> Result<u32, TableErrorKind> {
+    /// The code of what the cell of a row says.
+    fn code(&mut self, text: &str, row: usize) -> Result<u32, TableErrorKind> {
         let unknown = |expected| TableErrorKind::UnknownValue {
             found: text.to_owned(),
             expected,
@@ -253,13 +255,17 @@ impl Open {
             Kind::Number(_, _) if text == "-" => Ok(OPEN),
             Kind::Number(measure, values) => {
                 let number = Decimal::parse(text);
-                let number = number.ok_or_else(|| unknown("a number, or `-` for any"))?;
+                let number = number.ok_or_else(|| unknown(Decimal::wanted(text)))?;
                 // There is no minus zero.
                 let value = measure.unit.si(number.value()) + 0.0;
                 let next = u32::try_from(values.len()).unwrap_or(OPEN);
                 let code = *self.numbers.entry(value.to_bits()).or_insert(next);
-                if code == next {
-                    values.push((number, value));
+                match values.get(code as usize) {
+                    None => values.push((number, value)),
+                    Some((known, _)) if *known != number => {
+                        self.column.rounded.insert(row, number);
+                    }
+                    Some(_) => {}
                 }
                 Ok(code)
             }

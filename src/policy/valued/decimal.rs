@@ -42,6 +42,20 @@ impl Decimal {
         (value.is_finite() && (value != 0.0 || number.digits.is_empty())).then_some(number)
     }
 
+    /// What a text is not that does not [parse](Self::parse).
+    pub fn wanted(text: &str) -> &'static str {
+        let text = text.strip_prefix(['-', '+']).unwrap_or(text);
+        let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
+        let exponent = exponent.strip_prefix(['-', '+']).unwrap_or(exponent);
+        let digits = mantissa.replacen('.', "", 1);
+        let is_number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+        match is_number(&digits) && is_number(exponent) {
+            true if digits.len() > DIGITS => "a number of at most 64 digits",
+            true => "a number that 64 bits hold",
+            false => "a number, or `-` for any",
+        }
+    }
+
     fn of(negative: bool, digits: &str, exponent: i32) -> Self {
         let kept = digits.trim_end_matches('0');
         let zeros = (digits.len() - kept.len()) as i32;
@@ -157,6 +171,19 @@ mod tests {
             "", "-", ".", "x", "1e", "1e999", "nan", "inf", "1_000", "1e-999", "0x1",
         ] {
             assert_eq!(Decimal::parse(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_number_is_told_from_what_is_too_large() {
+        let long = "1".repeat(65);
+        for text in ["1e400", "-1e-400", "2.5E+999", "1e99999999999"] {
+            assert_eq!(Decimal::parse(text), None);
+            assert_eq!(Decimal::wanted(text), "a number that 64 bits hold");
+        }
+        assert_eq!(Decimal::wanted(&long), "a number of at most 64 digits");
+        for text in ["", "x", "1e", "1.2.3", "0x1", "nan"] {
+            assert_eq!(Decimal::wanted(text), "a number, or `-` for any");
         }
     }
 

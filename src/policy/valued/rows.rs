@@ -95,7 +95,7 @@ impl Valued {
         });
         match each {
             Ok(()) => reading.finish(&[]).map_err(|errors| {
-                let told = errors.into_iter().map(of_values);
+                let told = errors.into_iter().map(|error| self.told(error));
                 told.collect()
             }),
             Err(error) => Err(vec![error]),
@@ -194,13 +194,38 @@ impl Valued {
         let place = self.places.get(row);
         place.map_or(0..0, |place| place.start as usize..place.end as usize)
     }
-}
 
-/// A mistake in rows over atoms, as it is told of rows of values.
-fn of_values(error: TableError) -> TableError {
-    let kind = match error.kind {
-        TableErrorKind::Contradiction { earlier, .. } => TableErrorKind::Disagreement { earlier },
-        kind => kind,
-    };
-    TableError { kind, ..error }
+    /// A mistake in rows over atoms, as it is told of rows of values.
+    fn told(&self, error: TableError) -> TableError {
+        let kind = match error.kind {
+            TableErrorKind::Contradiction { earlier, .. } => TableErrorKind::Disagreement {
+                rounded: self.rounded(&earlier, &error.span),
+                earlier,
+            },
+            kind => kind,
+        };
+        TableError { kind, ..error }
+    }
+
+    /// The first numbers that the rows at two places write differently and that are one in 64 bits.
+    fn rounded(&self, one: &Range<usize>, other: &Range<usize>) -> Option<[String; 2]> {
+        let at = |place: &Range<usize>| (0..self.len()).find(|row| self.place(*row) == *place);
+        let rows = [at(one)?, at(other)?];
+        self.columns.iter().find_map(|column| {
+            let Kind::Number(_, values) = &column.kind else {
+                return None;
+            };
+            let written = rows.map(|row| {
+                let first = || values.get(*column.codes.get(row)? as usize);
+                let number = column.rounded.get(&row);
+                number.or_else(|| first().map(|(number, _)| number))
+            });
+            let [Some(one), Some(other)] = written else {
+                return None;
+            };
+            let same = rows.map(|row| column.codes.get(row));
+            let [a, b] = same;
+            (a == b && one != other).then(|| [one.to_string(), other.to_string()])
+        })
+    }
 }

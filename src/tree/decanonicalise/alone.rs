@@ -6,6 +6,7 @@
 
 use super::beams;
 use super::children::Children;
+use super::core::Core;
 use super::minimiser::Minimiser;
 use super::orders::{in_order, tree as in_place};
 use super::parted;
@@ -16,21 +17,22 @@ use crate::ir::tree::Node;
 use crate::logic::covering::{Known, List, grouped, lists};
 use crate::logic::impurity::Impurity;
 use crate::logic::partition::{Classified, Partition};
-use crate::logic::{Account, Bits, Cover, Cube, Order};
-use crate::policy::Policy;
+use crate::logic::{Account, Cover, Cube, Order};
 use crate::tree::Size;
 
-/// The most rows of a table that is its own core, and the rows of the first core of a larger one.
-const WHOLE: usize = 1024;
-const FIRST: usize = 512;
+/// The most rows of a table that is its own core.
+pub(super) const WHOLE: usize = 1024;
 /// The most rows of a core in which a beam searches.
-const SEARCHED: usize = 4096;
-/// A list with fewer nodes than one for so many rows says that the table has structure.
-const RARE: usize = 8;
+pub(super) const SEARCHED: usize = 4096;
 /// The words that may be read in the search for one rule of one class.
 pub(super) const REACH: u64 = 60_000;
-/// Attempts at a smaller list before it is tried on all rows, and before the search for lists ends.
-const QUICK: usize = 40;
+/// A list with fewer nodes than one for so many rows may have groups.
+const LONG: usize = 2;
+/// A tree that is so many times smaller than one by a partition is not one of those that a partition begins.
+const CLEAR: usize = 4;
+/// Attempts at a smaller list with groups before it is tried on all rows.
+const QUICK: usize = 15;
+/// Attempts at a smaller list before the search for lists ends.
 pub(super) const THOROUGH: usize = 3000;
 
 /// Tables of more rows have a price, and so have the proof and the print of their first tree: the words that are read of the table
@@ -74,25 +76,36 @@ pub(super) fn held(problem: &Problem, account: &Account) -> Held {
 }
 
 /// Trees that are right on all rows, with groups if they are to be tight.
-pub(super) fn trees(problem: &Problem, held: &Held, tight: bool, account: &Account) -> Vec<Node> {
+pub(super) fn trees(
+    problem: &Problem,
+    held: &Held,
+    tight: bool,
+    core: &mut Core,
+    known: &mut Known,
+    account: &Account,
+) -> Vec<Node> {
     if account.is_spent() {
         return Vec::new();
     }
-    let mut known = Known::default();
     if problem.policy.rows.len() <= WHOLE || problem.wide {
         let mut found = divided(problem, held, account);
-        found.extend(searched(problem, &mut known, tight, account));
+        found.extend(searched(problem, known, tight, account));
         return found;
     }
-    let mut core = Core::first(problem);
-    let part = account.part(2);
-    let listed = core.lists(&mut known, &part);
+    let part = account.part(4);
+    let listed = core.lists(known, &part);
     account.settle(&part);
     let mut found: Vec<Node> = Vec::new();
+    let rows = core.rows.count();
+    let list = known
+        .list
+        .clone()
+        .filter(|list| tight && list.nodes() * LONG < rows);
+    found.extend(list.and_then(|list| core.groups(list.into(), QUICK, known, account)));
     if let Some(lists) = &listed {
         let listed = |list: &List| Children::listed(problem, list).node();
         found.extend(lists.iter().map(listed));
-        let grouped = tight.then(|| in_groups(problem, lists, &mut known, account));
+        let grouped = tight.then(|| in_groups(problem, lists, known, account));
         found.extend(grouped.flatten().map(|(node, _)| node));
     }
     // A list of classes looks at a core of its own for each class.
@@ -101,14 +114,17 @@ pub(super) fn trees(problem: &Problem, held: &Held, tight: bool, account: &Accou
     let list = in_order(&minimiser, &subunits, Order::Learned);
     found.extend(list.map(|list| shared(in_place(&minimiser, &subunits, &list))));
     account.settle(&minimiser.account);
-    found.extend(divided(problem, held, account));
+    let least = |trees: &[Node]| trees.iter().map(|tree| Size::of(tree).nodes).min();
+    if least(&found).is_none_or(|own| least(&held.trees).is_none_or(|held| held <= CLEAR * own)) {
+        found.extend(divided(problem, held, account));
+    }
     if listed.is_none() {
         return found;
     }
     while core.rows.count() <= SEARCHED {
         let policy = core.policy();
         let part = account.part(2);
-        let mut best = searched(&Problem::new(&policy), &mut known, tight, &part);
+        let mut best = searched(&Problem::new(&policy), known, tight, &part);
         account.settle(&part);
         best.sort_by_key(Size::of);
         best.truncate(TRIED);
@@ -164,94 +180,6 @@ fn divided(problem: &Problem, held: &Held, account: &Account) -> Vec<Node> {
 
 /// Trees for a core that are tried on all rows.
 const TRIED: usize = 4;
-
-/// Some rows of a table.
-struct Core<'a, 'p> {
-    problem: &'a Problem<'p>,
-    rows: Bits,
-}
-
-impl<'a, 'p> Core<'a, 'p> {
-    /// Rows of every behaviour, evenly spread.
-    fn first(problem: &'a Problem<'p>) -> Self {
-        let count = problem.policy.rows.len();
-        let mut rows = Bits::empty(count);
-        for (_, own) in &problem.on {
-            let size = own.count();
-            let wanted = (FIRST * size).div_ceil(count).max(8);
-            let step = size.div_ceil(wanted).max(1);
-            rows.unite(&Bits::collect(count, own.iter().step_by(step)));
-        }
-        Self { problem, rows }
-    }
-
-    fn policy(&self) -> Policy {
-        let whole = self.problem.policy;
-        let rows = self.rows.iter();
-        Policy {
-            atoms: whole.atoms.clone(),
-            behaviors: whole.behaviors.clone(),
-            history: whole.history,
-            rows: rows
-                .filter_map(|row| whole.rows.get(row).cloned())
-                .collect(),
-            ..Policy::default()
-        }
-    }
-
-    /// Lists for cores that grow until lists are right on all rows, first quickly, then thoroughly: those that are; `None` where no list
-    /// is found at all.
-    fn lists(&mut self, known: &mut Known, account: &Account) -> Option<Vec<List>> {
-        let mut right = Vec::new();
-        let mut patience = QUICK;
-        loop {
-            let policy = self.policy();
-            let sample = Problem::new(&policy);
-            let (columns, classes) = (sample.columns(), sample.classes());
-            let found = lists(columns, &classes, REACH, patience, known, account);
-            let best = found.into_iter().last();
-            let node = |list: &List| Children::listed(&sample, list).node();
-            match best.map(|best| (self.adopt(&node(&best), account), best)) {
-                Some((true, best)) => {
-                    right.push(best);
-                    if patience == THOROUGH {
-                        return Some(right);
-                    }
-                    patience = THOROUGH;
-                }
-                Some((false, _)) => {}
-                None if right.is_empty() => return None,
-                None => return Some(right),
-            }
-            let rows = self.rows.count();
-            let structured = known
-                .list
-                .as_ref()
-                .is_some_and(|list| list.nodes() * RARE < rows);
-            if account.is_spent() || rows > SEARCHED && !structured {
-                return Some(right);
-            }
-        }
-    }
-
-    /// Whether the tree is right on all rows. Else some rows on which it is wrong join the core.
-    fn adopt(&mut self, tree: &Node, account: &Account) -> bool {
-        let words = 24 + self.problem.columns().rows() as u64 / 64;
-        account.spend(Size::of(tree).nodes as u64 * words);
-        let Some(wrong) = self.problem.wrong(tree) else {
-            return false;
-        };
-        let count = wrong.count();
-        let step = count.div_ceil(self.rows.count() / 2).max(1);
-        self.rows
-            .unite(&Bits::collect(wrong.bound(), wrong.iter().step_by(step)));
-        let all = self.problem.policy.rows.len();
-        if 2 * self.rows.count() > all {
-            self.rows = Bits::full(all);
-        }
-        count == 0
-    }
-}
 
 /// Trees by all methods at once.
 fn searched(problem: &Problem, known: &mut Known, tight: bool, account: &Account) -> Vec<Node> {

@@ -8,16 +8,19 @@
 
 use super::alone;
 use super::beams;
+use super::core::Core;
 use super::memory::configurations;
 use super::minimiser::{LARGE, Minimiser};
 use super::optimum::optimum;
 use super::orders::{in_order, tree as listed};
+use super::parts;
 use super::problem::Problem;
 use super::share::shared;
 use super::subunit::{Subunit, behaviors};
 use super::windows::Windows;
 use super::{Proof, Stage, paper};
 use crate::ir::tree::Node;
+use crate::logic::covering::Known;
 use crate::logic::{Account, Cover, Order};
 use crate::tree::Size;
 use rayon::prelude::*;
@@ -27,6 +30,8 @@ const PROOFS: usize = 256;
 
 /// The trees whose windows are looked at, smallest first.
 const TIGHT: usize = 8;
+/// Attempts at a smaller tree with groups before the search ends.
+const THOROUGH: usize = 100;
 /// The most nodes of a tree whose windows are looked at.
 const WINDOWED: usize = 2000;
 
@@ -80,10 +85,15 @@ pub(super) fn tree(problem: &Problem, is_tight: bool, account: &Account) -> Foun
     let half = match with_memory.is_empty() {
         // Little is left to find.
         _ if is_small => account.part(8),
-        true => account.part(1),
+        // The rest is for the parts of the smallest trees.
+        true => account.but(4),
         false => account.part(2),
     };
-    trees.extend(alone::trees(problem, &held, is_tight, &half));
+    let mut known = Known::default();
+    let mut core = Core::first(problem);
+    trees.extend(alone::trees(
+        problem, &held, is_tight, &mut core, &mut known, &half,
+    ));
     account.settle(&half);
     let parts: Vec<(&Vec<Subunit>, Account)> = with_memory
         .iter()
@@ -98,10 +108,13 @@ pub(super) fn tree(problem: &Problem, is_tight: bool, account: &Account) -> Foun
     if half.is_spent() || parts.iter().any(|(_, part)| part.is_spent()) {
         unfinished.push(Stage::Search);
     }
-    let trees = match is_tight {
-        true => tightened(problem, trees, account),
-        false => sized(trees),
-    };
+    let mut trees = sized(trees);
+    if is_tight {
+        tightened(problem, &mut trees, account);
+    }
+    if is_tight && !is_small {
+        regrouped(problem, &mut trees, &mut core, &mut known, account);
+    }
     let mut tree = smallest(problem, trees);
     if tree.is_none() {
         // No partition of rows that leave atoms free.
@@ -123,21 +136,42 @@ fn sized(trees: Vec<Node>) -> Vec<(Size, Node)> {
     trees.map(|node| (Size::of(&node), node)).collect()
 }
 
-/// The trees with their sizes, and the smallest of them with smaller windows.
-fn tightened(problem: &Problem, trees: Vec<Node>, account: &Account) -> Vec<(Size, Node)> {
-    let mut found = sized(trees);
+/// The smallest of these trees, smallest first.
+fn least(found: &mut Vec<(Size, Node)>) -> Vec<Node> {
     found.sort_by_key(|(size, _)| *size);
     found.dedup_by(|a, b| a.1 == b.1);
+    let small = found.iter().take(TIGHT);
+    let small = small.filter(|(size, _)| size.nodes <= WINDOWED);
+    small.map(|(_, tree)| tree.clone()).collect()
+}
+
+/// The smallest trees with smaller windows join them.
+fn tightened(problem: &Problem, found: &mut Vec<(Size, Node)>, account: &Account) {
     let part = account.part(4);
     let mut windows = Windows::new(problem, &part);
-    let smallest = found.iter().take(TIGHT);
-    let tight: Vec<Node> = smallest
-        .filter(|(size, _)| size.nodes <= WINDOWED)
-        .filter_map(|(_, tree)| windows.tightened(tree))
-        .collect();
+    let trees = least(found);
+    let tight = trees.iter().filter_map(|tree| windows.tightened(tree));
+    found.extend(sized(tight.collect()));
     account.settle(&part);
-    found.extend(sized(tight));
-    found
+}
+
+/// The smallest trees with parts that are sought anew join them, and these with smaller windows.
+fn regrouped(
+    problem: &Problem,
+    found: &mut Vec<(Size, Node)>,
+    core: &mut Core,
+    known: &mut Known,
+    account: &Account,
+) {
+    for tree in least(found) {
+        let list = parts::listed(problem, &tree);
+        let tree = list.and_then(|list| core.groups(list, THOROUGH, known, account));
+        let Some(tree) = tree.map(shared) else {
+            continue;
+        };
+        let tight = Windows::new(problem, account).tightened(&tree);
+        found.extend(sized(tight.into_iter().chain([tree]).collect()));
+    }
 }
 
 /// The smallest of these that is proved.

@@ -1,0 +1,136 @@
+//! The rows of a large table that a search works on.
+
+use super::alone::{REACH, SEARCHED, THOROUGH, WHOLE};
+use super::children::Children;
+use super::problem::Problem;
+use crate::ir::tree::Node;
+use crate::logic::covering::{Grouped, Known, List, Regroup, lists};
+use crate::logic::{Account, Bits};
+use crate::policy::Policy;
+use crate::tree::Size;
+
+/// The rows of the first core.
+const FIRST: usize = 512;
+/// A list with fewer nodes than one for so many rows says that the table has structure.
+const RARE: usize = 8;
+/// Attempts at a smaller list before it is tried on all rows.
+const QUICK: usize = 40;
+
+/// Some rows of a table.
+pub(super) struct Core<'a, 'p> {
+    problem: &'a Problem<'p>,
+    pub(super) rows: Bits,
+}
+
+impl<'a, 'p> Core<'a, 'p> {
+    /// Rows of every behaviour, evenly spread; all of a small table.
+    pub(super) fn first(problem: &'a Problem<'p>) -> Self {
+        let count = problem.policy.rows.len();
+        if count <= WHOLE || problem.wide {
+            let rows = Bits::full(count);
+            return Self { problem, rows };
+        }
+        let mut rows = Bits::empty(count);
+        for (_, own) in &problem.on {
+            let size = own.count();
+            let wanted = (FIRST * size).div_ceil(count).max(8);
+            let step = size.div_ceil(wanted).max(1);
+            rows.unite(&Bits::collect(count, own.iter().step_by(step)));
+        }
+        Self { problem, rows }
+    }
+
+    pub(super) fn policy(&self) -> Policy {
+        let whole = self.problem.policy;
+        let rows = self.rows.iter();
+        Policy {
+            atoms: whole.atoms.clone(),
+            behaviors: whole.behaviors.clone(),
+            history: whole.history,
+            rows: rows
+                .filter_map(|row| whole.rows.get(row).cloned())
+                .collect(),
+            ..Policy::default()
+        }
+    }
+
+    /// Lists for cores that grow until lists are right on all rows, first quickly, then thoroughly: those that are; `None` where no list
+    /// is found at all.
+    pub(super) fn lists(&mut self, known: &mut Known, account: &Account) -> Option<Vec<List>> {
+        let mut right = Vec::new();
+        let mut patience = QUICK;
+        loop {
+            let policy = self.policy();
+            let sample = Problem::new(&policy);
+            let (columns, classes) = (sample.columns(), sample.classes());
+            let found = lists(columns, &classes, REACH, patience, known, account);
+            let best = found.into_iter().last();
+            let node = |list: &List| Children::listed(&sample, list).node();
+            match best.map(|best| (self.adopt(&node(&best), account), best)) {
+                Some((true, best)) => {
+                    right.push(best);
+                    if patience == THOROUGH {
+                        return Some(right);
+                    }
+                    patience = THOROUGH;
+                }
+                Some((false, _)) => {}
+                None if right.is_empty() => return None,
+                None => return Some(right),
+            }
+            let rows = self.rows.count();
+            let structured = known
+                .list
+                .as_ref()
+                .is_some_and(|list| list.nodes() * RARE < rows);
+            if account.is_spent() || rows > SEARCHED && !structured {
+                return Some(right);
+            }
+        }
+    }
+
+    /// A list with groups for cores that grow until it is right on all rows, as a tree; `None` where the account does not go so far.
+    /// Each begins with what an earlier one can keep, and ends where so many attempts find no smaller one.
+    pub(super) fn groups(
+        &mut self,
+        mut list: Grouped,
+        patience: usize,
+        known: &mut Known,
+        account: &Account,
+    ) -> Option<Node> {
+        if self.problem.wide {
+            return None;
+        }
+        while !account.is_spent() {
+            let policy = self.policy();
+            let sample = Problem::new(&policy);
+            let (columns, classes) = (sample.columns(), sample.classes());
+            let mut search = Regroup::new(columns, &classes, account);
+            list = search.smaller(&list, patience, known)?;
+            let tree = Children::grouped(&sample, &list).node();
+            if self.adopt(&tree, account) {
+                return Some(tree);
+            }
+        }
+        None
+    }
+
+    /// Whether the tree is right on all rows. Else some rows on which it is wrong join the core.
+    pub(super) fn adopt(&mut self, tree: &Node, account: &Account) -> bool {
+        let words = 24 + self.problem.columns().rows() as u64 / 64;
+        account.spend(Size::of(tree).nodes as u64 * words);
+        let Some(wrong) = self.problem.wrong(tree) else {
+            return false;
+        };
+        let count = wrong.count();
+        let most = (self.rows.count() / 2).max(1);
+        let step = count.div_ceil(most).max(1);
+        self.rows
+            .unite(&Bits::collect(wrong.bound(), wrong.iter().step_by(step)));
+        let all = self.problem.policy.rows.len();
+        if 2 * self.rows.count() > all {
+            self.rows = Bits::full(all);
+        }
+        count == 0
+    }
+}
