@@ -41,7 +41,9 @@ fn killed(rounds: u64, seed: u64) {
                 assert_eq!(files(&at.join("out")), files(&at.join("whole")));
                 break;
             }
-            assert!(files(&at.join("out")).is_empty());
+            // It may have been killed on its way out, with all of its results in place.
+            let left = files(&at.join("out"));
+            assert!(left.is_empty() || left == files(&at.join("whole")));
         }
         assert!(leftovers(at).is_empty(), "{:?}", leftovers(at));
         assert!(leftovers(&at.join("out")).is_empty());
