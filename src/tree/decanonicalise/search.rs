@@ -86,7 +86,8 @@ pub(super) fn tree(problem: &Problem, is_tight: bool, account: &Account) -> Foun
         // Little is left to find.
         _ if is_small => account.part(8),
         // The rest is for the parts of the smallest trees.
-        true => account.but(4),
+        true if is_tight => account.but(4),
+        true => account.part(1),
         false => account.part(2),
     };
     let mut known = Known::default();
