@@ -1,7 +1,11 @@
 //! The instructions of the register machine: one for each operator of the language, and the machine's own.
 
+#[cfg(feature = "native")]
+use super::native::Native;
 use crate::ir::expr::{Binary, Unary};
 use crate::ir::operator::operators;
+#[cfg(feature = "native")]
+use std::sync::OnceLock;
 
 /// A register's number.
 pub type Register = u16;
@@ -94,7 +98,12 @@ operators!(instructions);
 impl Op {
     /// Whether all it does is to set `dst`.
     pub(super) fn makes_a_value(self) -> bool {
-        !matches!(
+        !self.jumps() && !matches!(self, Op::Look | Op::Fire | Op::Atom | Op::Exit)
+    }
+
+    /// Whether it may go on elsewhere, at `dst`.
+    pub(super) fn jumps(self) -> bool {
+        matches!(
             self,
             Op::Jump
                 | Op::JumpIf
@@ -105,10 +114,6 @@ impl Op {
                 | Op::JumpLe
                 | Op::JumpUnlessLt
                 | Op::JumpUnlessLe
-                | Op::Look
-                | Op::Fire
-                | Op::Atom
-                | Op::Exit
         )
     }
 }
@@ -127,13 +132,28 @@ pub struct Instruction {
 }
 
 /// A compiled piece of a program. A run that reaches the end answers 0.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Code(pub(super) Box<[Instruction]>);
+#[derive(Clone, Debug, Default)]
+pub struct Code {
+    instructions: Box<[Instruction]>,
+    /// The same as machine code, once it is there.
+    #[cfg(feature = "native")]
+    pub(super) native: OnceLock<Native>,
+}
 
 impl Code {
     /// The instructions.
     pub fn instructions(&self) -> &[Instruction] {
-        &self.0
+        &self.instructions
+    }
+}
+
+impl Code {
+    pub(super) fn new(instructions: Vec<Instruction>) -> Self {
+        Self {
+            instructions: instructions.into(),
+            #[cfg(feature = "native")]
+            native: OnceLock::new(),
+        }
     }
 }
 

@@ -80,7 +80,7 @@ impl<'a> Compiler<'a> {
         if self.code.len() > usize::from(Register::MAX) {
             return Err(TooLarge);
         }
-        Ok(Code(self.code.into()))
+        Ok(Code::new(self.code))
     }
 
     /// Sets a register to the value of an expression.

@@ -41,8 +41,16 @@ pub trait Host {
     fn random(&mut self) -> &mut Random;
     /// An event has happened.
     fn fire(&mut self, event: u16);
-    /// An atom has this value.
-    fn atom(&mut self, bit: u16, holds: bool);
+    /// The atoms that hold, a bit each.
+    fn atoms(&mut self) -> &mut u128;
+}
+
+impl Reading {
+    /// What the registers hold of it.
+    pub(super) fn parts(self) -> [f64; 4] {
+        let [x, y] = self.toward;
+        [self.distance, x, y, truth(self.seen)]
+    }
 }
 
 #[allow(
@@ -69,22 +77,26 @@ impl Registers {
 /// negation is.
 #[inline]
 pub fn run<H: Host>(code: &Code, r: &mut Registers, host: &mut H) -> u16 {
-    let code: &[Instruction] = &code.0;
+    #[cfg(feature = "native")]
+    if let Some(native) = code.native.get() {
+        return native.run(&mut r.0, host);
+    }
+    interpret(code.instructions(), r, host)
+}
+
+fn interpret<H: Host>(code: &[Instruction], r: &mut Registers, host: &mut H) -> u16 {
     let mut pc = 0;
     while let Some(&Instruction { op, dst, a, b }) = code.get(pc) {
         pc += 1;
         let jump = |taken: bool, pc: usize| if taken { dst as usize } else { pc };
         match op {
             Op::Move => r.set(dst, r.get(a)),
-            Op::Direction => {
-                let angle = math::atan2(r.get(a), r.get(b));
-                r.set(dst, if angle < PI { angle } else { -PI });
-            }
+            Op::Direction => r.set(dst, direction(r.get(a), r.get(b))),
             Op::SquareSum => {
                 let (x, y) = (r.get(a), r.get(b));
                 r.set(dst, x * x + y * y);
             }
-            Op::WrapSub => r.set(dst, math::wrap(r.get(a) - r.get(b))),
+            Op::WrapSub => r.set(dst, wrap_sub(r.get(a), r.get(b))),
             Op::Clamp => {
                 let (x, limit) = (r.get(a), r.get(b));
                 let x = if -limit > x { -limit } else { x };
@@ -114,31 +126,18 @@ pub fn run<H: Host>(code: &Code, r: &mut Registers, host: &mut H) -> u16 {
             Op::Visible => r.set(dst, truth(host.visible(r.get(a), r.get(b)))),
             Op::Look => {
                 if let Some(reading) = host.look(a) {
-                    r.set(dst, reading.distance);
-                    r.set(dst + 1, reading.toward[0]);
-                    r.set(dst + 2, reading.toward[1]);
-                    r.set(dst + 3, truth(reading.seen));
+                    for (register, part) in (dst..).zip(reading.parts()) {
+                        r.set(register, part);
+                    }
                 }
             }
             Op::Inside => r.set(dst, truth(host.inside(a))),
-            Op::Uniform => {
-                let value = host.random().uniform(r.get(a), r.get(b));
-                r.set(dst, value);
-            }
-            Op::Normal => {
-                let value = r.get(a) + r.get(b) * host.random().gaussian();
-                r.set(dst, value);
-            }
-            Op::Chance => {
-                let value = host.random().chance(r.get(a));
-                r.set(dst, truth(value));
-            }
-            Op::Pick => {
-                let value = host.random().below(r.get(a) as u64);
-                r.set(dst, value as f64);
-            }
+            Op::Uniform => r.set(dst, uniform(host, r.get(a), r.get(b))),
+            Op::Normal => r.set(dst, normal(host, r.get(a), r.get(b))),
+            Op::Chance => r.set(dst, chance(host, r.get(a))),
+            Op::Pick => r.set(dst, pick(host, r.get(a))),
             Op::Fire => host.fire(a),
-            Op::Atom => host.atom(dst, r.get(a) != 0.0),
+            Op::Atom => *host.atoms() |= u128::from(r.get(a) != 0.0) << (dst & 127),
             Op::Exit => return a,
             // The loads stay inside, so that this is one jump table with the arms above.
             operator => {
@@ -152,6 +151,32 @@ pub fn run<H: Host>(code: &Code, r: &mut Registers, host: &mut H) -> u16 {
 }
 
 #[inline(always)]
-fn truth(holds: bool) -> f64 {
+pub(super) fn truth(holds: bool) -> f64 {
     f64::from(u8::from(holds))
+}
+
+/// The direction of a vector, in [−π, π).
+pub(super) fn direction(y: f64, x: f64) -> f64 {
+    let angle = math::atan2(y, x);
+    if angle < PI { angle } else { -PI }
+}
+
+pub(super) fn wrap_sub(a: f64, b: f64) -> f64 {
+    math::wrap(a - b)
+}
+
+pub(super) fn uniform(host: &mut (impl Host + ?Sized), from: f64, to: f64) -> f64 {
+    host.random().uniform(from, to)
+}
+
+pub(super) fn normal(host: &mut (impl Host + ?Sized), mean: f64, deviation: f64) -> f64 {
+    mean + deviation * host.random().gaussian()
+}
+
+pub(super) fn chance(host: &mut (impl Host + ?Sized), probability: f64) -> f64 {
+    truth(host.random().chance(probability))
+}
+
+pub(super) fn pick(host: &mut (impl Host + ?Sized), count: f64) -> f64 {
+    host.random().below(count as u64) as f64
 }

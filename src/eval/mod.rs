@@ -7,6 +7,9 @@
 //! A value is computed where it is first needed, once on each path: the pool's shared nodes are shared registers, and
 //! what only one branch reads is computed in that branch.
 //!
+//! Code that has run often is compiled once more, to machine code of the processor ([`compile`]). It gives the same results, bit
+//! by bit: a property test holds both against a naive reading.
+//!
 //! Arithmetic is that of IEEE 754: 1 / 0 is infinite, 0 / 0 is NaN. A comparison with NaN is false; a robot commanded to
 //! drive at NaN stands still.
 
@@ -18,7 +21,11 @@ mod fold;
 mod layout;
 mod machine;
 mod memo;
+#[cfg(feature = "native")]
+mod native;
 mod statement;
+#[cfg(feature = "native")]
+mod translate;
 mod value;
 
 pub use code::{Code, Instruction, Op, Register};
@@ -26,4 +33,12 @@ pub use compiler::{Compiler, Label, TooLarge};
 pub use fold::Folding;
 pub use layout::{Fixed, Layout, Source};
 pub use machine::{Host, Reading, Registers, run};
+#[cfg(feature = "native")]
+pub use native::compile;
 pub use statement::status;
+
+/// Without Cranelift nothing is compiled for the processor.
+#[cfg(not(feature = "native"))]
+pub fn compile<'c>(_: impl Iterator<Item = &'c Code>) -> bool {
+    false
+}

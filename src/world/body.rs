@@ -168,7 +168,7 @@ impl Host for Body<'_> {
     }
 
     #[inline]
-    fn atom(&mut self, bit: u16, holds: bool) {
-        self.atoms |= u128::from(holds) << (bit & 127);
+    fn atoms(&mut self) -> &mut u128 {
+        &mut self.atoms
     }
 }

@@ -5,6 +5,7 @@ use super::body::Surroundings;
 use super::compiled::Compiled;
 use super::door::Door;
 use super::error::BuildError;
+use super::heat::Heat;
 use super::motion::Motion;
 use super::scene::Scene;
 use super::script::Script;
@@ -41,6 +42,8 @@ pub struct Simulator {
     pub(super) states: Vec<(u16, f64)>,
     /// How many events there are.
     pub(super) events: usize,
+    /// How much it has been used.
+    pub(super) heat: Heat,
 }
 
 /// How many random positions are tried before the arena counts as full.
@@ -110,6 +113,7 @@ impl Simulator {
             layout,
             states,
             events: program.events.len(),
+            heat: Heat::default(),
         };
         // Lines that never give a free pose are found here, not in the middle of learning.
         let mut trial = simulator.simulation();

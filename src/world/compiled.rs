@@ -130,6 +130,23 @@ impl Compiled {
     }
 }
 
+impl Compiled {
+    /// All of its code that episodes run in their ticks.
+    pub(super) fn codes(&self) -> impl Iterator<Item = &Code> + Clone {
+        let routines = self.routines.iter();
+        let routines = routines.flat_map(|routine| [&routine.begin, &routine.tick]);
+        [
+            &self.each_tick,
+            &self.quiet,
+            &self.full,
+            &self.predicates,
+            &self.doors,
+        ]
+        .into_iter()
+        .chain(routines)
+    }
+}
+
 pub(super) fn piece<'a>(
     pool: &'a Pool,
     layout: &'a mut Layout,

@@ -14,6 +14,7 @@ mod compiled;
 mod door;
 mod ending;
 mod error;
+mod heat;
 mod history;
 mod motion;
 mod pose;

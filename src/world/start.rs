@@ -155,6 +155,7 @@ impl Simulation<'_> {
     /// The lines are run again until the robot is free where they put it; false if that never happens, and it is put
     /// anywhere instead.
     pub fn start(&mut self, start: Start) -> bool {
+        self.simulator.warm(self.now);
         self.body.random = Random::new(start.seed, start.stream, start.episode);
         self.clear_tick();
         self.counts.fill(0);

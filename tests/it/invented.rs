@@ -7,7 +7,7 @@ mod items;
 mod trees;
 mod world;
 
-use crate::program::{NoFiles, shown};
+use crate::program::{NoFiles, called, shown};
 use author::Author;
 use btc::driver::Text;
 use btc::driver::compile::{self, Form};
@@ -18,7 +18,10 @@ use btc::driver::trace::{Step, trace};
 use btc::emit::form::TreeForm;
 use btc::emit::ir;
 use btc::geometry::Shape;
+use btc::learn::episode::Controller;
 use btc::report::trace::Found;
+use btc::trial::play::ready;
+use btc::world::{Simulation, Start};
 use btc::{LearnOptions, Program};
 
 /// How many programs are invented.
@@ -80,6 +83,55 @@ fn they_run_without_a_robot_in_a_wall() {
             assert_eq!(first.csv(), second.csv(), "seed {seed}, {tree}");
             let played = || format!("{:?}", run(loaded, &subject, 2, seed).unwrap());
             assert_eq!(played(), played(), "seed {seed}, {tree}");
+        }
+    });
+}
+
+/// Two simulations of a world, of which only one was compiled for the processor, are the same in every tick.
+#[test]
+fn they_run_as_interpreted_when_compiled() {
+    all(|seed, text, loaded, trees| {
+        for name in trees {
+            let trees = &loaded.program.trees;
+            let tree = trees.values().find(|tree| tree.name == called(name));
+            let tree = tree.unwrap();
+            let task = tree.task.or(loaded.program.tasks.ids().next()).unwrap();
+            let ready = || ready(&loaded.program, task, &tree.root).unwrap();
+            let (interpreted, mut slow) = ready();
+            let (compiled, mut fast) = ready();
+            compiled.compile();
+            let mut slowly = interpreted.simulation();
+            let mut swiftly = compiled.simulation();
+            for episode in 0..2 {
+                let start = Start {
+                    seed,
+                    episode,
+                    limit: 500,
+                    ..Start::default()
+                };
+                slow.reset();
+                fast.reset();
+                assert_eq!(slowly.start(start), swiftly.start(start), "seed {seed}");
+                loop {
+                    slowly.begin_tick();
+                    swiftly.begin_tick();
+                    slow.tick(&mut slowly);
+                    fast.tick(&mut swiftly);
+                    let ended = slowly.end_tick();
+                    let same = format!("{:?}", swiftly.end_tick());
+                    let at = || format!("seed {seed}, {name}, tick {}\n{text}", slowly.ticks());
+                    assert_eq!(same, format!("{ended:?}"), "{}", at());
+                    assert_eq!(swiftly.atoms(), slowly.atoms(), "{}", at());
+                    assert_eq!(swiftly.counts(), slowly.counts(), "{}", at());
+                    let found = |it: &Simulation| {
+                        format!("{:?}", (it.pose(), it.others().collect::<Vec<_>>()))
+                    };
+                    assert_eq!(found(&swiftly), found(&slowly), "{}", at());
+                    if ended.end.is_some() {
+                        break;
+                    }
+                }
+            }
         }
     });
 }

@@ -1,6 +1,6 @@
 //! Register code does what the expressions and statements say: a second, naive reading of them is the oracle.
 
-use btc::eval::{Compiler, Fixed, Host, Layout, Reading, run};
+use btc::eval::{Compiler, Fixed, Host, Layout, Reading, compile, run};
 use btc::geometry::Shape;
 use btc::ir::expr::{Binary, Draw, Echo, Kind, Local, Pose, Temp, Unary};
 use btc::ir::law::{Behavior, Block, Law, Stmt};
@@ -21,6 +21,7 @@ const DEPTH: usize = 3;
 #[derive(Clone)]
 struct Numbers {
     random: Random,
+    atoms: u128,
 }
 
 impl Numbers {
@@ -48,7 +49,9 @@ impl Host for Numbers {
         &mut self.random
     }
     fn fire(&mut self, _: u16) {}
-    fn atom(&mut self, _: u16, _: bool) {}
+    fn atoms(&mut self) -> &mut u128 {
+        &mut self.atoms
+    }
 }
 
 /// Everything that code reads and writes, evaluated by recursion.
@@ -483,8 +486,15 @@ fn same(a: f64, b: f64) -> bool {
     a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan() || a == b
 }
 
+/// What runs code.
+#[derive(Clone, Copy, PartialEq)]
+enum By {
+    Interpreter,
+    Processor,
+}
+
 /// Runs a law or only its control both ways, from the same values.
-fn compare(seed: u64, whole: bool) {
+fn compare(seed: u64, whole: bool, by: By) {
     let (program, law) = invent(seed);
     let behavior = Id::new(0);
     let mut layout = Layout::new(&program).unwrap();
@@ -495,6 +505,9 @@ fn compare(seed: u64, whole: bool) {
         compiler.block(&law.control).unwrap();
     }
     let code = compiler.finish().unwrap();
+    if by == By::Processor {
+        assert_eq!(compile([&code].into_iter()), cfg!(feature = "native"));
+    }
 
     for trial in 0..4 {
         let mut random = Random::new(seed, 1, trial);
@@ -507,6 +520,7 @@ fn compare(seed: u64, whole: bool) {
             program: &program,
             host: Numbers {
                 random: Random::new(seed, 2, trial),
+                atoms: 0,
             },
             states: [value(), value(), value()],
             locals: [value(), value()],
@@ -574,12 +588,22 @@ proptest! {
 
     #[test]
     fn control_laws_run_as_they_read(seed: u64) {
-        compare(seed, false);
+        compare(seed, false, By::Interpreter);
     }
 
     #[test]
     fn partitions_run_as_they_read(seed: u64) {
-        compare(seed, true);
+        compare(seed, true, By::Interpreter);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn compiled_laws_run_as_they_read(seed: u64) {
+        compare(seed, false, By::Processor);
+        compare(seed, true, By::Processor);
     }
 }
 
@@ -703,6 +727,7 @@ fn a_distance_is_compared_to_the_last_bit() {
                     registers.set(Fixed::Y.register(), y);
                     let mut host = Numbers {
                         random: Random::new(1, 0, 0),
+                        atoms: 0,
                     };
                     run(&code, &mut registers, &mut host);
                     let read = if turned {
