@@ -33,8 +33,8 @@ pub struct Reading {
 pub trait Host {
     /// Whether no wall stands between the robot's centre and a point.
     fn visible(&mut self, x: f64, y: f64) -> bool;
-    /// A reading of an echo source; `None` if the one in the registers still holds.
-    fn look(&mut self, source: u16) -> Option<Reading>;
+    /// Reads an echo source, see [`Reading::parts`]; what was read before is left if it still holds.
+    fn look(&mut self, source: u16, parts: &mut [f64; 4]);
     /// Whether the robot's centre is in a place.
     fn inside(&mut self, place: u16) -> bool;
     /// The random numbers.
@@ -46,8 +46,8 @@ pub trait Host {
 }
 
 impl Reading {
-    /// What the registers hold of it.
-    pub(super) fn parts(self) -> [f64; 4] {
+    /// What the registers hold of it: the distance, the vector, whether it was seen.
+    pub fn parts(self) -> [f64; 4] {
         let [x, y] = self.toward;
         [self.distance, x, y, truth(self.seen)]
     }
@@ -125,10 +125,10 @@ fn interpret<H: Host>(code: &[Instruction], r: &mut Registers, host: &mut H) -> 
             }
             Op::Visible => r.set(dst, truth(host.visible(r.get(a), r.get(b)))),
             Op::Look => {
-                if let Some(reading) = host.look(a) {
-                    for (register, part) in (dst..).zip(reading.parts()) {
-                        r.set(register, part);
-                    }
+                let mut parts = [dst, dst + 1, dst + 2, dst + 3].map(|register| r.get(register));
+                host.look(a, &mut parts);
+                for (register, part) in (dst..).zip(parts) {
+                    r.set(register, part);
                 }
             }
             Op::Inside => r.set(dst, truth(host.inside(a))),

@@ -235,8 +235,6 @@ extern "C" fn fire(context: &mut Context<'_>, event: u32) {
     context.host.fire(event as u16);
 }
 
-extern "C" fn look(context: &mut Context<'_>, source: u32, into: &mut [f64; 4]) {
-    if let Some(reading) = context.host.look(source as u16) {
-        *into = reading.parts();
-    }
+extern "C" fn look(context: &mut Context<'_>, source: u32, parts: &mut [f64; 4]) {
+    context.host.look(source as u16, parts);
 }

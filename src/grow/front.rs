@@ -10,6 +10,7 @@ use crate::ir::tree::{Atom, Node};
 use crate::learn::process::World;
 use crate::learn::simulated::Purpose;
 use crate::learn::statistics::Mean;
+use crate::math;
 use crate::tree::Size;
 use crate::trial::paired::error;
 use serde::{Deserialize, Serialize};
@@ -273,7 +274,9 @@ fn knee<W: World>(
             .into_iter()
             .all(|terms| {
                 let gain = judge.gain(entrant, base, terms);
-                gain.mean >= -error(&gain).max(less)
+                // One harm more may be chance.
+                let chance = math::hypot(error(&gain), judge.one_harm(base, terms));
+                gain.mean >= -chance.max(less)
             })
     };
     let good = safe.iter().filter(|(_, entrant)| as_good(entrant));

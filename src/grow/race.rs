@@ -218,6 +218,11 @@ impl<'g, 'w, W: World> Judge<'g, 'w, W> {
         self.harms(entrant) as f64 / entrant.contender.episodes().max(1) as f64
     }
 
+    /// What one episode with harm costs beside a tree, on average over its episodes.
+    pub fn one_harm(&self, base: &Entrant, terms: Terms) -> f64 {
+        terms.harm * base.scale() / base.contender.episodes().max(1) as f64
+    }
+
     /// The gain of a tree over another with what its nodes and its harm cost more, episode by episode.
     pub fn gain(&self, entrant: &Entrant, base: &Entrant, terms: Terms) -> Mean {
         let loss = entrant.contender.loss(&base.contender);

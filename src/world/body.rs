@@ -93,6 +93,33 @@ impl<'a> Body<'a> {
         self.fresh = 0;
     }
 
+    /// Reads an echo source: the nearest wall, a sensor, or one of the walls.
+    fn read(&mut self, source: u16) -> Reading {
+        let of = |toward: [f64; 2], seen| Reading {
+            distance: (toward[0] * toward[0] + toward[1] * toward[1]).sqrt(),
+            toward,
+            seen,
+        };
+        let Some(index) = usize::from(source).checked_sub(1) else {
+            return of(self.scene().nearest(self.pose.position), true);
+        };
+        let Some(probe) = self.probes.get(index) else {
+            let wall = index.saturating_sub(self.around.sensors);
+            let (toward, seen) = self.scene().nearest_of(wall, self.pose.position);
+            return of(toward, seen);
+        };
+        let mut reading = probe.read(self.scene(), &self.bodies, &self.pose);
+        if probe.noise > 0.0
+            && reading.seen
+            && let Some(noise) = self.noise.get_mut(index)
+        {
+            let random = &mut self.random;
+            let noise = *noise.get_or_insert_with(|| probe.noise * random.gaussian());
+            reading.distance = (reading.distance + noise).max(0.0);
+        }
+        reading
+    }
+
     /// A new tick: its noise is still to be drawn.
     pub(super) fn tick(&mut self) {
         if self.noisy {
@@ -114,41 +141,12 @@ impl Host for Body<'_> {
     }
 
     #[inline]
-    fn look(&mut self, source: u16) -> Option<Reading> {
+    fn look(&mut self, source: u16, parts: &mut [f64; 4]) {
         let bit = bit(source);
-        if self.fresh & bit != 0 {
-            return None;
+        if self.fresh & bit == 0 {
+            self.fresh |= bit;
+            *parts = self.read(source).parts();
         }
-        self.fresh |= bit;
-        let distance = |v: [f64; 2]| (v[0] * v[0] + v[1] * v[1]).sqrt();
-        if source == 0 {
-            let toward = self.scene().nearest(self.pose.position);
-            return Some(Reading {
-                distance: distance(toward),
-                toward,
-                seen: true,
-            });
-        }
-        let index = usize::from(source) - 1;
-        let Some(probe) = self.probes.get(index) else {
-            let wall = index.saturating_sub(self.around.sensors);
-            let (toward, seen) = self.scene().nearest_of(wall, self.pose.position);
-            return Some(Reading {
-                distance: distance(toward),
-                toward,
-                seen,
-            });
-        };
-        let mut reading = probe.read(self.scene(), &self.bodies, &self.pose);
-        if probe.noise > 0.0
-            && reading.seen
-            && let Some(noise) = self.noise.get_mut(index)
-        {
-            let random = &mut self.random;
-            let noise = *noise.get_or_insert_with(|| probe.noise * random.gaussian());
-            reading.distance = (reading.distance + noise).max(0.0);
-        }
-        Some(reading)
     }
 
     fn inside(&mut self, place: u16) -> bool {

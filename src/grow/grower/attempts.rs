@@ -13,7 +13,7 @@ use std::mem;
 
 /// The attempts, and the part of the effort that they take.
 const ATTEMPTS: usize = 2;
-const ATTEMPTED: f64 = 0.7;
+const ATTEMPTED: f64 = 0.6;
 /// The trees that are kept of an attempt that was not the best.
 const KEPT: usize = 3;
 

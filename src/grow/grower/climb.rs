@@ -21,9 +21,9 @@ const ALIKE: [usize; 2] = [1, 3];
 /// The stages of climbing: the part of a node's price, what harm costs, whether trees only get smaller, and the part of the
 /// effort after which the stage ends.
 const CLIMBS: [(f64, Harm, bool, f64); 4] = [
-    (1.0, Harm::Cheap, false, 0.72),
-    (0.7, Harm::Middling, false, 0.84),
-    (0.5, Harm::Dear, false, 0.94),
+    (1.0, Harm::Cheap, false, 0.62),
+    (0.7, Harm::Middling, false, 0.8),
+    (0.5, Harm::Dear, false, 0.93),
     (1.0, Harm::Dear, true, 1.0),
 ];
 /// Races without a better tree before a stage ends.

@@ -20,7 +20,7 @@ use crate::tree::guard::not;
 use crate::tree::unit::guarded;
 
 /// The part of the effort after which no detour begins, and the part that one takes.
-const DETOURS: f64 = 0.7;
+const DETOURS: f64 = 0.6;
 const LENGTH: f64 = 0.1;
 /// Races without a better tree before a detour ends.
 const FAILURES: usize = 2;

@@ -39,8 +39,8 @@ impl Host for Numbers {
     fn visible(&mut self, x: f64, y: f64) -> bool {
         x < y
     }
-    fn look(&mut self, source: u16) -> Option<Reading> {
-        Some(Self::reading(source))
+    fn look(&mut self, source: u16, parts: &mut [f64; 4]) {
+        *parts = Self::reading(source).parts();
     }
     fn inside(&mut self, place: u16) -> bool {
         place == 1
