@@ -71,19 +71,25 @@ pub fn hypot(x: f64, y: f64) -> f64 {
 }
 
 /// The same direction in [−π, π).
+#[inline]
 pub fn wrap(angle: f64) -> f64 {
-    if (-PI..PI).contains(&angle) {
-        angle
+    match (-PI..PI).contains(&angle) {
+        true => angle,
+        false => wrapped(angle),
+    }
+}
+
+/// The same direction in [−π, π), of an angle beyond that.
+#[cold]
+fn wrapped(angle: f64) -> f64 {
+    let turns = ((angle + PI) / TAU).floor();
+    let wrapped = angle - turns * TAU;
+    // Rounding may leave the interval by one step.
+    if wrapped >= PI {
+        wrapped - TAU
+    } else if wrapped < -PI {
+        -PI
     } else {
-        let turns = ((angle + PI) / TAU).floor();
-        let wrapped = angle - turns * TAU;
-        // Rounding may leave the interval by one step.
-        if wrapped >= PI {
-            wrapped - TAU
-        } else if wrapped < -PI {
-            -PI
-        } else {
-            wrapped
-        }
+        wrapped
     }
 }

@@ -47,6 +47,14 @@ macro_rules! instructions {
             JumpUnlessLe,
             /// `dst` = whether no wall stands between the robot and the point (`a`, `b`).
             Visible,
+            /// The second of the two registers from `dst` says whether no wall stands between the robot and the fixed point (`a`,
+            /// `b`). It is asked anew where the robot has come farther than the first says.
+            Sees,
+            /// `dst` = whether the nearest wall is nearer than `b`. It is looked at, into the four registers from `a`, where
+            /// [`Fixed::Clear`](super::Fixed::Clear) does not say that it is farther.
+            Nearer,
+            /// `dst` = whether the nearest wall is as near as `b`, as above.
+            Within,
             /// Fills the four registers from `dst` with echo source number `a`: distance, x and y of the vector to it,
             /// seen.
             Look,
@@ -98,7 +106,7 @@ operators!(instructions);
 impl Op {
     /// Whether all it does is to set `dst`.
     pub(super) fn makes_a_value(self) -> bool {
-        !self.jumps() && !matches!(self, Op::Look | Op::Fire | Op::Atom | Op::Exit)
+        !self.jumps() && !matches!(self, Op::Look | Op::Sees | Op::Fire | Op::Atom | Op::Exit)
     }
 
     /// Whether it may go on elsewhere, at `dst`.
@@ -142,6 +150,7 @@ pub struct Code {
 
 impl Code {
     /// The instructions.
+    #[inline]
     pub fn instructions(&self) -> &[Instruction] {
         &self.instructions
     }

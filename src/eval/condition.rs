@@ -1,6 +1,6 @@
 //! Expressions as jumps.
 
-use super::code::Op;
+use super::code::{Op, Register};
 use super::compiler::{Binding, Compiler, Label, TooLarge};
 use super::memo::Mark;
 use crate::ir::expr::{Binary, Unary};
@@ -51,10 +51,15 @@ impl Compiler<'_> {
             }
         }
         let value = self.value(id)?;
+        Ok(self.jump_on(value, when, target))
+    }
+
+    /// Jumps to `target` if the truth value of a register is `when`.
+    fn jump_on(&mut self, value: Register, when: bool, target: &mut Label) -> Mark {
         let known = self.memo.mark();
         let op = if when { Op::JumpIf } else { Op::JumpUnless };
         self.jump(op, target, value, 0);
-        Ok(known)
+        known
     }
 
     /// `a and b`
@@ -107,6 +112,19 @@ impl Compiler<'_> {
         when: bool,
         target: &mut Label,
     ) -> Result<Mark, TooLarge> {
+        if let Some(near) = self.near(op, a, b)? {
+            return Ok(self.jump_on(near, when, target));
+        }
+        // Farther than something is not as near, and the other way round, where both are numbers.
+        let turned = match op {
+            Binary::Lt => Binary::Le,
+            Binary::Le => Binary::Lt,
+            other => other,
+        };
+        let is_number = self.pool.constant(a).is_some_and(|a| !a.is_nan());
+        if is_number && let Some(near) = self.near(turned, b, a)? {
+            return Ok(self.jump_on(near, !when, target));
+        }
         let (a, b) = self.compared(op, a, b)?;
         let op = match (op, when) {
             (Binary::Eq, true) | (Binary::Ne, false) => Op::JumpEq,

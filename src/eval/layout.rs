@@ -29,6 +29,11 @@ pub enum Fixed {
     Visits,
     /// How much of the learning is done.
     Progress,
+    /// How far the robot has come, at most, since it was put somewhere: no point of its way is farther from here than what was
+    /// added since.
+    Path,
+    /// A length that the nearest wall is away, at least.
+    Clear,
     /// The commanded speed forwards.
     Speed,
     /// The commanded speed to the left.
@@ -48,7 +53,7 @@ pub enum Fixed {
 }
 
 impl Fixed {
-    const COUNT: usize = 15;
+    const COUNT: usize = 17;
 
     /// Whether a register takes an answer of the code, which is given once.
     pub(super) fn is_output(register: Register) -> bool {
@@ -56,10 +61,14 @@ impl Fixed {
     }
 
     /// Its register.
+    #[inline(always)]
     pub fn register(self) -> Register {
         self as Register
     }
 }
+
+/// The most lines of sight that are remembered.
+const SIGHTS: usize = 256;
 
 /// Where an echo comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -84,6 +93,8 @@ pub struct Layout {
     /// The poses of all robots, where there are several.
     robots: usize,
     echoes: usize,
+    /// The fixed points whose lines of sight are asked, by the bits of their coordinates, with the first of two registers.
+    sights: FxHashMap<[u64; 2], Register>,
     sensors: usize,
     scratch: usize,
     /// The first register that no code has used as scratch.
@@ -131,6 +142,16 @@ impl Layout {
             }
         }
         let echoes = take(4 * (1 + sensors + walls));
+        let mut sights = FxHashMap::default();
+        for (_, expr) in program.pool.iter() {
+            if let Expr::Visible(x, y) = expr
+                && let (Some(x), Some(y)) = (program.pool.constant(x), program.pool.constant(y))
+                && sights.len() < SIGHTS
+            {
+                let register = sights.entry([x, y].map(f64::to_bits));
+                register.or_insert_with(|| take(2) as Register);
+            }
+        }
         if next >= REGISTERS {
             return Err(TooLarge);
         }
@@ -142,6 +163,7 @@ impl Layout {
             running,
             robots,
             echoes,
+            sights,
             sensors,
             scratch: next,
             used: next,
@@ -204,6 +226,19 @@ impl Layout {
     /// The first of the four registers of an echo source.
     pub(super) fn echo(&self, source: u16) -> Register {
         (self.echoes + 4 * usize::from(source)) as Register
+    }
+
+    /// The first of the two registers of a line of sight to a fixed point; none for a point past the first few hundred.
+    pub(super) fn sight(&self, point: [f64; 2]) -> Option<Register> {
+        self.sights.get(&point.map(f64::to_bits)).copied()
+    }
+
+    /// The registers of all lines of sight to fixed points, in order: until where on its way the robot may rely on what was
+    /// seen, and that.
+    pub fn sights(&self) -> Vec<Register> {
+        let mut sights: Vec<_> = self.sights.values().flat_map(|&it| [it, it + 1]).collect();
+        sights.sort_unstable();
+        sights
     }
 
     /// Where scratch registers begin.

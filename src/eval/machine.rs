@@ -1,6 +1,7 @@
 //! The machine: a file of registers and one loop.
 
 use super::code::{Code, Instruction, Op, Register};
+use super::layout::Fixed;
 use crate::math;
 use crate::random::Random;
 use std::f64::consts::PI;
@@ -33,6 +34,11 @@ pub struct Reading {
 pub trait Host {
     /// Whether no wall stands between the robot's centre and a point.
     fn visible(&mut self, x: f64, y: f64) -> bool;
+    /// Whether no wall stands between the robot's centre and a fixed point, and up to which value of
+    /// [`Fixed::Path`](super::Fixed::Path) that is so. `first` is the first of the point's two registers.
+    fn sight(&mut self, _first: Register, x: f64, y: f64) -> (bool, f64) {
+        (self.visible(x, y), f64::NEG_INFINITY)
+    }
     /// Reads an echo source, see [`Reading::parts`]; what was read before is left if it still holds.
     fn look(&mut self, source: u16, parts: &mut [f64; 4]);
     /// Whether the robot's centre is in a place.
@@ -47,6 +53,7 @@ pub trait Host {
 
 impl Reading {
     /// What the registers hold of it: the distance, the vector, whether it was seen.
+    #[inline]
     pub fn parts(self) -> [f64; 4] {
         let [x, y] = self.toward;
         [self.distance, x, y, truth(self.seen)]
@@ -77,6 +84,9 @@ impl Registers {
 /// negation is.
 #[inline]
 pub fn run<H: Host>(code: &Code, r: &mut Registers, host: &mut H) -> u16 {
+    if code.instructions().is_empty() {
+        return 0;
+    }
     #[cfg(feature = "native")]
     if let Some(native) = code.native.get() {
         return native.run(&mut r.0, host);
@@ -84,6 +94,7 @@ pub fn run<H: Host>(code: &Code, r: &mut Registers, host: &mut H) -> u16 {
     interpret(code.instructions(), r, host)
 }
 
+#[inline(never)]
 fn interpret<H: Host>(code: &[Instruction], r: &mut Registers, host: &mut H) -> u16 {
     let mut pc = 0;
     while let Some(&Instruction { op, dst, a, b }) = code.get(pc) {
@@ -124,13 +135,29 @@ fn interpret<H: Host>(code: &[Instruction], r: &mut Registers, host: &mut H) -> 
                 }
             }
             Op::Visible => r.set(dst, truth(host.visible(r.get(a), r.get(b)))),
-            Op::Look => {
-                let mut parts = [dst, dst + 1, dst + 2, dst + 3].map(|register| r.get(register));
-                host.look(a, &mut parts);
-                for (register, part) in (dst..).zip(parts) {
-                    r.set(register, part);
+            Op::Sees => {
+                let holds = r.get(Fixed::Path.register()) < r.get(dst);
+                if !holds {
+                    let (seen, until) = host.sight(dst, r.get(a), r.get(b));
+                    r.set(dst, until);
+                    r.set(dst + 1, truth(seen));
                 }
             }
+            Op::Nearer | Op::Within => {
+                let bound = r.get(b);
+                let near = if r.get(Fixed::Clear.register()) > bound {
+                    false
+                } else {
+                    look(r, host, a, NEAREST_WALL);
+                    let distance = r.get(a);
+                    match op {
+                        Op::Nearer => distance < bound,
+                        _ => distance <= bound,
+                    }
+                };
+                r.set(dst, truth(near));
+            }
+            Op::Look => look(r, host, dst, a),
             Op::Inside => r.set(dst, truth(host.inside(a))),
             Op::Uniform => r.set(dst, uniform(host, r.get(a), r.get(b))),
             Op::Normal => r.set(dst, normal(host, r.get(a), r.get(b))),
@@ -150,6 +177,18 @@ fn interpret<H: Host>(code: &[Instruction], r: &mut Registers, host: &mut H) -> 
     0
 }
 
+/// The number of the nearest wall among the echo sources.
+pub(super) const NEAREST_WALL: u16 = 0;
+
+/// Reads an echo source into the four registers from the first.
+fn look<H: Host>(r: &mut Registers, host: &mut H, first: Register, source: u16) {
+    let mut parts = [first, first + 1, first + 2, first + 3].map(|register| r.get(register));
+    host.look(source, &mut parts);
+    for (register, part) in (first..).zip(parts) {
+        r.set(register, part);
+    }
+}
+
 #[inline(always)]
 pub(super) fn truth(holds: bool) -> f64 {
     f64::from(u8::from(holds))
@@ -161,7 +200,7 @@ pub(super) fn direction(y: f64, x: f64) -> f64 {
     if angle < PI { angle } else { -PI }
 }
 
-pub(super) fn wrap_sub(a: f64, b: f64) -> f64 {
+fn wrap_sub(a: f64, b: f64) -> f64 {
     math::wrap(a - b)
 }
 

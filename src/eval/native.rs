@@ -63,16 +63,16 @@ impl fmt::Debug for Native {
 impl Native {
     /// Runs it; see [`run`](super::run).
     #[inline]
-    pub(super) fn run(&self, registers: &mut [f64; REGISTERS], host: &mut dyn Host) -> u16 {
+    pub(super) fn run<H: Host>(&self, registers: &mut [f64; REGISTERS], host: &mut H) -> u16 {
         let mut context = Context {
             atoms: [0; 2],
-            host,
+            host: &mut *host,
         };
         // SAFETY: the entry is a function of this type, in memory that is kept as long as `self`. It reads and writes
         // registers below `REGISTERS` and the context, and calls functions that borrow them no longer than the call.
         let answer = unsafe { (self.entry)(registers.as_mut_ptr(), &raw mut context) };
         let [low, high] = context.atoms;
-        *context.host.atoms() |= u128::from(high) << 64 | u128::from(low);
+        *host.atoms() |= u128::from(high) << 64 | u128::from(low);
         answer as u16
     }
 }
@@ -146,6 +146,8 @@ pub(super) enum Callee {
     Told(extern "C" fn(&mut Context<'_>, u32)),
     /// Number `a` of the echo sources is read into four registers.
     Look(extern "C" fn(&mut Context<'_>, u32, &mut [f64; 4])),
+    /// Whether the point (`a`, `b`) is in sight is told in the second of two registers, and how long that holds in the first.
+    Sees(extern "C" fn(&mut Context<'_>, u32, f64, f64, &mut [f64; 2])),
 }
 
 impl Callee {
@@ -158,6 +160,7 @@ impl Callee {
             Callee::Numbered(f) => f as usize,
             Callee::Told(f) => f as usize,
             Callee::Look(f) => f as usize,
+            Callee::Sees(f) => f as usize,
         }
     }
 }
@@ -183,7 +186,6 @@ macro_rules! callees {
                     Callee::Binary(binary)
                 })*
                 Op::Direction => Callee::Binary(direction),
-                Op::WrapSub => Callee::Binary(wrap_sub),
                 Op::Visible => Callee::Asked(visible),
                 Op::Uniform => Callee::Asked(uniform),
                 Op::Normal => Callee::Asked(normal),
@@ -191,7 +193,8 @@ macro_rules! callees {
                 Op::Pick => Callee::Asked(pick),
                 Op::Inside => Callee::Numbered(inside),
                 Op::Fire => Callee::Told(fire),
-                Op::Look => Callee::Look(look),
+                Op::Look | Op::Nearer | Op::Within => Callee::Look(look),
+                Op::Sees => Callee::Sees(sight),
                 _ => return None,
             })
         }
@@ -203,12 +206,13 @@ extern "C" fn direction(y: f64, x: f64) -> f64 {
     machine::direction(y, x)
 }
 
-extern "C" fn wrap_sub(a: f64, b: f64) -> f64 {
-    machine::wrap_sub(a, b)
-}
-
 extern "C" fn visible(context: &mut Context<'_>, x: f64, y: f64) -> f64 {
     machine::truth(context.host.visible(x, y))
+}
+
+extern "C" fn sight(context: &mut Context<'_>, first: u32, x: f64, y: f64, parts: &mut [f64; 2]) {
+    let (seen, until) = context.host.sight(first as u16, x, y);
+    *parts = [until, machine::truth(seen)];
 }
 
 extern "C" fn uniform(context: &mut Context<'_>, from: f64, to: f64) -> f64 {

@@ -4,11 +4,13 @@
 //! through that; memory is always up to date, so what is called from within sees it. Jumps go forwards only.
 
 use super::code::{Code, Instruction, Op, Register};
-use super::machine::REGISTERS;
+use super::layout::Fixed;
+use super::machine::{NEAREST_WALL, REGISTERS};
 use super::native::{Callee, callee};
 use cranelift::codegen::ir::Function;
 use cranelift::prelude::*;
 use rustc_hash::FxHashMap;
+use std::f64::consts::PI;
 
 /// What the registers hold, as far as that is known.
 type Known = FxHashMap<Register, Held>;
@@ -208,6 +210,18 @@ impl Translator<'_> {
             Op::JumpUnlessLe => {
                 self.branch(false, dst, |it| it.compare(FloatCC::LessThanOrEqual, a, b));
             }
+            Op::Wrap => {
+                let angle = self.get(a);
+                self.wrap(dst, angle);
+            }
+            Op::WrapSub => {
+                let (x, y) = (self.get(a), self.get(b));
+                let angle = self.builder.ins().fsub(x, y);
+                self.wrap(dst, angle);
+            }
+            Op::Sees => self.sees(dst, a, b),
+            Op::Nearer => self.near(FloatCC::LessThan, dst, a, b),
+            Op::Within => self.near(FloatCC::LessThanOrEqual, dst, a, b),
             Op::Atom => self.atom(dst, a),
             Op::Exit => {
                 self.answer(a);
@@ -231,9 +245,7 @@ impl Translator<'_> {
         if let Some(&held) = self.known.get(&register) {
             return held;
         }
-        let (flags, offset) = (MemFlags::trusted(), Self::offset(register));
-        let ins = self.builder.ins();
-        let held = Held::Number(ins.load(types::F64, flags, self.registers, offset));
+        let held = Held::Number(self.load(register));
         self.known.insert(register, held);
         held
     }
@@ -318,6 +330,127 @@ impl Translator<'_> {
         self.builder.ins().return_(&[answer]);
     }
 
+    /// The same direction in [−π, π): nearly always the angle itself.
+    fn wrap(&mut self, dst: Register, angle: Value) {
+        let Some(callee) = callee(Op::Wrap) else {
+            return;
+        };
+        let low = self.builder.ins().f64const(-PI);
+        let high = self.builder.ins().f64const(PI);
+        let above = FloatCC::GreaterThanOrEqual;
+        let above = self.builder.ins().fcmp(above, angle, low);
+        let below = self.builder.ins().fcmp(FloatCC::LessThan, angle, high);
+        let inside = self.builder.ins().band(above, below);
+        let done = self.unless(inside, types::F64, angle);
+        if let Some(wrapped) = self.invoke(callee, &[angle], true) {
+            self.builder.ins().jump(done, &[wrapped.into()]);
+        }
+        self.builder.switch_to_block(done);
+        if let Some(&wrapped) = self.builder.block_params(done).first() {
+            self.set(dst, Held::Number(wrapped));
+        }
+    }
+
+    /// Whether a fixed point is in sight: what is known holds up to a point of the robot's way.
+    fn sees(&mut self, first: Register, x: Register, y: Register) {
+        let Some(callee) = callee(Op::Sees) else {
+            return;
+        };
+        let (path, until) = (self.get(Fixed::Path.register()), self.get(first));
+        let (x_of, y_of) = (self.get(x), self.get(y));
+        let holds = self.builder.ins().fcmp(FloatCC::LessThan, path, until);
+        let seen = self.load(first + 1);
+        let done = self.unless(holds, types::F64, seen);
+        let into = self.address(first, 2);
+        let number = self.builder.ins().iconst(types::I32, i64::from(first));
+        let arguments = [self.context, number, x_of, y_of, into];
+        self.invoke(callee, &arguments, false);
+        let seen = self.load(first + 1);
+        self.builder.ins().jump(done, &[seen.into()]);
+        self.builder.switch_to_block(done);
+        self.known.remove(&first);
+        if let Some(&seen) = self.builder.block_params(done).first() {
+            self.known.insert(first + 1, Held::Number(seen));
+        }
+    }
+
+    /// Whether the nearest wall is nearer than a bound, or as near: it is looked at only where it may be.
+    fn near(&mut self, how: FloatCC, dst: Register, first: Register, bound: Register) {
+        let Some(callee) = callee(Op::Look) else {
+            return;
+        };
+        let (clear, bound) = (self.get(Fixed::Clear.register()), self.get(bound));
+        let far = self.builder.ins().fcmp(FloatCC::GreaterThan, clear, bound);
+        let no = self.builder.ins().iconst(types::I8, 0);
+        let done = self.unless(far, types::I8, no);
+        let into = self.address(first, 4);
+        let nearest = self
+            .builder
+            .ins()
+            .iconst(types::I32, i64::from(NEAREST_WALL));
+        let arguments = [self.context, nearest, into];
+        self.invoke(callee, &arguments, false);
+        let distance = self.load(first);
+        let near = self.builder.ins().fcmp(how, distance, bound);
+        self.builder.ins().jump(done, &[near.into()]);
+        self.builder.switch_to_block(done);
+        self.forget_echo(first);
+        if let Some(&near) = self.builder.block_params(done).first() {
+            self.truth(dst, near);
+        }
+    }
+
+    /// A block that is gone to at once, with a value, where a condition holds. What comes next is done where it does not, which is
+    /// rare, and has to go there, too.
+    fn unless(&mut self, holds: Value, of: Type, value: Value) -> Block {
+        let (rare, done) = (self.builder.create_block(), self.builder.create_block());
+        self.builder.append_block_param(done, of);
+        self.builder.set_cold_block(rare);
+        self.builder
+            .ins()
+            .brif(holds, done, &[value.into()], rare, &[]);
+        self.builder.switch_to_block(rare);
+        done
+    }
+
+    /// The value of a register in memory.
+    fn load(&mut self, register: Register) -> Value {
+        let (flags, offset) = (MemFlags::trusted(), Self::offset(register));
+        let ins = self.builder.ins();
+        ins.load(types::F64, flags, self.registers, offset)
+    }
+
+    /// Where so many registers are; all of them are registers, whatever the first is.
+    fn address(&mut self, first: Register, count: u16) -> Value {
+        let offset = i64::from(Self::offset(first.min(REGISTERS as Register - count)));
+        self.builder.ins().iadd_imm(self.registers, offset)
+    }
+
+    /// The registers of an echo source may have changed.
+    fn forget_echo(&mut self, first: Register) {
+        for register in first..=first.saturating_add(3) {
+            self.known.remove(&register);
+        }
+    }
+
+    /// Calls a function; `gives`: with a number as its result.
+    fn invoke(&mut self, callee: Callee, arguments: &[Value], gives: bool) -> Option<Value> {
+        let mut signature = Signature::new(self.convention);
+        for argument in arguments {
+            let of = self.builder.func.dfg.value_type(*argument);
+            signature.params.push(AbiParam::new(of));
+        }
+        if gives {
+            signature.returns.push(AbiParam::new(types::F64));
+        }
+        let signature = self.builder.import_signature(signature);
+        let ins = self.builder.ins();
+        let address = ins.iconst(self.pointer, callee.address() as i64);
+        let ins = self.builder.ins();
+        let call = ins.call_indirect(signature, address, arguments);
+        self.builder.inst_results(call).first().copied()
+    }
+
     /// Calls what does the rest of the instructions.
     fn call(&mut self, callee: Callee, dst: Register, a: Register, b: Register) {
         let index =
@@ -328,34 +461,16 @@ impl Translator<'_> {
             Callee::Asked(_) => vec![self.context, self.get(a), self.get(b)],
             Callee::Numbered(_) | Callee::Told(_) => vec![self.context, index(self, a)],
             Callee::Look(_) => {
-                // All four are registers, whatever `dst` is.
-                let into = i64::from(Self::offset(dst.min(REGISTERS as Register - 4)));
-                let into = self.builder.ins().iadd_imm(self.registers, into);
+                let into = self.address(dst, 4);
                 vec![self.context, index(self, a), into]
             }
+            Callee::Sees(_) => return,
         };
-        let mut signature = Signature::new(self.convention);
-        for argument in &arguments {
-            let of = self.builder.func.dfg.value_type(*argument);
-            signature.params.push(AbiParam::new(of));
-        }
         let gives = !matches!(callee, Callee::Told(_) | Callee::Look(_));
-        if gives {
-            signature.returns.push(AbiParam::new(types::F64));
-        }
-        let signature = self.builder.import_signature(signature);
-        let ins = self.builder.ins();
-        let address = ins.iconst(self.pointer, callee.address() as i64);
-        let call = self
-            .builder
-            .ins()
-            .call_indirect(signature, address, &arguments);
-        if let Some(&value) = self.builder.inst_results(call).first() {
+        if let Some(value) = self.invoke(callee, &arguments, gives) {
             self.set(dst, Held::Number(value));
         } else if let Callee::Look(_) = callee {
-            for register in dst..=dst.saturating_add(3) {
-                self.known.remove(&register);
-            }
+            self.forget_echo(dst);
         }
     }
 }

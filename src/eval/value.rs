@@ -50,7 +50,7 @@ impl Compiler<'_> {
             Expr::Sensor(sensor, echo) => self.echo(id, Source::Sensor(sensor), echo)?,
             Expr::Wall(wall, echo) => self.echo(id, Source::Wall(wall), echo)?,
             Expr::Inside(place) => self.result(id, Op::Inside, place.index() as Register, 0)?,
-            Expr::Visible(x, y) => self.binary(id, Op::Visible, x, y)?,
+            Expr::Visible(x, y) => self.visible(id, x, y)?,
             Expr::Unary(op, a) => match (op, self.pool.get(a)) {
                 (Unary::Wrap, Expr::Binary(Binary::Sub, a, b)) => {
                     self.binary(id, Op::WrapSub, a, b)?
@@ -64,6 +64,10 @@ impl Compiler<'_> {
             Expr::Binary(op, a, b) => match self.clamp(op, a, b) {
                 Some((a, limit)) => self.binary(id, Op::Clamp, a, limit)?,
                 None => {
+                    if let Some(near) = self.near(op, a, b)? {
+                        self.memo.insert(id, near);
+                        return Ok(near);
+                    }
                     let (a, b) = self.compared(op, a, b)?;
                     self.result(id, op.into(), a, b)?
                 }
@@ -99,6 +103,43 @@ impl Compiler<'_> {
         self.emit(op, dst, a, b);
         self.memo.insert(id, dst);
         Ok(dst)
+    }
+
+    /// Whether a point is in sight.
+    fn visible(&mut self, id: ExprId, x: ExprId, y: ExprId) -> Result<Register, TooLarge> {
+        if let (Some(at_x), Some(at_y)) = (self.pool.constant(x), self.pool.constant(y))
+            && let Some(first) = self.layout.sight([at_x, at_y])
+        {
+            let (x, y) = (self.value(x)?, self.value(y)?);
+            self.emit(Op::Sees, first, x, y);
+            self.memo.insert(id, first + 1);
+            return Ok(first + 1);
+        }
+        self.binary(id, Op::Visible, x, y)
+    }
+
+    /// Whether the nearest wall is nearer than something, or as near, where that is what is asked and the wall has not been
+    /// looked at.
+    pub(super) fn near(
+        &mut self,
+        op: Binary,
+        a: ExprId,
+        b: ExprId,
+    ) -> Result<Option<Register>, TooLarge> {
+        let op = match op {
+            Binary::Lt => Op::Nearer,
+            Binary::Le => Op::Within,
+            _ => return Ok(None),
+        };
+        let source = self.layout.source(Source::NearestWall);
+        let asked = matches!(self.pool.get(a), Expr::NearestWall(Echo::Distance));
+        if !asked || self.memo.has_looked(source) {
+            return Ok(None);
+        }
+        let bound = self.value(b)?;
+        let dst = self.fresh()?;
+        self.emit(op, dst, self.layout.echo(source), bound);
+        Ok(Some(dst))
     }
 
     fn echo(&mut self, id: ExprId, source: Source, echo: Echo) -> Result<Register, TooLarge> {

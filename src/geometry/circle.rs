@@ -71,6 +71,16 @@ impl Circle {
         dot(nearest, nearest) <= self.radius * self.radius
     }
 
+    /// Whether the segment from `p` to `q` meets the disc, and how far `p` may go in any direction before that can change:
+    /// the distance of the centre from the way changes by no more than `p` goes.
+    pub fn meets_while(&self, p: Point, q: Point) -> (bool, f64) {
+        let length = |v: Point| dot(v, v).sqrt();
+        let nearest = Segment::new(p, q).nearest(self.center);
+        let size = length(minus(q, p)) + length(minus(self.center, p)) + self.radius;
+        let reach = (length(nearest) - self.radius).abs() - 1e-12 * size;
+        (self.meets(p, q), if reach > 0.0 { reach } else { 0.0 })
+    }
+
     /// The square of the least distance from the centre to the segment from `p` to `p + step`.
     pub fn center_gap_square(&self, p: Point, step: Point) -> f64 {
         let nearest = Segment::new(p, along(p, 1.0, step)).nearest(self.center);

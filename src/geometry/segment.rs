@@ -95,6 +95,19 @@ impl Segment {
         }
     }
 
+    /// False only if a ray from `p` in the direction of the unit vector `u` does not meet the segment before it has gone so far:
+    /// nothing is divided to know that.
+    #[inline(always)]
+    pub fn may_be_met(&self, p: Point, u: Point, far: f64) -> bool {
+        let start = minus(self.start, p);
+        let across = cross(u, self.along);
+        let (s, t) = (cross(start, self.along), cross(start, u));
+        let (s, t) = (s.copysign(s * across), t.copysign(t * across));
+        let most = across.abs() * (1.0 + 1e-9);
+        // All at once: which of them fails cannot be foreseen.
+        (across == 0.0) | ((s >= 0.0) & (t >= 0.0) & (t <= most) & (s <= far * most))
+    }
+
     /// Whether the segment from `p` to `q` meets it.
     #[inline(always)]
     pub fn meets(&self, p: Point, q: Point) -> bool {

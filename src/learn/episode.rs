@@ -1,7 +1,10 @@
 //! Whole episodes under a controller: a policy, a tree, or anything else that acts once a tick.
 
 use super::process::{Earned, Process};
-use crate::world::{End, Start};
+use crate::ir::Id;
+use crate::ir::law::Behavior;
+use crate::ir::tree::Status;
+use crate::world::{End, Gone, Start};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -12,6 +15,19 @@ pub trait Controller {
 
     /// Ticks behaviours of the process, between its `begin_tick` and its `end_tick`.
     fn tick(&mut self, process: &mut impl Process);
+
+    /// The behaviour that the controller would tick now, alone, and again as long as it runs and no atom changes. It may be
+    /// ticked by another then, who says so by [`Controller::passed`] and [`Controller::answered`].
+    fn steady(&mut self, _process: &impl Process) -> Option<Id<Behavior>> {
+        None
+    }
+
+    /// The steady behaviour has been ticked in so many ticks, and has run in all of them.
+    fn passed(&mut self, _ticks: u64) {}
+
+    /// The steady behaviour has been ticked once more and has answered otherwise than that it runs: what else does the
+    /// controller do in this tick?
+    fn answered(&mut self, _process: &mut impl Process, _behavior: Id<Behavior>, _status: Status) {}
 
     /// In how many ticks since the last [`Controller::reset`] the controller had no decision of its own to follow.
     fn outside(&self) -> u64 {
@@ -52,10 +68,27 @@ pub fn play(
     let (mut total, mut since) = (0.0, 0);
     let mut earned = Earned::default();
     loop {
-        process.begin_tick();
-        controller.tick(process);
-        let outcome = process.end_tick();
-        since += 1;
+        let outcome = if let Some(behavior) = controller.steady(process) {
+            let most = patience.saturating_sub(since).max(1);
+            let (ticks, gone) = process.go_on(behavior, most, &mut earned);
+            since += ticks;
+            match gone {
+                Gone::Ended(tick) => {
+                    controller.passed(ticks);
+                    tick
+                }
+                Gone::Answered(status) => {
+                    controller.passed(ticks - 1);
+                    controller.answered(process, behavior, status);
+                    process.end_tick()
+                }
+            }
+        } else {
+            process.begin_tick();
+            controller.tick(process);
+            since += 1;
+            process.end_tick()
+        };
         let due = outcome.terminated
             || outcome.changed
             || outcome.closed

@@ -54,6 +54,10 @@ impl Controller for Greedy {
         let behavior = self.choose(process.key());
         process.act(behavior);
     }
+
+    fn steady(&mut self, process: &impl Process) -> Option<Id<Behavior>> {
+        Some(self.choose(process.key()))
+    }
 }
 
 /// What is done in a minterm that was never seen: what the first learner of the task says, else its first choice.

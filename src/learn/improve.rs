@@ -82,6 +82,11 @@ impl Controller for Noted {
         self.met.insert(process.key());
         self.greedy.tick(process);
     }
+
+    fn steady(&mut self, process: &impl Process) -> Option<Id<Behavior>> {
+        self.met.insert(process.key());
+        self.greedy.steady(process)
+    }
 }
 
 impl<W: World, H: Fn(&Episode) -> u64 + Sync> Improver<'_, W, H> {

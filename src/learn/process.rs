@@ -5,7 +5,7 @@
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::{Atom, Status};
-use crate::world::{self, Start, Tick};
+use crate::world::{self, Gone, Start, Tick};
 
 /// A minterm in a machine word: bit i is the i-th atom.
 pub type Key = u128;
@@ -33,6 +33,21 @@ pub trait Process {
     /// Ends a tick: the world moves on.
     fn end_tick(&mut self) -> Tick;
 
+    /// Goes on with a behaviour alone, for at most `most` ticks and at least one: until it answers otherwise than that it
+    /// runs, or a tick ends that may matter to whoever decides. `earned` takes in all ticks before the last. Also says how
+    /// many ticks have begun.
+    #[inline]
+    fn go_on(&mut self, behavior: Id<Behavior>, most: u64, earned: &mut Earned) -> (u64, Gone) {
+        // One tick is enough: what is due is seen by whoever asks.
+        let _ = (most, earned);
+        self.begin_tick();
+        let gone = match self.act(behavior) {
+            Status::Running => Gone::Ended(self.end_tick()),
+            status => Gone::Answered(status),
+        };
+        (1, gone)
+    }
+
     /// How many ticks of the episode have begun.
     fn ticks(&self) -> u64;
 
@@ -48,10 +63,18 @@ pub trait Process {
         let mut ticks = 0;
         let mut earned = Earned::default();
         loop {
-            self.begin_tick();
-            let status = self.act(behavior);
-            let tick = self.end_tick();
-            ticks += 1;
+            // Where the minterm is another already, the decision is due after `dwell` ticks.
+            let last = match self.key() == from {
+                true => patience,
+                false => patience.min(dwell),
+            };
+            let most = last.saturating_sub(ticks).max(1);
+            let (gone_on, gone) = self.go_on(behavior, most, &mut earned);
+            ticks += gone_on;
+            let (status, tick) = match gone {
+                Gone::Answered(status) => (status, self.end_tick()),
+                Gone::Ended(tick) => (Status::Running, tick),
+            };
             let due = tick.terminated
                 || tick.closed
                 || ticks >= patience
@@ -81,10 +104,16 @@ pub trait Process {
 pub struct Earned(f64);
 
 impl Earned {
+    /// Takes in what a tick pays, whatever happens in it.
+    #[inline]
+    pub fn flows(&mut self, flow: f64) {
+        self.0 += flow;
+    }
+
     /// Takes in a tick. Where the transition ends with it, gives the transition's reward and begins the next.
     #[inline]
     pub fn after(&mut self, tick: &Tick, due: bool) -> Option<f64> {
-        self.0 += tick.flow;
+        self.flows(tick.flow);
         due.then(|| std::mem::take(&mut self.0) + tick.reward)
     }
 }

@@ -1,10 +1,10 @@
 //! The decision process over the simulator.
 
-use super::process::{Key, Process, World};
+use super::process::{Earned, Key, Process, World};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::{Atom, Status};
-use crate::world::{Simulation, Simulator, Start, Tick};
+use crate::world::{Gone, Simulation, Simulator, Start, Tick};
 
 /// What an episode's random numbers are for; the seeds of one purpose never meet those of another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -84,6 +84,11 @@ impl Process for Simulation<'_> {
     #[inline]
     fn end_tick(&mut self) -> Tick {
         Simulation::end_tick(self)
+    }
+
+    #[inline]
+    fn go_on(&mut self, behavior: Id<Behavior>, most: u64, earned: &mut Earned) -> (u64, Gone) {
+        Simulation::go_on(self, behavior, most, |flow| earned.flows(flow))
     }
 
     fn ticks(&self) -> u64 {

@@ -74,16 +74,42 @@ impl Runner {
     /// One tick in a valuation as the simulator keeps it: a key of at most 128 atoms. The tree is not walked again where
     /// that would lead to the same behaviour.
     pub fn tick_key(&mut self, key: u128, mut leaf: impl FnMut(Id<Behavior>) -> Status) -> Status {
-        let mut answered = None;
         if let Some(settled) = self.settled
             && settled.key == key
         {
-            let answer = leaf(settled.behavior);
-            if answer == Status::Running {
-                return settled.status;
-            }
-            answered = Some(answer);
+            return match leaf(settled.behavior) {
+                Status::Running => settled.status,
+                answer => self.answered(key, answer, leaf),
+            };
         }
+        self.walk(key, None, leaf)
+    }
+
+    /// The behaviour that a tick in this valuation would tick alone, and go on ticking while it runs.
+    #[inline]
+    pub fn settled(&self, key: u128) -> Option<Id<Behavior>> {
+        let settled = self.settled.filter(|settled| settled.key == key);
+        settled.map(|settled| settled.behavior)
+    }
+
+    /// A tick in which the behaviour that [`Runner::settled`] names has been ticked already, and has answered otherwise than
+    /// that it runs.
+    pub fn answered(
+        &mut self,
+        key: u128,
+        answer: Status,
+        leaf: impl FnMut(Id<Behavior>) -> Status,
+    ) -> Status {
+        self.walk(key, Some(answer), leaf)
+    }
+
+    /// Walks the tree; the first behaviour may have answered already.
+    fn walk(
+        &mut self,
+        key: u128,
+        mut answered: Option<Status>,
+        mut leaf: impl FnMut(Id<Behavior>) -> Status,
+    ) -> Status {
         let (mut ticked, mut last) = (0, None);
         let status = self.tick(&[key as u64, (key >> 64) as u64], |behavior| {
             let answer = answered.take().unwrap_or_else(|| leaf(behavior));

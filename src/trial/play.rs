@@ -46,6 +46,20 @@ impl Ticked {
             status
         });
     }
+
+    /// Goes on with a tick whose steady behaviour has answered; `note` gets every behaviour that is ticked after it.
+    pub fn answered_noting(
+        &mut self,
+        process: &mut impl Process,
+        status: Status,
+        mut note: impl FnMut(Id<Behavior>, Status),
+    ) {
+        self.0.answered(process.atoms(), status, |behavior| {
+            let status = process.act(behavior);
+            note(behavior, status);
+            status
+        });
+    }
 }
 
 impl Controller for Ticked {
@@ -55,6 +69,15 @@ impl Controller for Ticked {
 
     fn tick(&mut self, process: &mut impl Process) {
         self.tick_noting(process, |_, _| {});
+    }
+
+    #[inline]
+    fn steady(&mut self, process: &impl Process) -> Option<Id<Behavior>> {
+        self.0.settled(process.atoms())
+    }
+
+    fn answered(&mut self, process: &mut impl Process, _: Id<Behavior>, status: Status) {
+        self.answered_noting(process, status, |_, _| {});
     }
 }
 

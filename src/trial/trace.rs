@@ -77,10 +77,43 @@ impl Controller for Recorded {
         let now = &mut self.now;
         self.runner
             .tick_noting(process, |behavior, status| now.push((behavior, status)));
+        self.note(atoms);
+    }
+
+    fn steady(&mut self, process: &impl Process) -> Option<Id<Behavior>> {
+        let atoms = process.atoms();
+        let behavior = self.runner.steady(process)?;
+        // Ticks that are only counted are those of the last entry.
+        let (met, _) = self.trace.met.last()?;
+        (met.atoms == atoms && *met.calls == [(behavior, Status::Running)]).then_some(behavior)
+    }
+
+    fn passed(&mut self, ticks: u64) {
+        if let Some((_, times)) = self.trace.met.last_mut() {
+            *times += ticks;
+        }
+    }
+
+    fn answered(&mut self, process: &mut impl Process, behavior: Id<Behavior>, status: Status) {
+        let atoms = process.atoms();
+        self.now.clear();
+        self.now.push((behavior, status));
+        let now = &mut self.now;
+        self.runner
+            .answered_noting(process, status, |behavior, status| {
+                now.push((behavior, status));
+            });
+        self.note(atoms);
+    }
+}
+
+impl Recorded {
+    /// Notes a tick with the behaviours that it ticked.
+    fn note(&mut self, atoms: u128) {
         match self.trace.met.last_mut() {
-            Some((met, times)) if met.atoms == atoms && met.calls == *now => *times += 1,
+            Some((met, times)) if met.atoms == atoms && met.calls == self.now => *times += 1,
             _ => {
-                let calls = now.clone();
+                let calls = self.now.clone();
                 self.trace.met.push((Met { atoms, calls }, 1));
             }
         }

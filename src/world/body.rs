@@ -1,10 +1,14 @@
 //! The robot in its world, as running code sees it.
 
+use super::gaps::Gaps;
 use super::pose::Pose;
 use super::scene::Scene;
 use super::sensing::Probe;
+use super::sight::Sight;
+#[cfg(doc)]
+use crate::eval::Fixed;
 use crate::eval::{Host, Reading};
-use crate::geometry::{Circle, Shape};
+use crate::geometry::{Circle, Point, Shape, dot, minus};
 use crate::random::Random;
 
 /// What is sensed.
@@ -15,6 +19,10 @@ pub(super) struct Surroundings {
     pub(super) places: Vec<Shape>,
     /// How many sensors the numbers of echo sources leave room for.
     pub(super) sensors: usize,
+    /// The first register of the lines of sight to fixed points.
+    pub(super) sights: u16,
+    /// How many such points there are.
+    pub(super) points: usize,
 }
 
 /// The moving part.
@@ -27,6 +35,16 @@ pub(super) struct Body<'a> {
     /// The other robots, where they stand now.
     pub(super) bodies: Vec<Circle>,
     pub(super) pose: Pose,
+    /// How far it has come since it was put somewhere, and how far the obstacles are.
+    gaps: Gaps,
+    /// What stands around the fixed points that were looked at.
+    sights: Vec<Option<Sight>>,
+    /// A distance from all walls that it keeps.
+    kept: f64,
+    /// The number of the obstacle that each sensor measured last.
+    leads: Vec<usize>,
+    /// The distance to the nearest wall, if it was measured here; 0 if not.
+    pub(super) clear: f64,
     pub(super) random: Random,
     /// The echo sources whose readings still hold, one bit each.
     fresh: u128,
@@ -40,7 +58,12 @@ pub(super) struct Body<'a> {
 }
 
 impl<'a> Body<'a> {
-    pub(super) fn new(around: &'a Surroundings, probes: &'a [Probe], events: usize) -> Self {
+    pub(super) fn new(
+        around: &'a Surroundings,
+        probes: &'a [Probe],
+        radius: f64,
+        events: usize,
+    ) -> Self {
         let noisy = |probe: &Probe| probe.noise > 0.0;
         let steady = probes
             .iter()
@@ -53,6 +76,12 @@ impl<'a> Body<'a> {
             now: None,
             bodies: Vec::new(),
             pose: Pose::new([0.0; 2], 0.0),
+            gaps: Gaps::new(around.scene.parts()),
+            sights: vec![None; around.points],
+            // Contact is found to a hair.
+            kept: 0.5 * radius,
+            leads: vec![0; probes.len()],
+            clear: 0.0,
             random: Random::new(0, 0, 0),
             fresh: 0,
             steady,
@@ -85,12 +114,37 @@ impl<'a> Body<'a> {
     /// Obstacles have changed: these stand now, or those of the surroundings.
     pub(super) fn set_scene(&mut self, scene: Option<&Scene>) {
         self.now = scene.map(|scene| Box::new(scene.clone()));
+        self.gaps = Gaps::new(self.scene().parts());
+        self.sights.fill(None);
         self.moved();
     }
 
     /// The robot has moved: nothing that was read still holds.
+    #[inline(always)]
     pub(super) fn moved(&mut self) {
         self.fresh = 0;
+        self.clear = 0.0;
+    }
+
+    /// The robot has come here from another position.
+    #[inline(always)]
+    pub(super) fn came_from(&mut self, before: Point) {
+        let gone = minus(self.pose.position, before);
+        let square = dot(gone, gone);
+        if square > 0.0 {
+            self.gaps.go(square.sqrt());
+        }
+    }
+
+    /// How far it has come since it was put somewhere: see [`Fixed::Path`].
+    #[inline(always)]
+    pub(super) fn path(&self) -> f64 {
+        self.gaps.path()
+    }
+
+    /// It has been put somewhere, or what stands has changed.
+    pub(super) fn was_put(&mut self) {
+        self.gaps.forget();
     }
 
     /// Reads an echo source: the nearest wall, a sensor, or one of the walls.
@@ -101,14 +155,22 @@ impl<'a> Body<'a> {
             seen,
         };
         let Some(index) = usize::from(source).checked_sub(1) else {
-            return of(self.scene().nearest(self.pose.position), true);
+            let nearest = of(self.scene().nearest(self.pose.position), true);
+            self.clear = nearest.distance;
+            return nearest;
         };
         let Some(probe) = self.probes.get(index) else {
             let wall = index.saturating_sub(self.around.sensors);
             let (toward, seen) = self.scene().nearest_of(wall, self.pose.position);
             return of(toward, seen);
         };
-        let mut reading = probe.read(self.scene(), &self.bodies, &self.pose);
+        let scene = match &self.now {
+            None => &self.around.scene,
+            Some(now) => now,
+        };
+        let (lead, none) = (self.leads.get_mut(index), &mut 0);
+        let lead = lead.unwrap_or(none);
+        let mut reading = probe.read(scene, &self.bodies, &self.pose, &mut self.gaps, lead);
         if probe.noise > 0.0
             && reading.seen
             && let Some(noise) = self.noise.get_mut(index)
@@ -121,6 +183,7 @@ impl<'a> Body<'a> {
     }
 
     /// A new tick: its noise is still to be drawn.
+    #[inline(always)]
     pub(super) fn tick(&mut self) {
         if self.noisy {
             self.fresh &= self.steady;
@@ -138,6 +201,21 @@ impl Host for Body<'_> {
     #[inline]
     fn visible(&mut self, x: f64, y: f64) -> bool {
         self.scene().sees(self.pose.position, [x, y])
+    }
+
+    fn sight(&mut self, first: u16, x: f64, y: f64) -> (bool, f64) {
+        let scene = match &self.now {
+            None => &self.around.scene,
+            Some(now) => now,
+        };
+        let (p, point) = (self.pose.position, [x, y]);
+        let number = usize::from(first.saturating_sub(self.around.sights)) / 2;
+        let Some(sight) = self.sights.get_mut(number) else {
+            return (scene.sees(p, point), 0.0);
+        };
+        let sight = sight.get_or_insert_with(|| scene.sight(point, self.kept));
+        let (seen, reach) = scene.sees_while(p, point, sight);
+        (seen, self.gaps.after(reach))
     }
 
     #[inline]

@@ -99,6 +99,8 @@ impl Simulator {
             doors,
             around: Surroundings {
                 sensors: layout.sensors(),
+                sights: layout.sights().first().copied().unwrap_or_default(),
+                points: layout.sights().len() / 2,
                 places: world.places.values().map(|p| p.shape.clone()).collect(),
                 scene,
             },

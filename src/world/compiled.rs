@@ -6,7 +6,7 @@ use super::ending::{End, Ending};
 use super::error::BuildError;
 use super::start::StartStep;
 use crate::eval::{Code, Compiler, Folding, Layout, TooLarge};
-use crate::ir::law::{Behavior, Law};
+use crate::ir::law::{Behavior, Block, Law};
 use crate::ir::task::{StartLine, Task};
 use crate::ir::tree::Status;
 use crate::ir::{Expr, Id, Pool, Program};
@@ -43,6 +43,8 @@ pub(super) struct Routine {
     pub(super) begin: Code,
     /// Its tick.
     pub(super) tick: Code,
+    /// What every tick does, and then its tick; none if the two cannot be one.
+    pub(super) again: Option<Code>,
     /// Whether it asks how long it has run.
     pub(super) timed: bool,
 }
@@ -94,13 +96,13 @@ impl Compiled {
         let doors = piece(&pool, layout, |c| {
             Door::read(doors.iter().map(|door| door.when), c)
         })?;
-        let each_tick = piece(&pool, layout, |c| c.block(&each_tick))?;
         let routines = laws
             .iter()
             .zip(program.behaviors.ids())
             .map(|(law, id)| match law {
-                Some(law) => routine(&pool, layout, id, law),
+                Some(law) => routine(&pool, layout, id, law, &each_tick),
                 None => Ok(Routine {
+                    again: None,
                     begin: Code::default(),
                     tick: piece(&pool, layout, |c| {
                         c.fail();
@@ -116,6 +118,7 @@ impl Compiled {
             .iter()
             .map(|lines| StartStep::list(&pool, layout, lines, others))
             .collect::<Result<_, TooLarge>>()?;
+        let each_tick = piece(&pool, layout, |c| c.block(&each_tick))?;
         Ok(Self {
             each_tick,
             routines,
@@ -134,7 +137,11 @@ impl Compiled {
     /// All of its code that episodes run in their ticks.
     pub(super) fn codes(&self) -> impl Iterator<Item = &Code> + Clone {
         let routines = self.routines.iter();
-        let routines = routines.flat_map(|routine| [&routine.begin, &routine.tick]);
+        let routines = routines.flat_map(|routine| {
+            [&routine.begin, &routine.tick]
+                .into_iter()
+                .chain(&routine.again)
+        });
         [
             &self.each_tick,
             &self.quiet,
@@ -162,6 +169,7 @@ fn routine(
     layout: &mut Layout,
     id: Id<Behavior>,
     law: &Law,
+    each_tick: &Block,
 ) -> Result<Routine, TooLarge> {
     let mut begin = Compiler::new(pool, layout, Some(id));
     begin.locals(law)?;
@@ -169,9 +177,18 @@ fn routine(
     let begin = begin.finish()?;
     let mut tick = Compiler::new(pool, layout, Some(id));
     tick.law(law)?;
+    let timed = begin_timed || tick.is_timed();
+    let tick = tick.finish()?;
+    let mut again = Compiler::new(pool, layout, Some(id));
+    again.block(each_tick)?;
+    // How long a behaviour has run is said after what every tick does.
+    let apart = again.is_timed();
+    again.law(law)?;
+    let again = again.finish()?;
     Ok(Routine {
         begin,
-        timed: begin_timed || tick.is_timed(),
-        tick: tick.finish()?,
+        tick,
+        again: (!apart).then_some(again),
+        timed,
     })
 }

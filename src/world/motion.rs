@@ -61,7 +61,7 @@ impl Motion {
 
     /// Moves the robot for one tick; answers whether something was in its way. `bodies` are other robots where they stand now.
     ///
-    /// `slack` is a length that the robot can go in any direction without touching anything. It is kept up to date,
+    /// `slack` is a length that the robot can go in any direction without touching a wall. It is kept up to date,
     /// and saves looking at the walls while it lasts.
     #[inline]
     pub fn step(
@@ -128,6 +128,12 @@ impl Motion {
         self.go(scene, bodies, step, length, pose, slack)
     }
 
+    /// How far the robot can go without touching anything where the nearest obstacle is this far from its centre.
+    #[inline(always)]
+    pub(super) fn slack(&self, clear: f64) -> f64 {
+        clear - self.radius - SKIN
+    }
+
     /// Goes a step of this length, as far as contact allows.
     #[inline]
     fn go(
@@ -141,14 +147,13 @@ impl Motion {
     ) -> bool {
         if length >= *slack {
             let nearest = scene.nearest(pose.position);
-            *slack = dot(nearest, nearest).sqrt() - self.radius - SKIN;
-            for body in bodies {
-                let gap = minus(body.center, pose.position);
-                let gap = dot(gap, gap).sqrt() - body.radius - self.radius - SKIN;
-                *slack = slack.min(gap);
-            }
+            *slack = self.slack(dot(nearest, nearest).sqrt());
         }
-        if length < *slack {
+        let apart = |body: &Circle| {
+            let gap = minus(body.center, pose.position);
+            length < self.slack(dot(gap, gap).sqrt() - body.radius)
+        };
+        if length < *slack && bodies.iter().all(apart) {
             *slack -= length;
             pose.position = along(pose.position, 1.0, step);
             return false;

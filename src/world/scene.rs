@@ -1,5 +1,7 @@
 //! Everything that stands in the way: the walls and the arena's boundary, as segments and circles.
 
+use super::gaps::Gaps;
+use super::sight::Sight;
 use crate::geometry::{Circle, Point, Segment, Shape, along, cross, dot, limit, minus, turned};
 use crate::ir::world::World;
 
@@ -137,6 +139,34 @@ impl Scene {
             && (self.convex || !self.boundary.iter().any(|segment| segment.meets(p, q)))
     }
 
+    /// The sight of a fixed point, for a robot whose centre is never nearer than `kept` to what stands.
+    pub(super) fn sight(&self, point: Point, kept: f64) -> Sight {
+        let boundary = match self.convex {
+            true => &[],
+            false => self.boundary.as_slice(),
+        };
+        let (min, max) = self.bounds();
+        let [width, height] = minus(max, min);
+        let size = width + height;
+        Sight::new(point, self.segments.iter().chain(boundary), kept, size)
+    }
+
+    /// Whether no wall stands between `p` and the point of a sight, as [`Scene::sees`] says, and how far `p` may go in any
+    /// direction before that can change.
+    pub(super) fn sees_while(&self, p: Point, point: Point, sight: &Sight) -> (bool, f64) {
+        let (mut seen, mut reach) = sight.look(p);
+        for circle in &self.circles {
+            let (meets, while_here) = circle.meets_while(p, point);
+            (seen, reach) = match (seen, meets) {
+                (true, true) => (false, while_here),
+                (true, false) => (true, reach.min(while_here)),
+                (false, true) => (false, reach.max(while_here)),
+                (false, false) => (false, reach),
+            };
+        }
+        (seen, reach.max(0.0))
+    }
+
     /// The vector from `p` to the nearest point of a wall or of the arena's boundary.
     #[inline]
     pub fn nearest(&self, p: Point) -> Point {
@@ -184,9 +214,37 @@ impl Scene {
         (nearest, one.stands && !hidden && !outside)
     }
 
+    /// The straight parts of what stands, the boundary's first.
+    #[inline(always)]
+    fn straight(&self) -> impl Iterator<Item = &Segment> {
+        self.boundary.iter().chain(&self.segments)
+    }
+
+    /// The round parts of what stands, the boundary first.
+    #[inline(always)]
+    fn round(&self) -> impl Iterator<Item = &Circle> {
+        let arena = match &self.arena {
+            Arena::Disc(circle) => Some(circle),
+            _ => None,
+        };
+        arena.into_iter().chain(&self.circles)
+    }
+
+    /// How many parts there are, the straight ones counted first.
+    pub(super) fn parts(&self) -> usize {
+        self.straight().count() + self.round().count()
+    }
+
+    /// A straight part by its number.
+    fn part(&self, number: usize) -> Option<&Segment> {
+        match number.checked_sub(self.boundary.len()) {
+            None => self.boundary.get(number),
+            Some(number) => self.segments.get(number),
+        }
+    }
+
     /// The vector from `p` to the nearest point of a wall or of the arena's boundary within a sector relative to the
     /// heading, whose cosine and sine are given, and nearer than `range`.
-    #[inline]
     pub fn scan(
         &self,
         p: Point,
@@ -194,30 +252,63 @@ impl Scene {
         sector: &[(Point, Point)],
         range: f64,
     ) -> Option<Point> {
+        let (gaps, lead) = (&mut Gaps::default(), &mut 0);
+        self.scan_with(p, heading, sector, range, gaps, lead)
+    }
+
+    /// As [`Scene::scan`], without those parts that `gaps` knows to be too far. `lead` is the number of the part that was nearest
+    /// before: with it as the first, most others are. Neither changes the result, which is the first of the shortest vectors.
+    #[inline]
+    pub(super) fn scan_with(
+        &self,
+        p: Point,
+        heading: Point,
+        sector: &[(Point, Point)],
+        range: f64,
+        gaps: &mut Gaps,
+        lead: &mut usize,
+    ) -> Option<Point> {
         let mut best = Best::within(range);
-        for &(right, left) in sector {
+        let count = self.boundary.len() + self.segments.len();
+        for (round, &(right, left)) in sector.iter().enumerate() {
             let right = turned(heading, right);
             let left = turned(heading, left);
-            for segment in self.boundary.iter().chain(&self.segments) {
-                // Few segments are clipped: most are too far, or their nearest point is in the sector.
-                let whole = segment.nearest(p);
-                if dot(whole, whole) >= best.square {
+            let within = |segment: &Segment, whole: Point| {
+                if cross(right, whole) >= 0.0 && cross(whole, left) >= 0.0 {
+                    Some(whole)
+                } else {
+                    segment.nearest_within(p, right, left)
+                }
+            };
+            // Of equal ones the first counts.
+            let first = round * (count + 1 + self.circles.len());
+            let before = *lead;
+            if let Some(segment) = self.part(before) {
+                let found = within(segment, segment.nearest(p));
+                best.offer_numbered(first + before, found);
+            }
+            for (number, segment) in self.straight().enumerate() {
+                if number == before || gaps.is_beyond(number, best.square) {
                     continue;
                 }
-                if cross(right, whole) >= 0.0 && cross(whole, left) >= 0.0 {
-                    best.offer(whole);
-                } else if let Some(vector) = segment.nearest_within(p, right, left) {
-                    best.offer(vector);
+                // Few segments are clipped: most are too far, or their nearest point is in the sector.
+                let whole = segment.nearest(p);
+                if !gaps.finds_beyond(number, dot(whole, whole), best.square) {
+                    best.offer_numbered(first + number, within(segment, whole));
                 }
             }
-            let arena = match &self.arena {
-                Arena::Disc(circle) => Some(circle),
-                _ => None,
-            };
-            for circle in arena.into_iter().chain(&self.circles) {
-                if let Some(vector) = circle.nearest_within(p, right, left) {
-                    best.offer(vector);
+            for (number, circle) in (count..).zip(self.round()) {
+                if gaps.is_beyond(number, best.square) {
+                    continue;
                 }
+                let whole = circle.nearest(p);
+                if !gaps.finds_beyond(number, dot(whole, whole), best.square) {
+                    let found = circle.nearest_within(p, right, left);
+                    best.offer_numbered(first + number, found);
+                }
+            }
+            if best.square < range * range && best.number >= first {
+                *lead = best.number - first;
             }
         }
         (best.square < range * range).then_some(best.vector)
@@ -225,17 +316,22 @@ impl Scene {
 
     /// How far a ray from `p` in the direction of the unit vector `u` goes before it meets a wall or the arena's
     /// boundary.
-    #[inline]
     pub fn ray(&self, p: Point, u: Point) -> f64 {
-        let mut best = match self.arena {
-            Arena::Disc(circle) => circle.ray(p, u),
-            _ => f64::INFINITY,
-        };
-        for segment in self.boundary.iter().chain(&self.segments) {
-            let s = segment.ray(p, u);
-            best = if s < best { s } else { best };
+        self.ray_within(p, u, f64::INFINITY)
+    }
+
+    /// As [`Scene::ray`], where that is less than `range`; `range` where it is not.
+    #[inline]
+    pub(super) fn ray_within(&self, p: Point, u: Point, range: f64) -> f64 {
+        let mut best = range;
+        for segment in self.straight() {
+            // Few segments are met: most are behind, beside or beyond what was met before.
+            if segment.may_be_met(p, u, best) {
+                let s = segment.ray(p, u);
+                best = if s < best { s } else { best };
+            }
         }
-        for circle in &self.circles {
+        for circle in self.round() {
             let s = circle.ray(p, u);
             best = if s < best { s } else { best };
         }
@@ -312,6 +408,8 @@ fn nearer(a: f64, b: f64) -> f64 {
 struct Best {
     square: f64,
     vector: Point,
+    /// The number of what it leads to, where those are counted.
+    number: usize,
 }
 
 impl Default for Best {
@@ -319,6 +417,7 @@ impl Default for Best {
         Self {
             square: f64::INFINITY,
             vector: [f64::INFINITY, 0.0],
+            number: 0,
         }
     }
 }
@@ -335,7 +434,23 @@ impl Best {
     fn offer(&mut self, vector: Point) {
         let square = dot(vector, vector);
         if square < self.square {
-            *self = Self { square, vector };
+            (self.square, self.vector) = (square, vector);
+        }
+    }
+
+    /// Takes a vector that is shorter, or as short and of a lower number.
+    #[inline(always)]
+    fn offer_numbered(&mut self, number: usize, vector: Option<Point>) {
+        let Some(vector) = vector else {
+            return;
+        };
+        let square = dot(vector, vector);
+        if square < self.square || square == self.square && number < self.number {
+            *self = Self {
+                square,
+                vector,
+                number,
+            };
         }
     }
 }

@@ -8,7 +8,7 @@ use super::compiled::piece;
 use super::error::BuildError;
 use super::motion::{Command, Motion};
 use super::sensing::Probe;
-use crate::eval::{Code, Fixed, Layout, Registers};
+use crate::eval::{Code, Fixed, Layout, Register, Registers};
 use crate::ir::tree::Atom;
 use crate::ir::{ExprId, Program};
 use crate::tree::Runner;
@@ -32,6 +32,10 @@ pub(super) struct Other<'a> {
     pub(super) body: Body<'a>,
     pub(super) runner: Runner,
     pub(super) touching: f64,
+    /// A length that it can go in any direction without touching a wall.
+    pub(super) slack: f64,
+    /// What it has seen: the registers of lines of sight while another robot's code runs.
+    pub(super) sights: Vec<f64>,
     pub(super) command: Command,
     /// What its tree asks.
     pub(super) atoms: u128,
@@ -81,12 +85,14 @@ impl Script {
 }
 
 /// The registers that belong to the robot whose code runs.
-const OWN: [Fixed; 8] = [
+const OWN: [Fixed; 10] = [
     Fixed::X,
     Fixed::Y,
     Fixed::Heading,
     Fixed::Touching,
     Fixed::Elapsed,
+    Fixed::Path,
+    Fixed::Clear,
     Fixed::Speed,
     Fixed::Strafe,
     Fixed::Turn,
@@ -97,7 +103,7 @@ pub(super) struct Kept([f64; OWN.len()]);
 
 impl Other<'_> {
     /// Lets the registers be those of this robot.
-    pub(super) fn enter(&mut self, registers: &mut Registers) -> Kept {
+    pub(super) fn enter(&mut self, registers: &mut Registers, sights: &[Register]) -> Kept {
         let kept = OWN.map(|fixed| registers.get(fixed.register()));
         let pose = &self.body.pose;
         let own = [
@@ -106,6 +112,9 @@ impl Other<'_> {
             pose.heading,
             self.touching,
             0.0,
+            self.body.path(),
+            // Not known.
+            0.0,
             0.0,
             0.0,
             0.0,
@@ -113,13 +122,28 @@ impl Other<'_> {
         for (fixed, value) in OWN.into_iter().zip(own) {
             registers.set(fixed.register(), value);
         }
+        self.exchange(registers, sights);
         // The registers of echoes are another robot's.
         self.body.moved();
         Kept(kept)
     }
 
+    /// Exchanges what this robot and the acting one have seen.
+    fn exchange(&mut self, registers: &mut Registers, sights: &[Register]) {
+        for (&register, seen) in sights.iter().zip(&mut self.sights) {
+            let own = std::mem::replace(seen, registers.get(register));
+            registers.set(register, own);
+        }
+    }
+
     /// Takes the command of this robot and gives the registers back.
-    pub(super) fn leave(&mut self, registers: &mut Registers, Kept(kept): Kept) {
+    pub(super) fn leave(
+        &mut self,
+        registers: &mut Registers,
+        sights: &[Register],
+        Kept(kept): Kept,
+    ) {
+        self.exchange(registers, sights);
         let read = |fixed: Fixed| registers.get(fixed.register());
         self.command = Command {
             speed: read(Fixed::Speed),

@@ -1,5 +1,6 @@
 //! What the sensors read.
 
+use super::gaps::Gaps;
 use super::pose::{Pose, rotor};
 use super::scene::{Scene, Sector};
 use crate::eval::Reading;
@@ -75,11 +76,21 @@ impl Probe {
     }
 
     /// The reading without noise; `bodies` are other robots, which echo as walls do. Where nothing echoes the distance is the range, towards the middle of the sector.
-    pub(super) fn read(&self, scene: &Scene, bodies: &[Circle], pose: &Pose) -> Reading {
+    ///
+    /// `gaps` and `lead` are what is remembered of the scene and of the last reading: they change nothing but the time.
+    #[inline]
+    pub(super) fn read(
+        &self,
+        scene: &Scene,
+        bodies: &[Circle],
+        pose: &Pose,
+        gaps: &mut Gaps,
+        lead: &mut usize,
+    ) -> Reading {
         let p = pose.position;
         let (echo, otherwise) = match &self.kind {
             Kind::Scanner { sector, middle } => {
-                let mut echo = scene.scan(p, pose.ahead, sector, self.range);
+                let mut echo = scene.scan_with(p, pose.ahead, sector, self.range, gaps, lead);
                 for (body, &(right, left)) in bodies
                     .iter()
                     .flat_map(|body| sector.iter().map(move |part| (body, part)))
@@ -94,7 +105,7 @@ impl Probe {
             Kind::RangeFinder { at } => {
                 let u = turned(pose.ahead, *at);
                 let met = bodies.iter().map(|body| body.ray(p, u));
-                let s = met.fold(scene.ray(p, u), f64::min);
+                let s = met.fold(scene.ray_within(p, u, self.range), f64::min);
                 ((s < self.range).then(|| along([0.0; 2], s, u)), *at)
             }
             Kind::Beacon {

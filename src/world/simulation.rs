@@ -17,6 +17,7 @@ use crate::ir::law::Behavior;
 use crate::ir::program::{Event, State};
 use crate::ir::tree::Status;
 use serde::{Deserialize, Serialize};
+use std::cmp::Ordering;
 
 /// Why an episode ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -44,6 +45,15 @@ pub struct Tick {
     pub end: Option<End>,
     /// Whether it ended badly: an event with a negative reward ended it.
     pub lost: bool,
+}
+
+/// What came of going on with a behaviour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Gone {
+    /// It has answered otherwise than that it runs, in a tick that has still to be ended.
+    Answered(Status),
+    /// It runs, and a tick has ended.
+    Ended(Tick),
 }
 
 /// A running instance of a behaviour.
@@ -77,6 +87,8 @@ pub struct Simulation<'a> {
     pub(super) counts: Vec<u64>,
     pub(super) atoms: u128,
     pub(super) slack: f64,
+    /// The registers of the lines of sight to fixed points.
+    sights: Vec<Register>,
     /// The number of the tick, from 1; 0 before the first.
     pub(super) now: u64,
     pub(super) limit: u64,
@@ -88,7 +100,12 @@ impl<'a> Simulation<'a> {
         Self {
             simulator,
             registers: simulator.registers.clone(),
-            body: Body::new(&simulator.around, &simulator.probes, simulator.events),
+            body: Body::new(
+                &simulator.around,
+                &simulator.probes,
+                simulator.radius,
+                simulator.events,
+            ),
             history: History::new(simulator.history),
             instances: vec![Instance::default(); behaviors],
             terminations: Vec::with_capacity(2 * behaviors),
@@ -97,9 +114,11 @@ impl<'a> Simulation<'a> {
                 .iter()
                 .map(|script| Other {
                     script,
-                    body: Body::new(&simulator.around, &script.probes, 0),
+                    body: Body::new(&simulator.around, &script.probes, script.radius, 0),
                     runner: script.runner.clone(),
                     touching: 0.0,
+                    slack: 0.0,
+                    sights: vec![0.0; simulator.layout.sights().len()],
                     command: Command::default(),
                     atoms: 0,
                 })
@@ -111,6 +130,7 @@ impl<'a> Simulation<'a> {
             counts: vec![0; simulator.events],
             atoms: 0,
             slack: 0.0,
+            sights: simulator.layout.sights(),
             now: 0,
             limit: u64::MAX,
         }
@@ -122,7 +142,33 @@ impl<'a> Simulation<'a> {
         self.registers.set(Fixed::X.register(), pose.position[0]);
         self.registers.set(Fixed::Y.register(), pose.position[1]);
         self.registers.set(Fixed::Heading.register(), pose.heading);
+        self.registers.set(Fixed::Path.register(), self.body.path());
+        self.publish_clear();
         self.body.moved();
+    }
+
+    /// Tells the code how far the nearest wall is, at least.
+    #[inline]
+    fn publish_clear(&mut self) {
+        let clear = match self.slack > 0.0 {
+            true => self.slack + self.simulator.radius,
+            false => 0.0,
+        };
+        self.registers.set(Fixed::Clear.register(), clear);
+    }
+
+    /// What was seen holds no more, for any robot.
+    pub(super) fn forget_sights(&mut self) {
+        self.body.was_put();
+        self.registers.set(Fixed::Path.register(), 0.0);
+        for &register in &self.sights {
+            self.registers.set(register, 0.0);
+        }
+        for other in &mut self.others {
+            other.body.was_put();
+            other.slack = 0.0;
+            other.sights.fill(0.0);
+        }
     }
 
     /// Clears the terminations and events of the last tick.
@@ -154,10 +200,7 @@ impl<'a> Simulation<'a> {
             self.clear_tick();
         }
         self.now += 1;
-        for fixed in [Fixed::Speed, Fixed::Strafe, Fixed::Turn] {
-            self.registers.set(fixed.register(), 0.0);
-        }
-        self.body.tick();
+        self.rest();
         run(
             &self.simulator.compiled.each_tick,
             &mut self.registers,
@@ -197,6 +240,101 @@ impl<'a> Simulation<'a> {
         self.terminations.push((behavior, status));
     }
 
+    /// Goes on with a behaviour alone, for at most so many ticks: until it answers otherwise than that it runs, or a tick ends that
+    /// changes an atom or the course of things. `pays` is told of all ticks before that one. Also says how many ticks have begun.
+    #[inline]
+    pub fn go_on(
+        &mut self,
+        behavior: Id<Behavior>,
+        most: u64,
+        mut pays: impl FnMut(f64),
+    ) -> (u64, Gone) {
+        let from = self.now;
+        let last = from.saturating_add(most).min(self.limit);
+        let plain = self.is_plain();
+        loop {
+            if plain
+                && self.now > from
+                && let Some(answered) = self.run_on(behavior, last, &mut pays)
+            {
+                return (self.now - from, answered);
+            }
+            self.begin_tick();
+            let status = self.act(behavior);
+            if status != Status::Running {
+                return (self.now - from, Gone::Answered(status));
+            }
+            if plain {
+                self.go();
+                let quiet = self.ends_quietly();
+                if quiet && self.body.atoms == self.atoms && self.now < last {
+                    pays(self.flow());
+                    continue;
+                }
+                return (self.now - from, Gone::Ended(self.outcome(quiet)));
+            }
+            let before = self.atoms;
+            let tick = self.end_tick();
+            if self.atoms != before || tick.closed || tick.end.is_some() || self.now >= last {
+                return (self.now - from, Gone::Ended(tick));
+            }
+            pays(tick.flow);
+        }
+    }
+
+    /// Goes on with a behaviour that has run in the tick before, in which nothing has happened, in a plain world. None if that
+    /// cannot be done in one go, and nothing has been done.
+    #[inline]
+    fn run_on(
+        &mut self,
+        behavior: Id<Behavior>,
+        last: u64,
+        pays: &mut impl FnMut(f64),
+    ) -> Option<Gone> {
+        let simulator = self.simulator;
+        let routine = simulator.compiled.routines.get(behavior.index())?;
+        let again = routine.again.as_ref()?;
+        let since = self.instances.get(behavior.index())?.since;
+        let gone = loop {
+            self.now += 1;
+            self.rest();
+            if routine.timed {
+                let elapsed = (self.now - since) as f64 * simulator.tick;
+                self.registers.set(Fixed::Elapsed.register(), elapsed);
+            }
+            let answer = status(run(again, &mut self.registers, &mut self.body));
+            if answer != Status::Running {
+                self.terminate(behavior, answer);
+                return Some(Gone::Answered(answer));
+            }
+            self.go();
+            let quiet = self.ends_quietly();
+            if !quiet || self.body.atoms != self.atoms || self.now >= last {
+                break Gone::Ended(self.outcome(quiet));
+            }
+            pays(self.flow());
+        };
+        if let Some(instance) = self.instances.get_mut(behavior.index()) {
+            instance.until = self.now + 1;
+        }
+        Some(gone)
+    }
+
+    /// The wheels rest until they are told otherwise, and what was noise is none.
+    #[inline(always)]
+    fn rest(&mut self) {
+        for fixed in [Fixed::Speed, Fixed::Strafe, Fixed::Turn] {
+            self.registers.set(fixed.register(), 0.0);
+        }
+        self.body.tick();
+    }
+
+    /// Whether there is nothing in the world but the robot and what always stands, and nobody asks what runs.
+    #[inline]
+    fn is_plain(&self) -> bool {
+        self.others.is_empty() && self.scene.is_none() && self.watched.is_empty()
+    }
+
     /// Ends a tick: the robot moves, then history, events, effects, predicates, end and reward (steps 4 to 8).
     ///
     /// Events, rewards and `end on` read the state before effects.
@@ -215,23 +353,43 @@ impl<'a> Simulation<'a> {
             self.registers.set(register, f64::from(u8::from(runs)));
         }
         let unended = self.terminations.is_empty();
-        let quiet = unended && self.elsewhere.is_empty();
         for &(behavior, status) in &self.terminations {
             self.history.record(behavior, status, &self.simulator.atoms);
         }
-        let compiled = &self.simulator.compiled;
+        let quiet = unended && self.elsewhere.is_empty() && self.ends_quietly();
+        self.outcome(quiet)
+    }
+
+    /// Whether nothing happens in this tick, in which nothing has ended; what then is to be done is done.
+    #[inline]
+    fn ends_quietly(&mut self) -> bool {
         self.body.atoms = self.history.bits;
+        let quiet = &self.simulator.compiled.quiet;
+        run(quiet, &mut self.registers, &mut self.body) != NOT_QUIET
+    }
+
+    /// What the tick pays, whatever happens in it.
+    #[inline]
+    fn flow(&self) -> f64 {
+        match self.simulator.compiled.flow {
+            Some(value) => value,
+            None => self.registers.get(Fixed::Flow.register()),
+        }
+    }
+
+    /// What the tick led to. `quiet`: nothing has happened, and the tick has ended so already.
+    fn outcome(&mut self, quiet: bool) -> Tick {
         let mut tick = Tick {
             changed: false,
-            terminated: !unended,
+            terminated: !self.terminations.is_empty(),
             closed: false,
             reward: 0.0,
             flow: 0.0,
             end: None,
             lost: false,
         };
-        if quiet && run(&compiled.quiet, &mut self.registers, &mut self.body) != NOT_QUIET {
-            tick.reward = match compiled.otherwise {
+        if quiet {
+            tick.reward = match self.simulator.compiled.otherwise {
                 Some(value) => value,
                 None => self.registers.get(Fixed::Reward.register()),
             };
@@ -244,11 +402,7 @@ impl<'a> Simulation<'a> {
         if !self.others.is_empty() {
             self.others_look();
         }
-        let compiled = &self.simulator.compiled;
-        tick.flow = match compiled.flow {
-            Some(value) => value,
-            None => self.registers.get(Fixed::Flow.register()),
-        };
+        tick.flow = self.flow();
         tick.changed = (self.atoms ^ self.body.atoms) & self.simulator.atoms.observed != 0;
         self.atoms = self.body.atoms;
         if tick.end.is_none() && self.now >= self.limit {
@@ -278,24 +432,25 @@ impl<'a> Simulation<'a> {
     }
 
     /// Moves the robot by the commands of this tick.
-    #[inline]
+    #[inline(always)]
     fn go(&mut self) {
+        let motion = &self.simulator.motion;
         let read = |fixed: Fixed| self.registers.get(fixed.register());
         let command = Command {
             speed: read(Fixed::Speed),
             strafe: read(Fixed::Strafe),
             turn: read(Fixed::Turn),
         };
-        if !self.body.bodies.is_empty() {
-            // What another robot has left of it is not known.
-            self.slack = 0.0;
+        if self.body.clear > 0.0 {
+            self.slack = self.slack.max(motion.slack(self.body.clear));
         }
+        let before = self.body.pose.position;
         let (scene, bodies, random, pose) = self.body.moving();
-        let motion = &self.simulator.motion;
         let touching = motion.step(scene, bodies, command, random, pose, &mut self.slack);
         self.registers
             .set(Fixed::Touching.register(), f64::from(u8::from(touching)));
         if command != Command::default() {
+            self.body.came_from(before);
             self.publish_pose();
         }
     }
@@ -310,11 +465,12 @@ impl<'a> Simulation<'a> {
             others,
             elsewhere,
             now,
+            sights,
             ..
         } = self;
         for other in others {
             other.body.tick();
-            let kept = other.enter(registers);
+            let kept = other.enter(registers, sights);
             let Other {
                 runner,
                 body,
@@ -335,7 +491,7 @@ impl<'a> Simulation<'a> {
                 }
                 status
             });
-            other.leave(registers, kept);
+            other.leave(registers, sights, kept);
         }
         self.body.moved();
     }
@@ -343,18 +499,22 @@ impl<'a> Simulation<'a> {
     /// Moves the other robots by their commands, one after the other.
     #[cold]
     fn others_go(&mut self) {
+        self.tell_of(0);
         for index in 0..self.others.len() {
-            self.meet();
             let Some(other) = self.others.get_mut(index) else {
                 continue;
             };
             let (script, command) = (other.script, other.command);
+            let before = other.body.pose.position;
             let (scene, bodies, random, pose) = other.body.moving();
             let motion = &script.motion;
-            let touched = motion.step(scene, bodies, command, random, pose, &mut 0.0);
+            let slack = &mut other.slack;
+            let touched = motion.step(scene, bodies, command, random, pose, slack);
+            other.body.came_from(before);
             other.touching = f64::from(u8::from(touched));
+            self.tell_of(index + 1);
         }
-        self.meet();
+        self.body.moved();
         self.publish_others();
     }
 
@@ -380,6 +540,27 @@ impl<'a> Simulation<'a> {
         self.robots = robots;
     }
 
+    /// Tells all others where a robot is now, by its place among all of them.
+    fn tell_of(&mut self, robot: usize) {
+        let other = robot.checked_sub(1).and_then(|at| self.others.get(at));
+        let center = other
+            .map_or(self.body.pose, |other| other.body.pose)
+            .position;
+        let others = self.others.iter_mut().map(|other| &mut other.body.bodies);
+        let all = std::iter::once(&mut self.body.bodies).chain(others);
+        for (own, bodies) in all.enumerate() {
+            // A robot is not in its own list.
+            let at = match robot.cmp(&own) {
+                Ordering::Less => robot,
+                Ordering::Equal => continue,
+                Ordering::Greater => robot - 1,
+            };
+            if let Some(body) = bodies.get_mut(at) {
+                body.center = center;
+            }
+        }
+    }
+
     /// Tells the code where all robots are.
     pub(super) fn publish_others(&mut self) {
         let others = self.others.iter().map(|other| &other.body.pose);
@@ -398,14 +579,17 @@ impl<'a> Simulation<'a> {
     /// Asks what the trees of the other robots ask.
     pub(super) fn others_look(&mut self) {
         let Self {
-            registers, others, ..
+            registers,
+            others,
+            sights,
+            ..
         } = self;
         for other in others {
-            let kept = other.enter(registers);
+            let kept = other.enter(registers, sights);
             other.body.atoms = 0;
             run(&other.script.predicates, registers, &mut other.body);
             other.atoms = other.body.atoms;
-            other.leave(registers, kept);
+            other.leave(registers, sights, kept);
         }
         self.body.moved();
     }
@@ -455,6 +639,8 @@ impl<'a> Simulation<'a> {
             other.body.set_scene(scene);
         }
         self.slack = 0.0;
+        self.publish_clear();
+        self.forget_sights();
     }
 
     /// The minterm: a bit for each atom of the task, see [`Simulator::atoms`].

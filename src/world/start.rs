@@ -296,6 +296,7 @@ impl Simulation<'_> {
         if let Some(other) = self.others.get_mut(index) {
             other.body.pose = pose;
         }
+        self.forget_sights();
         self.meet();
         self.publish_others();
     }
@@ -311,6 +312,7 @@ impl Simulation<'_> {
     fn place(&mut self, pose: Pose) {
         self.body.pose = pose;
         self.slack = 0.0;
+        self.forget_sights();
         self.publish_pose();
         if !self.others.is_empty() {
             self.meet();

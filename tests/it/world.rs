@@ -3,5 +3,6 @@ mod eval;
 mod geometry;
 mod motion;
 mod random;
+mod remembered;
 mod sensing;
 mod ticks;
