@@ -5,7 +5,7 @@ use super::context::{Binding, Context, Region};
 use crate::diagnostic::{Code, Diagnostic, Label};
 use crate::source::Span;
 use crate::syntax::ast::{Ident, Ref};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// How many bodies may be checked within one another.
 const DEEP: usize = 48;
@@ -86,6 +86,7 @@ impl<'a> Checker<'a> {
             region,
             library: false,
             scope,
+            ended: BTreeSet::new(),
         };
         let open = Open {
             at: body.span,
@@ -135,6 +136,7 @@ impl<'a> Checker<'a> {
             region,
             library,
             scope,
+            ended: BTreeSet::new(),
         };
         let open = Open {
             at: body,

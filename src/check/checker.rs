@@ -57,6 +57,8 @@ pub struct Checker<'a> {
     pub conditions: Vec<(Span, ExprId)>,
     /// What stands a second time where once is enough.
     pub again: BTreeMap<Span, Again>,
+    /// The states that a value of a block hides.
+    pub hidden: BTreeSet<&'a str>,
     /// Where episodes start, as far as that is constant.
     pub positions: Vec<(Span, Point)>,
     /// The parameter that the expression at hand is given to, with what it is a parameter of.
@@ -118,6 +120,7 @@ impl<'a> Checker<'a> {
             endings: BTreeSet::new(),
             conditions: Vec::new(),
             again: BTreeMap::new(),
+            hidden: BTreeSet::new(),
             positions: Vec::new(),
             given: None,
             wanted: None,

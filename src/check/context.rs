@@ -10,6 +10,7 @@ use crate::ir::expr::Local;
 use crate::ir::name::Given;
 use crate::source::Span;
 use crate::syntax::ast::Ident;
+use std::collections::BTreeSet;
 
 /// The part of a program that an expression stands in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -130,6 +131,8 @@ pub struct Context<'a> {
     pub library: bool,
     /// The names bound so far, the innermost last.
     pub scope: Vec<Binding<'a>>,
+    /// The names of blocks that have ended.
+    pub ended: BTreeSet<&'a str>,
 }
 
 impl<'a> Context<'a> {
@@ -139,6 +142,7 @@ impl<'a> Context<'a> {
             region,
             library: false,
             scope: Vec::new(),
+            ended: BTreeSet::new(),
         }
     }
 
@@ -198,6 +202,9 @@ impl<'a> Checker<'a> {
             .help(format!(
                 "to set the state, write `{called} = …` without `let`"
             ));
+            // Whether it is read, and whether the state is ever set, depends on what is meant.
+            self.reads(name.span);
+            self.hidden.insert(called);
         }
         let mut beside = self.context.scope.iter().skip(depth);
         if let Some(first) = beside.find(|bound| bound.name.name == name.name) {

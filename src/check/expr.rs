@@ -3,6 +3,7 @@
 mod arithmetic;
 mod call;
 mod choice;
+mod distance;
 mod draw;
 mod ending;
 pub mod expect;

@@ -89,6 +89,14 @@ impl<'d> Draft<'d> {
         }
     }
 
+    /// Offers to replace the text of a span, if there is anything to offer: the title, the span and the new text.
+    pub fn fix_if(self, fix: Option<(String, Span, String)>) -> Self {
+        match fix {
+            Some((title, span, right)) => self.fix(title, span, right, Applicability::Unsafe),
+            None => self,
+        }
+    }
+
     /// Offers to replace the text of one span.
     pub fn fix(
         self,

@@ -111,8 +111,19 @@ impl Loaded {
 
 /// Loads and checks the program in `text`, which is called `name` and whose `use`s are relative to it.
 pub fn load(name: &str, text: Vec<u8>, reader: &mut dyn Reader) -> Loaded {
+    load_again(name, text, reader, &mut syntax::Memory::default())
+}
+
+/// The same of a program whose files may have been parsed before.
+pub fn load_again(
+    name: &str,
+    text: Vec<u8>,
+    reader: &mut dyn Reader,
+    memory: &mut syntax::Memory,
+) -> Loaded {
     let mut loader = Loader {
         reader,
+        memory,
         sources: Sources::default(),
         parsed: Vec::new(),
         known: Vec::new(),
@@ -200,6 +211,8 @@ impl Parsed {
 
 struct Loader<'r> {
     reader: &'r mut dyn Reader,
+    /// The files that were parsed before.
+    memory: &'r mut syntax::Memory,
     sources: Sources,
     /// Used files before those that use them.
     parsed: Vec<Parsed>,
@@ -223,7 +236,9 @@ impl Loader<'_> {
         let broken = mistake.is_some();
         self.diagnostics.extend(mistake);
         let text = self.sources.get(file).map(|source| source.text.clone());
-        let (ast, mistakes) = syntax::parse(file, text.as_deref().unwrap_or_default());
+        let (ast, mistakes) = self
+            .memory
+            .parse(name, file, text.as_deref().unwrap_or_default());
         if !broken {
             self.diagnostics.extend(mistakes);
         }

@@ -5,8 +5,9 @@ use super::outline::{Outlined, outline};
 use super::{Workspace, uri};
 use crate::check::Meaning;
 use crate::driver::check;
-use crate::driver::load::{Loaded, load};
+use crate::driver::load::{Loaded, load_again};
 use crate::source::{FileId, Source, Span};
+use crate::syntax::Memory;
 use crate::syntax::tokens::{Token, tokens};
 use gen_lsp_types::{Location, Position, Range};
 
@@ -21,12 +22,13 @@ pub(super) struct Analysis {
 }
 
 impl Analysis {
-    /// The program in a text, whose path says where its `use`s are.
+    /// The program in a text, whose path says where its `use`s are; its files may have been parsed before.
     pub(super) fn of(
         path: &str,
         text: String,
         documents: &Documents,
         workspace: &dyn Workspace,
+        memory: &mut Memory,
     ) -> Self {
         let tokens = tokens(&text);
         let mut reader = Overlay {
@@ -34,7 +36,7 @@ impl Analysis {
             disk: workspace.reader(path),
             asked: Vec::new(),
         };
-        let mut loaded = load(path, text.into_bytes(), &mut reader);
+        let mut loaded = load_again(path, text.into_bytes(), &mut reader, memory);
         let asked = reader.asked;
         let worlds = check::worlds(&loaded);
         loaded.diagnostics.extend(worlds);

@@ -7,6 +7,7 @@ use super::navigate::{Declared, named};
 use crate::check::Meaning;
 use crate::source::Span;
 use crate::spelling::{RESERVED, bare, spelled, unusable};
+use crate::syntax::Memory;
 use gen_lsp_types::{TextEdit, Uri, WorkspaceEdit};
 use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
@@ -91,7 +92,8 @@ fn same_meaning(
         let file = Document::new(documents.uri(path), 0, text.clone());
         renamed.open.insert(path.clone(), file);
     }
-    let after = Analysis::of(path, text.to_owned(), &renamed, workspace);
+    let memory = &mut Memory::default();
+    let after = Analysis::of(path, text.to_owned(), &renamed, workspace, memory);
     let errors = |analysis: &Analysis| {
         let found = analysis.loaded.diagnostics.iter();
         found.filter(|found| found.is_error()).count()

@@ -8,6 +8,7 @@ use super::{
     Workspace, actions, complete, diagnostics, folding, format, hints, hover, lens, navigate,
     picture, rename, signature, symbols, tokens, uri,
 };
+use crate::syntax::Memory;
 use gen_lsp_types as lsp;
 use gen_lsp_types::{Position, TextDocumentPositionParams as At, Uri};
 use lsp_server::{ErrorCode, ResponseError};
@@ -24,6 +25,8 @@ const PROGRAMS: usize = 2000;
 pub struct Server<'w> {
     workspace: &'w dyn Workspace,
     documents: Documents,
+    /// The texts that were parsed last.
+    memory: Memory,
     editor: Editor,
     /// Where the text of the library can be read, once it was asked for.
     library: Option<String>,
@@ -37,6 +40,7 @@ impl<'w> Server<'w> {
         Self {
             workspace,
             documents: Documents::default(),
+            memory: Memory::default(),
             editor: Editor::of(params),
             library: None,
             closed: Vec::new(),
@@ -287,7 +291,13 @@ impl<'w> Server<'w> {
             return Some(known.clone());
         }
         let text = document.text.clone();
-        let found = Rc::new(Analysis::of(path, text, &self.documents, self.workspace));
+        let found = Rc::new(Analysis::of(
+            path,
+            text,
+            &self.documents,
+            self.workspace,
+            &mut self.memory,
+        ));
         let document = self.documents.open.get_mut(path)?;
         document.analysis = Some(found.clone());
         Some(found)
@@ -352,7 +362,11 @@ impl<'w> Server<'w> {
         let bytes = self.workspace.reader(path).read(path).ok()?;
         let text = String::from_utf8(bytes).ok()?;
         let has = name.is_none_or(|name| text.contains(name));
-        has.then(|| Rc::new(Analysis::of(path, text, &self.documents, self.workspace)))
+        let memory = &mut Memory::default();
+        has.then(|| {
+            let analysis = Analysis::of(path, text, &self.documents, self.workspace, memory);
+            Rc::new(analysis)
+        })
     }
 }
 

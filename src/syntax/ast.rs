@@ -7,6 +7,7 @@ mod behavior;
 mod block;
 mod declaration;
 mod expr;
+pub(super) mod shift;
 mod task;
 mod test;
 mod tree;

@@ -4,6 +4,7 @@ mod behavior;
 mod block;
 mod call;
 mod choice;
+mod commas;
 mod entries;
 mod expr;
 mod field;
@@ -30,6 +31,8 @@ pub(super) struct Builder<'i> {
     text: &'i str,
     tokens: &'i [Token],
     comments: &'i [Comment],
+    /// Where the text begins whose productions are at hand.
+    base: usize,
     diagnostics: Vec<Diagnostic>,
     /// Where the last text that could not be parsed failed: what begins before that place has been reported.
     failed_at: Option<usize>,
@@ -59,6 +62,7 @@ impl<'i> Builder<'i> {
             text,
             tokens,
             comments,
+            base: 0,
             diagnostics: Vec::new(),
             failed_at: None,
             lost: Lost::default(),
@@ -70,14 +74,25 @@ impl<'i> Builder<'i> {
         }
     }
 
-    /// The tree of a whole file, and what is wrong with it.
-    pub(super) fn file(mut self, node: Node<'i>) -> (File, Vec<Diagnostic>) {
+    /// The items among productions of a text that begins at byte `base`, after the item at `previous`.
+    pub(super) fn items(
+        &mut self,
+        base: usize,
+        nodes: impl IntoIterator<Item = Node<'i>>,
+        previous: Option<Span>,
+    ) -> Vec<Item> {
         let mut items = Vec::new();
-        self.entries(Parts::of(node), Rule::strict_item, |builder, node, span| {
+        self.base = base;
+        self.entries_after(previous, nodes, Rule::strict_item, |builder, node, span| {
             let docs = builder.docs(span);
             let kind = node.map_or(ItemKind::Error, |node| builder.item(node));
             items.push(Item { docs, kind, span });
         });
+        items
+    }
+
+    /// The tree of a whole file with these items, and what is wrong with them.
+    pub(super) fn file(self, items: Vec<Item>) -> (File, Vec<Diagnostic>) {
         let file = File {
             items,
             comments: self.comments.to_vec(),
@@ -89,9 +104,19 @@ impl<'i> Builder<'i> {
 
     // ---- places
 
+    /// The first byte of a production.
+    fn starts(&self, node: &Node<'i>) -> usize {
+        self.base + node.as_span().start()
+    }
+
+    /// One past the last byte of a production.
+    fn ends(&self, node: &Node<'i>) -> usize {
+        self.base + node.as_span().end()
+    }
+
     /// The place of a production, without the blanks and comments that pest leaves at its end.
     fn span(&self, node: &Node<'i>) -> Span {
-        let (start, end) = (node.as_span().start(), node.as_span().end());
+        let (start, end) = (self.starts(node), self.ends(node));
         Span::new(self.file, start, self.trim(start, end))
     }
 

@@ -9,10 +9,12 @@ mod pieces;
 mod places;
 mod respelled;
 mod rewrite;
+mod units;
 mod words;
 
 pub(super) use characters::unclosed_quote;
-pub(super) use words::{no_such_unit, units_note};
+use ends::OPEN_ENDS;
+pub(super) use units::{no_such_unit, units_note};
 
 use super::brackets::{innermost_open, unclosed};
 use super::expected;
@@ -156,7 +158,7 @@ impl Place<'_> {
             Some(open) => {
                 (found == "}" && open.of(self.text) == "(").then(|| self.unclosed_by(open))
             }
-            None if matches!(found, ")" | "}") => {
+            None if matches!(found, ")" | "}") && !OPEN_ENDS.contains(&self.before()) => {
                 let message = format!("this `{found}` closes nothing");
                 let drop = format!("drop the `{found}`");
                 Some(

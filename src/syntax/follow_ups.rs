@@ -50,6 +50,17 @@ pub(super) fn left_out(text: &str, tree: &mut File, sorted: Vec<Diagnostic>) -> 
         told.extend(causes(text, together));
     }
     tree.lost.places = places;
+    // A `}` too many closes a tree: what stands behind it is told, and not the comma between.
+    let closed = |found: &Diagnostic| {
+        found.code == Code::E0105 && found.help.iter().any(|help| help.contains("one too many"))
+    };
+    let follows: Vec<bool> = told
+        .iter()
+        .zip(told.iter().skip(1))
+        .map(|(found, next)| found.code == Code::E0118 && closed(next))
+        .collect();
+    let mut follows = follows.into_iter();
+    told.retain(|_| !follows.next().unwrap_or(false));
     told
 }
 

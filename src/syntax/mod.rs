@@ -11,8 +11,9 @@ mod grammar;
 mod nesting;
 mod parse;
 pub mod print;
+mod reparse;
 pub mod tokens;
 pub mod words;
 
 pub use build::unit;
-pub use parse::parse;
+pub use parse::{Memory, parse};

@@ -1,14 +1,14 @@
 //! The way from a text to its tree.
 
 use super::ast::{File, Item, ItemKind, Lost};
-use super::build::Builder;
 use super::comments::comments;
 use super::follow_ups;
-use super::grammar::{self, Rule};
 use super::nesting;
+use super::reparse::{Read, Unread};
 use super::tokens::tokens;
 use crate::diagnostic::{self, Code, Diagnostic};
 use crate::source::{FileId, Span};
+use std::collections::BTreeMap;
 
 /// The syntax tree of `text`, and all that is wrong with it.
 ///
@@ -16,39 +16,70 @@ use crate::source::{FileId, Span};
 /// one diagnostic. Time is linear in the length of the text; the depth of the tree is bounded, so that nothing that
 /// recurses over it runs out of stack.
 pub fn parse(file: FileId, text: &str) -> (File, Vec<Diagnostic>) {
+    parse_after(None, file, text).0
+}
+
+/// The texts that were parsed before, by name: of one that has changed, only what has changed is parsed again.
+#[derive(Default)]
+pub struct Memory {
+    read: BTreeMap<String, Read>,
+}
+
+impl Memory {
+    /// What [`parse`] gives, in less time if much of the text of this name is as it was.
+    pub fn parse(&mut self, name: &str, file: FileId, text: &str) -> (File, Vec<Diagnostic>) {
+        let (parsed, read) = parse_after(self.read.remove(name).as_ref(), file, text);
+        self.read.extend(read.map(|read| (name.to_owned(), read)));
+        parsed
+    }
+}
+
+/// The tree of a text with what is wrong with it, and what to keep of it for the next time.
+fn parse_after(
+    before: Option<&Read>,
+    file: FileId,
+    text: &str,
+) -> ((File, Vec<Diagnostic>), Option<Read>) {
     let tokens = tokens(text);
     let comments = comments(file, text, &tokens);
+    let unread = Unread {
+        file,
+        text,
+        tokens: &tokens,
+        comments: &comments,
+    };
     let deep =
         nesting::too_deep(text, &tokens).map(|token| Span::new(file, token.start, token.end));
-    let parsed = match deep {
-        Some(place) => Err(place),
-        None => grammar::parse(Rule::file, text).map_err(|stop| Span::new(file, stop.at, stop.at)),
+    let again = before.filter(|_| deep.is_none());
+    let again = again.and_then(|before| unread.read_again(before));
+    let parsed = match (again, deep) {
+        (Some(parsed), _) => Ok(parsed),
+        (None, Some(place)) => Err(place),
+        (None, None) => unread.read().map_err(|at| Span::new(file, at, at)),
     };
-    let (mut tree, mut diagnostics) = match parsed.map(|mut pairs| pairs.next()) {
-        Ok(Some(node)) => Builder::new(file, text, &tokens, &comments).file(node),
-        Ok(None) => (File::default(), Vec::new()),
-        Err(place) => {
-            let span = Span::new(file, 0, text.len());
-            let item = Item {
-                docs: Vec::new(),
-                kind: ItemKind::Error,
-                span,
-            };
-            let tree = File {
-                items: vec![item],
-                comments: comments.clone(),
-                span,
-                lost: Lost {
-                    unnamed: true,
-                    ..Lost::default()
-                },
-            };
-            (tree, vec![too_deep(place)])
-        }
-    };
+    let read = parsed.as_ref().ok();
+    let read = read.map(|(tree, found)| Read::new(text.to_owned(), tree, found));
+    let (mut tree, mut diagnostics) = parsed.unwrap_or_else(|place| {
+        let span = Span::new(file, 0, text.len());
+        let item = Item {
+            docs: Vec::new(),
+            kind: ItemKind::Error,
+            span,
+        };
+        let tree = File {
+            items: vec![item],
+            comments: comments.clone(),
+            span,
+            lost: Lost {
+                unnamed: true,
+                ..Lost::default()
+            },
+        };
+        (tree, vec![too_deep(place)])
+    });
     diagnostic::sort(&mut diagnostics);
     let diagnostics = follow_ups::left_out(text, &mut tree, diagnostics);
-    (tree, diagnostics)
+    ((tree, diagnostics), read)
 }
 
 fn too_deep(place: Span) -> Diagnostic {

@@ -46,6 +46,23 @@ pub const DRIVING: [&str; 12] = [
     "wait",
 ];
 
+/// The types that are built in.
+pub(super) const TYPES: [&str; 13] = [
+    "bool",
+    "number",
+    "ratio",
+    "length",
+    "time",
+    "angle",
+    "speed",
+    "turn_rate",
+    "frequency",
+    "point",
+    "place",
+    "wall",
+    "target",
+];
+
 /// What is never written without arguments.
 pub(super) const CALLED: [&str; 18] = [
     "goto",

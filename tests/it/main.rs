@@ -31,6 +31,7 @@ mod limits;
 mod logic;
 mod lsp;
 mod planted;
+mod plausible;
 mod program;
 mod reference;
 mod refused;

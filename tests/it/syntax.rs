@@ -1,5 +1,6 @@
 //! Text to syntax tree and back.
 
+mod again;
 mod cases;
 mod printing;
 mod total;

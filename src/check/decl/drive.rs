@@ -99,7 +99,8 @@ impl<'a> Checker<'a> {
     ) -> Option<Stmt> {
         let holonomic = self.is_holonomic();
         for (name, given) in [("strafe", &strafe), ("turn", &turn)] {
-            if given.is_some() && (name == "strafe" || !holonomic) {
+            let unsure = self.drive_unsure;
+            if given.is_some() && !unsure && (name == "strafe" || !holonomic) {
                 let message = format!("a `course` says what `{name}` would say");
                 return self
                     .error(Code::E0305, call.name.span, message)

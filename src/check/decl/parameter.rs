@@ -10,6 +10,7 @@ use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::ast::{Arg, ArgKind, Expr, Param, Params, Ref};
 use crate::syntax::print;
+use std::collections::BTreeSet;
 
 impl<'a> Checker<'a> {
     /// Parameters that are known by their type only.
@@ -113,6 +114,7 @@ impl<'a> Checker<'a> {
                         region: Region::Let,
                         library,
                         scope: bindings.clone(),
+                        ended: BTreeSet::new(),
                     };
                     let outer = std::mem::replace(&mut self.context, context);
                     let (value, _) = self.captured(|checker| checker.expect(default, &ty, &role));

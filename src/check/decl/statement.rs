@@ -36,7 +36,9 @@ impl<'a> Checker<'a> {
                 _ => stmts = None,
             }
         }
-        self.context.scope.truncate(depth);
+        let ended = self.context.scope.drain(depth..);
+        let ended = ended.map(|binding| binding.name.name.as_str());
+        self.context.ended.extend(ended);
         stmts.map(Block)
     }
 

@@ -4,6 +4,7 @@ use crate::check::Checker;
 use crate::check::builtin::Function;
 use crate::check::context::Region;
 use crate::check::lint::Asked;
+use crate::check::names::Decl;
 use crate::check::signature::{Signature, Takes};
 use crate::check::types::{Type, Typed, Value};
 use crate::diagnostic::Code;
@@ -12,7 +13,8 @@ use crate::ir::expr::Expr as Pooled;
 use crate::ir::task::StartLine;
 use crate::ir::tree::Status;
 use crate::ir::world::Robot;
-use crate::syntax::ast::{Expr, Ref};
+use crate::syntax::ast::{Expr, ExprKind, Ref};
+use crate::syntax::print;
 
 impl<'a> Checker<'a> {
     /// `success(b)`, `failure(b)`, `running(b)`: whether the behaviour ended so in this tick, or runs, perhaps one of another
@@ -95,6 +97,30 @@ impl<'a> Checker<'a> {
         Some(self.leaf(Pooled::Ended(id, status), Type::Bool, span))
     }
 
+    /// What is meant by a second argument that is no robot: `success(dock, tap)`, `inside(sheep, fold)`.
+    fn another_by(&mut self, of: &'a Expr, by: &'a Expr) -> Option<(String, String)> {
+        let (typed, _) = self.captured(|checker| checker.expr(by));
+        if !matches!(typed.ty, Type::Place(_)) {
+            return None;
+        }
+        let ExprKind::Ref(reference) = &of.kind else {
+            return None;
+        };
+        let name = &reference.name.name;
+        let (first, second) = (print::expr(of), print::expr(by));
+        if reference.args.is_none()
+            && matches!(self.names.value(name, false), Some((Decl::Behavior(_), _)))
+        {
+            let message = format!("the arguments of `{name}` stand in parentheses of their own");
+            return Some((message, format!("{first}({second})")));
+        }
+        let (typed, _) = self.captured(|checker| checker.expr(of));
+        (typed.ty == Type::Robot).then(|| {
+            let message = "the place goes first, then the robot".to_owned();
+            (message, format!("{second}, by = {first}"))
+        })
+    }
+
     /// The one argument of a call that may say of which robot it is: `success(goto(A), by = raider)`.
     pub fn one_by(&mut self, reference: &'a Ref) -> Option<(&'a Expr, Option<Id<Robot>>)> {
         let name = &reference.name.name;
@@ -125,7 +151,22 @@ impl<'a> Checker<'a> {
         let Some(by) = by else {
             return Some((of, None));
         };
-        let robot = self.expect(by, &Type::Robot, "`by`");
+        let robot = match self.another_by(of, by) {
+            Some((message, right)) => {
+                let span = of.span.to(by.span);
+                return self
+                    .error(Code::E0305, by.span, message)
+                    .label("this is no robot")
+                    .fix(
+                        format!("write `{right}`"),
+                        span,
+                        right,
+                        crate::diagnostic::Applicability::Unsafe,
+                    )
+                    .none();
+            }
+            None => self.expect(by, &Type::Robot, "`by`"),
+        };
         match robot.value {
             Value::Robot(id) => Some((of, Some(id))),
             Value::Chosen(..) => self

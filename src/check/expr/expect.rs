@@ -171,7 +171,10 @@ impl<'a> Checker<'a> {
                 typed.span,
                 format!("a number is needed here, not {}", typed.ty),
             )
-            .this_is(&typed.ty);
+            .this_is(&typed.ty)
+            .help_if((typed.ty == Type::Point).then(|| {
+                "a point is reckoned with by its coordinates: `(p.x + 1 m, p.y)`".to_owned()
+            }));
         }
         dim
     }

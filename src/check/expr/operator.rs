@@ -383,6 +383,10 @@ impl<'a> Checker<'a> {
                     let names: Vec<&str> = names.iter().map(String::as_str).collect();
                     Some(format!("`{of}` has {}", listed(&names, "and")))
                 }
+                (Type::Point, _) | (_, Type::Point) => Some(
+                    "of a point the coordinates are compared, `p.x` and `p.y`, or how far it is: `distance(p)`"
+                        .to_owned(),
+                ),
                 _ => None,
             };
             self.error(Code::E0302, b.span, message)

@@ -6,9 +6,42 @@ use crate::check::context::Binding;
 use crate::check::types::{Type, Typed, Value};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::expr::{Binary, Echo, ExprId};
-use crate::syntax::ast::{ArgKind, Expr, Ref};
+use crate::source::Span;
+use crate::syntax::ast::{ArgKind, Expr, ExprKind, Ref};
 
 impl<'a> Checker<'a> {
+    /// The right form of `nearest(bush)` and of `any(b in bush, …)`.
+    fn meant_to_range(&self, reference: &Ref) -> Option<(String, Span, String)> {
+        match reference.args.as_deref()? {
+            [arg] => match &arg.kind {
+                ArgKind::Positional(Expr {
+                    kind:
+                        ExprKind::Ref(Ref {
+                            name, args: None, ..
+                        }),
+                    ..
+                }) if matches!(reference.name.name.as_str(), "nearest" | "count")
+                    && self.names.types.contains_key(name.name.as_str()) =>
+                {
+                    let right = format!("x in {}", name.name);
+                    Some((format!("write `{right}`"), arg.span, right))
+                }
+                _ => None,
+            },
+            [binder, body] => match (&binder.kind, &body.kind) {
+                (ArgKind::Binder { body: None, .. }, ArgKind::Positional(_)) => {
+                    let gap = Span {
+                        end: body.span.start,
+                        ..binder.span.after()
+                    };
+                    Some(("put a `:` for the comma".to_owned(), gap, ": ".to_owned()))
+                }
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
     /// `any(b in bush: …)` and its relatives.
     pub fn quantified(&mut self, function: Function, reference: &'a Ref) -> Option<Typed> {
         let span = reference.span;
@@ -22,6 +55,7 @@ impl<'a> Checker<'a> {
             _ => None,
         };
         let Some((name, domain, body)) = binder else {
+            let right = self.meant_to_range(reference);
             return self
                 .error(
                     Code::E0305,
@@ -29,6 +63,7 @@ impl<'a> Checker<'a> {
                     format!("`{}` ranges over a kind", reference.name.name),
                 )
                 .label(format!("write `{}(x in KIND: …)`", reference.name.name))
+                .fix_if(right)
                 .none();
         };
         let of = self.named_type(domain);

@@ -285,7 +285,11 @@ impl<'a> Checker<'a> {
             name.span,
             format!("`{}` takes no arguments", name.name),
         )
-        .this_is(what);
+        .this_is(what)
+        .fix_if(args.is_empty().then(|| {
+            let place = name.span.after().to(reference.span.after());
+            ("drop the parentheses".to_owned(), place, String::new())
+        }));
         for arg in args {
             self.stray_argument(arg);
         }

@@ -41,6 +41,7 @@ impl<'a> Checker<'a> {
             match &aspect.kind {
                 AspectKind::Reward { lines, otherwise } => {
                     self.lines_without_effect(lines, &checked);
+                    self.prices_twice(lines);
                     let values = checked.reward.iter().map(|line| line.value);
                     let prices = checked.prices.iter().map(|price| price.per_second);
                     let mut values = values.chain(prices).chain([checked.otherwise]);
@@ -108,6 +109,26 @@ impl<'a> Checker<'a> {
                 self.pays_for_standing(condition.span, checked, place);
             }
             before.extend(cases.into_iter().map(|cases| (here, cases)));
+        }
+    }
+
+    /// Two lines for the same time are added up: whoever writes the same one twice hardly means that.
+    fn prices_twice(&mut self, lines: &'a [RewardLine]) {
+        let written = |line: &RewardLine| match &line.paid {
+            Paid::Per { during, time } => {
+                let during = during.as_ref().map(print::expr);
+                Some((during, print::expr(time), print::expr(&line.value)))
+            }
+            Paid::On(_) => None,
+        };
+        for (place, line) in lines.iter().enumerate() {
+            let same = |earlier: &&RewardLine| written(earlier) == written(line);
+            let earlier = lines.iter().take(place).find(same);
+            if let Some(earlier) = earlier.filter(|_| written(line).is_some()) {
+                self.warning(Code::W0303, line.span, "this price is given twice")
+                    .label("both are paid")
+                    .also(earlier.span, "the first time");
+            }
         }
     }
 

@@ -151,7 +151,8 @@ impl<'a> Checker<'a> {
     /// A state that something reads and nothing sets. A family may be a table of what its members are.
     fn unset_state(&mut self, state: &'a State, mentions: &Mentions) {
         let name = &state.name;
-        let set = mentions.set.contains(name.name.as_str());
+        let set =
+            mentions.set.contains(name.name.as_str()) || self.hidden.contains(name.name.as_str());
         let params = state.params.iter().flat_map(|params| &params.params);
         let is_table = params.clone().any(|param| {
             let mut of = Mentions::default();

@@ -149,7 +149,13 @@ impl<'a> Checker<'a> {
         let likely = likely.filter(|_| !of_logic);
         let input = self.input_with(&name.name);
         let likely = likely.filter(|_| input.is_none());
+        let bound = what.starts_with("state") && self.context.ended.contains(name.name.as_str());
+        let likely = likely.filter(|_| !bound);
         let hint = match (likely, place) {
+            _ if bound => Some(format!(
+                "a value is known in its block alone: `let {} = if … {{ … }} else {{ … }}`",
+                spelled(&name.name)
+            )),
             _ if input.is_some() => input.map(|input| {
                 let (name, input) = (spelled(&name.name), spelled(input));
                 format!("`{name}` is a value of `{input}`: `predicate NAME = {input} == {name}`")
@@ -311,7 +317,10 @@ fn hint(name: &str, what: &str) -> Option<String> {
         "x" | "y" if what.starts_with("state") && what.ends_with("name") || what == "state" => {
             "where the robot is: `position.x`; where it starts: `position = (1 m, 2 m)`".to_owned()
         }
-        "x" | "y" if what.starts_with("state") => "where the robot is: `position.x`".to_owned(),
+        "x" | "y" if what.starts_with("state") => format!("where the robot is: `position.{name}`"),
+        "yes" | "no" if what.starts_with("state") => {
+            "truth values are `true` and `false`".to_owned()
+        }
         "scanner" | "range_finder" | "beacon" | "SCANNER" | "RANGE_FINDER" | "BEACON"
         | "Scanner" | "Beacon" | "RangeFinder"
             if what.starts_with("state") =>
@@ -383,6 +392,9 @@ fn hint(name: &str, what: &str) -> Option<String> {
                 "if it is new, declare it: `behavior {} {{ … }}`",
                 spelled(name)
             )
+        }
+        _ if what == "variable" => {
+            format!("what is kept for this moment is `let {0} = …`, between ticks `local {0} = …`", spelled(name))
         }
         _ => return None,
     })

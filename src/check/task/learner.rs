@@ -7,7 +7,7 @@ use crate::check::types::Type;
 use crate::diagnostic::{Applicability, Code, suggest};
 use crate::ir::expr::{Binary, Expr};
 use crate::ir::law::Behavior;
-use crate::ir::task::{Discount, Learner, Method, Objective};
+use crate::ir::task::{Discount, Learner, Method, Objective, Task};
 use crate::ir::{Id, Name};
 use crate::source::Span;
 use crate::spelling::spelled;
@@ -78,6 +78,7 @@ impl<'a> Checker<'a> {
                 LearnEntry::Error(_) => {}
             }
         }
+        self.chosen_if_unseen(learn, &built, task);
         if let (Method::Model, Some(rate)) = (built.method, seen.get("rate")) {
             self.warning(Code::W0501, *rate, "the method `model` takes no steps")
                 .label("this has no effect here");
@@ -112,6 +113,28 @@ impl<'a> Checker<'a> {
         if task.is_some() {
             self.program.learners.push(built);
         }
+    }
+
+    /// Reports what is to be done in unseen minterms and is none of the choices of the task.
+    fn chosen_if_unseen(&mut self, learn: &'a ast::Learn, built: &Learner, task: Option<Id<Task>>) {
+        let settings = learn.entries.iter().filter_map(|entry| match entry {
+            LearnEntry::Setting(setting) => Some(setting),
+            _ => None,
+        });
+        let setting = settings
+            .filter(|setting| setting.name.name == "unseen")
+            .last();
+        let (Some(setting), Some(unseen), Some(task)) = (setting, built.unseen, task) else {
+            return;
+        };
+        let choices = &self.program.tasks[task].choose;
+        if choices.is_empty() || choices.contains(&unseen) {
+            return;
+        }
+        let message = format!("`{}` does not choose this", self.program.tasks[task].name);
+        self.error(Code::E0501, setting.value.span, message)
+            .label("what is done in unseen minterms is one of its choices")
+            .help("list it after `choose`, or name one that is there");
     }
 
     /// Reports `learn NAME { … }`, which says no task, where one is known.

@@ -105,6 +105,11 @@ impl<'a> Checker<'a> {
             return None;
         };
         let robot = self.expect(whose, &Type::Robot, "what stands there");
+        // Who names a place there has likely exchanged it with the robot.
+        if robot.ty == Type::Error {
+            self.captured(|checker| checker.expr(&line.value));
+            return None;
+        }
         let value = &line.value;
         let word = target.name.name.as_str();
         let placings = match word {
@@ -159,7 +164,8 @@ impl<'a> Checker<'a> {
                 let y = coordinate(self, |(_, y)| y)?;
                 Some(vec![Placing::Position(x, y)])
             }
-            (Type::Error, _) => None,
+            // A place that was not understood is reported where it is declared.
+            (Type::Error, _) | (Type::Place(_), Value::Unknown) => None,
             (ty, _) => self
                 .error(
                     Code::E0302,

@@ -36,8 +36,12 @@ impl<'i> Builder<'i> {
         self.entries(Parts::of(node), Rule::strict_stmt, |builder, node, span| {
             let known = builder.units_missed;
             let kind = node.map_or(StmtKind::Error, |node| builder.stmt(node));
-            // What was to be a unit makes the number before it one without meaning.
-            if builder.units_missed > known
+            // What was to be a unit, or the rest of a value, makes what stands before it one without meaning.
+            let is_rest = matches!(kind, StmtKind::Error)
+                && stmts
+                    .last()
+                    .is_some_and(|last| builder.on_one_line(last.span, span));
+            if (is_rest || builder.units_missed > known)
                 && let Some(Stmt { kind, .. }) = stmts.last_mut()
                 && let StmtKind::Let(Binding { value, .. }) | StmtKind::Assign { value, .. } = kind
             {
@@ -46,6 +50,12 @@ impl<'i> Builder<'i> {
             stmts.push(Stmt { kind, span });
         });
         Block { stmts, span }
+    }
+
+    /// Whether two places stand on one line.
+    fn on_one_line(&self, before: Span, after: Span) -> bool {
+        let gap = self.text.get(before.range().end..after.range().start);
+        gap.is_some_and(|gap| !gap.contains('\n'))
     }
 
     fn stmt(&mut self, node: Node<'i>) -> StmtKind {
@@ -292,6 +302,47 @@ impl<'i> Builder<'i> {
                 format!("drop `{name}`"),
                 span.to(at.before()),
                 "",
+                Applicability::Unsafe,
+            );
+            self.report(diagnostic);
+            return;
+        }
+        let rest = self.text.get(at.range().end..).unwrap_or_default();
+        let inner = rest.split_once(']').map(|(inner, _)| inner);
+        if let Some(inner) = inner.filter(|inner| found == "[" && !inner.contains('\n')) {
+            let right = format!("({inner})");
+            let place = Span::new(
+                self.file,
+                at.range().start,
+                at.range().end + inner.len() + 1,
+            );
+            self.failed_at = Some(place.range().end);
+            let diagnostic = Diagnostic::new(Code::E0101, place, "arguments stand in parentheses")
+                .label(format!("write `{right}`"))
+                .fix(
+                    format!("write `{right}`"),
+                    place,
+                    right,
+                    Applicability::Unsafe,
+                );
+            self.report(diagnostic);
+            return;
+        }
+        let typed = crate::syntax::words::TYPES.contains(&name);
+        let declares = same_line && word && !found.is_empty() && typed;
+        if declares && self.slice(span) == name {
+            let span = span.to(at);
+            let right = format!("let {found}: {name}");
+            let diagnostic = Diagnostic::new(
+                Code::E0101,
+                span,
+                "the name of a value goes before its type",
+            )
+            .label(format!("write `{right}`"))
+            .fix(
+                format!("write `{right}`"),
+                span,
+                right,
                 Applicability::Unsafe,
             );
             self.report(diagnostic);

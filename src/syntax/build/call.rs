@@ -64,7 +64,7 @@ impl<'i> Builder<'i> {
 
     /// Reports blanks between a name and its parenthesis.
     pub(super) fn touching(&mut self, name: &Node<'i>, args: &Node<'i>) {
-        let (end, start) = (name.as_span().end(), args.as_span().start());
+        let (end, start) = (self.ends(name), self.starts(args));
         if end == start {
             return;
         }
@@ -122,6 +122,12 @@ impl<'i> Builder<'i> {
                     }
                 }
                 Rule::arg => args.push(self.arg(part)),
+                Rule::missing_arg_comma if self.condition_follows(&part, args.last()) => {
+                    is_unit = true;
+                }
+                Rule::missing_arg_comma if self.kind_goes_first(&part, args.last()) => {
+                    is_unit = true;
+                }
                 Rule::missing_arg_comma if self.unit_is_meant(&part, args.last()) => {
                     is_unit = true;
                 }
@@ -137,7 +143,7 @@ impl<'i> Builder<'i> {
 
     /// Reports `of` and its like in `any(g of gem: …)`, where they should be `in`.
     fn binder_is_meant(&mut self, node: &Node<'i>) -> bool {
-        let Some(word) = self.token_at(node.as_span().start()) else {
+        let Some(word) = self.token_at(self.starts(node)) else {
             return false;
         };
         let is_binder =
@@ -153,7 +159,7 @@ impl<'i> Builder<'i> {
 
     /// Reports `to` between the ends of a range.
     fn range_is_meant(&mut self, node: &Node<'i>) -> bool {
-        let Some(word) = self.token_at(node.as_span().start()) else {
+        let Some(word) = self.token_at(self.starts(node)) else {
             return false;
         };
         let is_to = word.of(self.text) == "to";
@@ -169,7 +175,7 @@ impl<'i> Builder<'i> {
     fn unit_is_meant(&mut self, node: &Node<'i>, before: Option<&Arg>) -> bool {
         let value = before.map(|arg| &arg.kind);
         let (Some(ArgKind::Positional(value) | ArgKind::Named(_, value)), Some(word)) =
-            (value, self.token_at(node.as_span().start()))
+            (value, self.token_at(self.starts(node)))
         else {
             return false;
         };
@@ -184,6 +190,58 @@ impl<'i> Builder<'i> {
         let span = Span::new(self.file, word.start, word.end);
         let diagnostic = no_such_unit(span, self.slice(span), &[]);
         self.report(diagnostic);
+        true
+    }
+
+    /// Reports `nearest(b in bush where …)`, whose condition follows a colon.
+    fn condition_follows(&mut self, node: &Node<'i>, before: Option<&Arg>) -> bool {
+        let binds =
+            before.is_some_and(|arg| matches!(arg.kind, ArgKind::Binder { body: None, .. }));
+        let word = self.token_at(self.starts(node));
+        let Some(word) = word.filter(|_| binds && self.ranging) else {
+            return false;
+        };
+        if !matches!(
+            word.of(self.text),
+            "where" | "with" | "when" | "such" | "that"
+        ) {
+            return false;
+        }
+        let span = Span::new(self.file, word.start, word.end);
+        let message = "what is asked of each member follows a `:`".to_owned();
+        let gap = before.map_or(span, |before| before.span.after().to(span));
+        let diagnostic = Diagnostic::new(Code::E0101, span, message)
+            .label("write `:`")
+            .fix("write `:`", gap, ":", Applicability::Unsafe);
+        self.report(diagnostic);
+        self.unbound = true;
+        self.failed_at = Some(word.end);
+        true
+    }
+
+    /// Reports `nearest(bush b: …)`, which binds a name behind its kind.
+    fn kind_goes_first(&mut self, node: &Node<'i>, before: Option<&Arg>) -> bool {
+        let (Some(before), Some(name)) = (before, self.token_at(self.starts(node))) else {
+            return false;
+        };
+        let after = self.token_at(name.end);
+        let colon = after.is_some_and(|after| after.of(self.text) == ":");
+        if !(self.ranging && colon && name.kind == Kind::Word) {
+            return false;
+        }
+        let right = format!("{} in {}", name.of(self.text), self.slice(before.span));
+        let span = before.span.to(Span::new(self.file, name.start, name.end));
+        let message = "the name that ranges over a kind goes before it".to_owned();
+        let diagnostic = Diagnostic::new(Code::E0101, span, message)
+            .label(format!("write `{right}`"))
+            .fix(
+                format!("write `{right}`"),
+                span,
+                right,
+                Applicability::Unsafe,
+            );
+        self.report(diagnostic);
+        self.unbound = true;
         true
     }
 
@@ -230,7 +288,7 @@ impl<'i> Builder<'i> {
 
     /// The name behind a colon, if places or walls are of a kind that is called so.
     fn kind_after(&self, colon: Option<&Node<'i>>) -> Option<String> {
-        let kind = self.token_at(colon?.as_span().end())?.of(self.text);
+        let kind = self.token_at(self.ends(colon?))?.of(self.text);
         let declares = |four: &[Token]| match four {
             [word, _, colon, of] => {
                 matches!(word.of(self.text), "place" | "wall")

@@ -7,28 +7,6 @@ use crate::syntax::brackets;
 use crate::syntax::diagnose::{self, Failure};
 use crate::syntax::grammar::{self, Node, Parts, Rule};
 use crate::syntax::tokens::{Kind, is_blank};
-use crate::syntax::words::{CALLED, NODES};
-
-/// What the commas of a history part.
-pub(super) const HISTORY: &str = "the ends of a history";
-
-/// What other notations put before the nodes of a tree.
-const BEFORE_NODES: [&str; 14] = [
-    "subtree",
-    "SubTree",
-    "Subtree",
-    "SubTreePlus",
-    "when",
-    "action",
-    "condition",
-    "do",
-    "run",
-    "then",
-    "execute",
-    "check",
-    "call",
-    "node",
-];
 
 impl<'i> Builder<'i> {
     /// Hands each entry among `parts` to `push`, with its place; a bad one, which is reported here, without its
@@ -37,17 +15,27 @@ impl<'i> Builder<'i> {
         &mut self,
         parts: Parts<'i>,
         strict: Rule,
+        push: impl FnMut(&mut Self, Option<Node<'i>>, Span),
+    ) {
+        self.entries_after(None, parts, strict, push);
+    }
+
+    /// The same of entries that follow one at `previous`.
+    pub(super) fn entries_after(
+        &mut self,
+        mut previous: Option<Span>,
+        parts: impl IntoIterator<Item = Node<'i>>,
+        strict: Rule,
         mut push: impl FnMut(&mut Self, Option<Node<'i>>, Span),
     ) {
         let mut open = None;
-        let mut previous: Option<Span> = None;
         for part in parts {
             let span = self.span(&part);
             match part.as_rule() {
                 Rule::open_brace => open = Some(span),
                 Rule::missing_open => self.missing_open(span, part.as_str()),
                 Rule::close_brace | Rule::comma | Rule::children_end | Rule::EOI => {}
-                Rule::missing_close => self.missing_close(part.as_span().start(), open),
+                Rule::missing_close => self.missing_close(self.starts(&part), open),
                 // What is written in place of an `if` has the comma.
                 Rule::missing_child_comma
                     if previous.is_some_and(|span| self.slice(span).starts_with("if")) => {}
@@ -257,206 +245,5 @@ impl<'i> Builder<'i> {
             let diagnostic = brackets::unclosed(self.file, self.text, self.tokens, open, at);
             self.report(diagnostic);
         }
-    }
-
-    /// Reports an argument without parentheses or a child without braces, at `next`, after the word `name`.
-    fn missing_brackets(&mut self, name: &str, before: Span, next: Span) -> bool {
-        let gap = self.text.get(before.range().end..next.range().start);
-        if gap.is_none_or(|gap| gap.contains('\n')) {
-            return false;
-        }
-        let word = name.split('(').next().unwrap_or(name);
-        let found = self.slice(next);
-        let is_word = found.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
-        let diagnostic = if NODES.iter().any(|(node, _)| *node == word) {
-            let message = format!("expected `{{` after `{word}`, found `{found}`");
-            let form = match word {
-                "timeout" => "timeout(10 s) { … }".to_owned(),
-                "retry" | "repeat" | "parallel" => format!("{word}(2) {{ … }}"),
-                _ => format!("{word} {{ … }}"),
-            };
-            Diagnostic::new(Code::E0101, next, message)
-                .label("expected `{`")
-                .help(format!("its form is `{form}`"))
-        } else if BEFORE_NODES.contains(&name) {
-            Diagnostic::new(
-                Code::E0101,
-                before,
-                format!("a node does not begin with `{name}`"),
-            )
-            .label("this is not said here")
-            .fix(
-                format!("drop `{name}`"),
-                before.to(next.before()),
-                "",
-                Applicability::Unsafe,
-            )
-        } else if name == "by" {
-            Diagnostic::new(Code::E0127, next, "the argument `by` is given with `=`")
-                .label("write `by = …`")
-                .fix("write `=`", before.after(), " =", Applicability::Safe)
-        } else if CALLED.contains(&name) && is_word {
-            Diagnostic::new(
-                Code::E0101,
-                next,
-                format!("the arguments of `{name}` stand in parentheses"),
-            )
-            .label(format!("write `{name}({found})`"))
-            .fix(
-                format!("write `{name}({found})`"),
-                before.to(next),
-                format!("{name}({found})"),
-                Applicability::Unsafe,
-            )
-        } else {
-            return false;
-        };
-        self.report(diagnostic);
-        true
-    }
-
-    /// Reports a comma that is missing just before `node`, after what stands at `before`.
-    pub(super) fn missing_comma(&mut self, node: &Node<'i>, before: Option<Span>, what: &str) {
-        let at = node.as_span().start();
-        let next = self.token_at(at);
-        let place = next.map_or(Span::new(self.file, at, at), |token| {
-            Span::new(self.file, token.start, token.end)
-        });
-        let comma = before.map_or(place.before(), Span::after);
-        let message = format!("a comma is missing before `{}`", self.slice(place));
-        let name = before.map(|before| self.slice(before));
-        if self.linked(place, before) {
-            return;
-        }
-        // What a quote that is not closed has taken is reported there.
-        if name.is_some_and(|name| name.starts_with('`') && !name.ends_with('`')) {
-            return;
-        }
-        // Of `full => goto` the last word is the one that lacks its arguments.
-        let last = before.map(|before| {
-            let word = self.slice(before).rsplit(' ').next().unwrap_or_default();
-            let range = before.range();
-            (
-                word,
-                Span::new(self.file, range.end - word.len(), range.end),
-            )
-        });
-        if let Some((name, before)) = last
-            && what != HISTORY
-            && self.missing_brackets(name, before, place)
-        {
-            return;
-        }
-        let of_kind = [
-            "place",
-            "wall",
-            "robot",
-            "sensor",
-            "state",
-            "event",
-            "predicate",
-        ];
-        if let (Some(kind), Some(before)) = (name, before)
-            && of_kind.contains(&kind)
-        {
-            let name = self.slice(place);
-            let diagnostic = Diagnostic::new(
-                Code::E0101,
-                before,
-                format!("`{kind}` is not said of `{name}` here"),
-            )
-            .label("a name stands alone")
-            .fix(
-                format!("drop `{kind}`"),
-                before.to(place.before()),
-                "",
-                Applicability::Unsafe,
-            );
-            self.report(diagnostic);
-            return;
-        }
-        let mut diagnostic = Diagnostic::new(Code::E0112, place, message)
-            .label("this begins another one")
-            .note(format!("commas part {what}"))
-            .fix("put a comma", comma, ",", Applicability::Safe);
-        let is_word = |word: &str| {
-            let letters = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
-            !word.is_empty() && word.chars().all(letters)
-        };
-        let gap = before.and_then(|before| self.text.get(before.range().end..place.range().start));
-        if let Some(name) = name.filter(|name| is_word(name) && is_word(self.slice(place)))
-            && gap.is_some_and(|gap| !gap.contains('\n'))
-            && what != HISTORY
-            && what != "variants"
-        {
-            let argument = self.slice(place);
-            diagnostic = diagnostic.help(format!(
-                "if `{argument}` is an argument: `{name}({argument})`"
-            ));
-        }
-        self.report(diagnostic);
-    }
-
-    /// Reports words that other languages join nodes and conditions by, and arguments that stand outside of parentheses; what
-    /// begins at `place` follows what stands at `before`. Of both commas that seem to miss there, none is told.
-    fn linked(&mut self, place: Span, before: Option<Span>) -> bool {
-        let Some(before) = before else {
-            return false;
-        };
-        let next = self.slice(place);
-        // Of `full => wait 2 s` the last word lacks its arguments.
-        let name = self.slice(before).rsplit(' ').next().unwrap_or_default();
-        let gap = self.text.get(before.range().end..place.range().start);
-        if gap.is_none_or(|gap| gap.contains('\n')) {
-            return false;
-        }
-        if matches!(name, "then" | "xor") {
-            return true;
-        }
-        let diagnostic = match next {
-            "then" => {
-                let message = "what a condition guards follows `=>`";
-                Diagnostic::new(Code::E0116, place, message)
-                    .label("write `=>`")
-                    .fix("write `=>`", place, "=>", Applicability::Safe)
-            }
-            "xor" => Diagnostic::new(Code::E0110, place, "there is no `xor`")
-                .label("conditions are joined by `and`, `or` and `not`")
-                .help("one of the two, and not both: `a and not b or b and not a`"),
-            _ => {
-                let is_word = name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
-                let rest = self.text.get(place.range().start..).unwrap_or_default();
-                let rest = rest.split(['\n', ',', '}']).next().unwrap_or_default();
-                let rest = rest.split("//").next().unwrap_or_default().trim_end();
-                let mut letters =
-                    rest.trim_start_matches(|c: char| c.is_ascii_alphanumeric() || c == '_');
-                letters = letters.trim_start();
-                let named = letters.starts_with('=')
-                    && !letters.starts_with("=>")
-                    && !letters.starts_with("==");
-                let number = next.starts_with(|c: char| c.is_ascii_digit());
-                if !is_word || !(named || number) || rest.contains(['(', ')', '{', '>']) {
-                    return false;
-                }
-                let start = place.range().start;
-                let right = format!("({rest})");
-                let span = Span::new(self.file, before.range().end, start + rest.len());
-                self.failed_at = Some(start + rest.len());
-                Diagnostic::new(
-                    Code::E0101,
-                    place,
-                    format!("the arguments of `{name}` stand in parentheses"),
-                )
-                .label(format!("write `{name}{right}`"))
-                .fix(
-                    format!("write `{name}{right}`"),
-                    span,
-                    right,
-                    Applicability::Unsafe,
-                )
-            }
-        };
-        self.report(diagnostic);
-        true
     }
 }

@@ -306,7 +306,7 @@ impl<'i> Builder<'i> {
 
     pub(super) fn unclosed_text(&mut self, node: &Node<'i>) {
         let quote = node.as_str().chars().next().unwrap_or('"');
-        let diagnostic = unclosed_quote(self.file, node.as_span().start(), quote);
+        let diagnostic = unclosed_quote(self.file, self.starts(node), quote);
         self.failed_at = Some(self.span(node).range().end);
         self.report(diagnostic);
     }

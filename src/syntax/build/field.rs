@@ -17,6 +17,28 @@ const READS: [&str; 6] = [
     "facing",
 ];
 
+/// What is reckoned of numbers.
+const FUNCTIONS: [&str; 20] = [
+    "abs", "sign", "min", "max", "clamp", "wrap", "sqrt", "exp", "ln", "floor", "ceil", "round",
+    "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "uniform",
+];
+
+/// What sensors and drives are set up by, which nothing reads.
+const SETTINGS: [&str; 12] = [
+    "range",
+    "noise",
+    "from",
+    "to",
+    "at",
+    "sector",
+    "target",
+    "max_speed",
+    "max_turn",
+    "speed_noise",
+    "turn_noise",
+    "body",
+];
+
 /// What asks how a behaviour ended.
 const ENDS: [&str; 3] = ["success", "failure", "running"];
 
@@ -104,6 +126,21 @@ impl<'i> Builder<'i> {
             let args = if args == "()" { "" } else { args };
             return Ok(format!("{name}{args} {{ {owner} }}"));
         }
+        let of_another_language = ["Math", "math", "np", "numpy", "std", "random"];
+        if let Some(args) = args.filter(|_| of_another_language.contains(&owner)) {
+            return match FUNCTIONS.contains(&name) {
+                true => Ok(format!("{name}{args}")),
+                false => Err(None),
+            };
+        }
+        if let Some(args) = args.filter(|_| FUNCTIONS.contains(&name)) {
+            let rest = args.trim_start_matches('(');
+            let comma = if rest.trim() == ")" { "" } else { ", " };
+            return Ok(format!("{name}({owner}{comma}{rest}"));
+        }
+        if args == Some("()") && one_of(&READS) {
+            return Ok(format!("{name}({owner})"));
+        }
         if let Some(args) = args.filter(|_| self.declared_by(owner, &["robot"])) {
             let inner = args
                 .strip_prefix('(')
@@ -128,15 +165,25 @@ impl<'i> Builder<'i> {
             if one_of(&["heading"]) {
                 return Err(None);
             }
+            if self.declared_by(owner, &["state", "let"]) {
+                return Ok(owner.to_owned());
+            }
             return Ok(format!("pose({owner})"));
         }
         if args.is_none() && self.declares_family(owner) && self.declares(name) {
             return Ok(format!("{owner}({name})"));
         }
         if args.is_none() && self.declared_by(owner, &["input"]) {
-            return Ok(format!("{owner} == {name}"));
+            return Ok(match self.names_variant(name) {
+                true => format!("{owner} == {name}"),
+                false => owner.to_owned(),
+            });
         }
-        let known = self.declares(name) || one_of(&["position", "heading", "touching"]);
+        if args.is_none() && one_of(&["X", "Y"]) {
+            return Ok(format!("{owner}.{}", name.to_ascii_lowercase()));
+        }
+        let known = self.declares(name) && !SETTINGS.contains(&name)
+            || one_of(&["position", "heading", "touching"]);
         match is_name && args.is_none() && (known || self.names_variant(name)) {
             true => Ok(name.to_owned()),
             false if args.is_some() => Err(None),

@@ -255,6 +255,29 @@ impl<'i> Builder<'i> {
         })
     }
 
+    /// Whether two words are a name of this text if they are written as one.
+    pub(super) fn is_one_name(&self, left: &str, right: &str) -> bool {
+        let whole = |name: &str| {
+            let rest = name.strip_prefix(left)?.strip_prefix('_')?;
+            (rest == right).then_some(())
+        };
+        self.tokens
+            .iter()
+            .any(|token| token.kind == Kind::Word && whole(token.of(self.text)).is_some())
+    }
+
+    /// Whether a behaviour or a tree of that name has parameters.
+    pub(super) fn takes_arguments(&self, name: &str) -> bool {
+        self.tokens.windows(3).any(|three| match three {
+            [word, of, open] => {
+                matches!(word.of(self.text), "behavior" | "tree")
+                    && of.of(self.text) == name
+                    && open.of(self.text) == "("
+            }
+            _ => false,
+        })
+    }
+
     /// Whether a family of that name is declared.
     pub(super) fn declares_family(&self, name: &str) -> bool {
         let families = ["state", "event", "predicate", "let"];

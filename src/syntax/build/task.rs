@@ -1,7 +1,7 @@
 //! Tasks.
 
 use super::Builder;
-use super::entries::HISTORY;
+use super::commas::HISTORY;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::ast::{

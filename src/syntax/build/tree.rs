@@ -122,8 +122,12 @@ impl<'i> Builder<'i> {
             Some([only]) => Some(only.span),
             _ => None,
         };
-        let guarded = body.zip(only).map(|(body, only)| {
-            let rest = self.text.get(body.range().end..).unwrap_or_default();
+        let after = |body: Span| self.text.get(body.range().end..).unwrap_or_default();
+        // What stands behind an `else` is the last child of a `selector`, which nobody can take over without the rest.
+        let alone = |(body, _): &(Span, Span)| !after(*body).trim_start().starts_with("else");
+        let chosen = body.zip(only).is_some_and(|both| !alone(&both));
+        let guarded = body.zip(only).filter(alone).map(|(body, only)| {
+            let rest = after(body);
             let comma = match rest.trim_start().starts_with([',', '}']) {
                 true => "",
                 false => ",",
@@ -145,6 +149,7 @@ impl<'i> Builder<'i> {
                 right,
                 Applicability::Unsafe,
             ),
+            None if chosen => diagnostic.help(format!("write `selector {{ {guard} => …, … }}`")),
             None => diagnostic.help(format!("write `{guard} => …`")),
         };
         self.report(diagnostic);

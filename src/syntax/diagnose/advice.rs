@@ -35,6 +35,12 @@ impl Place<'_> {
         let follows = |token: Token| matches!(token.kind, Kind::Word | Kind::Number);
         let is_mark = matches!(found, ":" | "=" | ":=") && self.before.is_some_and(follows);
         let answers = self.failure.strict == Rule::strict_test_entry && self.expects(Rule::guards);
+        let rest = self.text.get(self.found.end..).unwrap_or_default();
+        if is_mark && answers && rest.lines().next().is_some_and(|line| line.contains("=>")) {
+            return diagnostic.help(
+                "a test says which predicates hold, by their names: `tick low, not full => …`",
+            );
+        }
         if is_mark && answers && self.line_begins_with("tick") {
             let title = "what the tree does follows `=>`";
             return diagnostic.fix(title, self.span(), " =>", Applicability::Unsafe);
@@ -73,6 +79,10 @@ impl Place<'_> {
         }
         let begins_value = matches!(self.found.kind, Kind::Word | Kind::Number | Kind::Name)
             && !RESERVED.contains(&found);
+        if found == ";" && self.expects(Rule::comma) && self.open_is_paren() {
+            return diagnostic.fix("write `,`", self.span(), ",", Applicability::Unsafe);
+        }
+        let begins_value = begins_value || found == "(" && self.before() == ")";
         if let Some(before) = self.before
             && begins_value
             && self.expects(Rule::comma)
@@ -107,6 +117,28 @@ impl Place<'_> {
             }
             (_, "{") if self.before() == "*" => {
                 "a node that goes on where it was is a `memory sequence { … }`"
+            }
+            (_, "|")
+                if self
+                    .wanted()
+                    .is_some_and(|wanted| wanted.contains("a value")) =>
+            {
+                "how much something is, whatever its sign: `abs(…)`"
+            }
+            (
+                Rule::strict_item
+                | Rule::strict_clause
+                | Rule::strict_child
+                | Rule::strict_world_entry,
+                "/=",
+            ) => "two values that differ: `a != b`",
+            (Rule::strict_item, "in") if self.expects(Rule::colon) && self.open_is_paren() => {
+                return diagnostic.fix(
+                    "the kind of a parameter follows a `:`",
+                    self.span(),
+                    ":",
+                    Applicability::Unsafe,
+                );
             }
             (Rule::strict_child, "<") if self.expects(Rule::node) => {
                 "a tree is not written in XML: `sequence { goto(A), dock(A) }`"
@@ -164,6 +196,17 @@ impl Place<'_> {
             }
             (Rule::strict_test_entry, "=" | "==") => {
                 "a predicate is said to hold by its name: `given low`, `given not low`"
+            }
+            (Rule::strict_reward, "-" | "+") if self.before() == "otherwise" => {
+                let before = self
+                    .before
+                    .map_or(self.span(), |before| self.span_of(before));
+                return diagnostic.fix("put a `:`", before.after(), ":", Applicability::Unsafe);
+            }
+            (Rule::strict_reward, _)
+                if self.before() == "reward" && self.found.kind == Kind::Number =>
+            {
+                "a line of `reward` says the number alone: `on EVENT: 5`"
             }
             (Rule::strict_reward, "-=" | "+=" | "*=") => {
                 "a line of `reward` says a number, which is added: `on EVENT: -5`"

@@ -7,7 +7,7 @@ use crate::syntax::expected;
 use crate::syntax::tokens::{Kind, Token};
 
 /// Tokens after which a value must come.
-const OPEN_ENDS: [&str; 17] = [
+pub(super) const OPEN_ENDS: [&str; 17] = [
     "=", "+", "-", "*", "/", "^", "->", "=>", "==", "!=", "<", ">", "<=", ">=", "and", "or", "not",
 ];
 

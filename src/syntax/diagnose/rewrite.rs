@@ -1,32 +1,17 @@
 //! Lines of another habit whose right form is plain: what is told has the whole of it to take over.
 
 use super::Place;
-use super::words::{is_word, no_such_unit};
+use super::units::no_such_unit;
+use super::words::is_word;
 use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::grammar::Rule;
 use crate::syntax::tokens::{Kind, Token};
+use crate::syntax::words::TYPES;
 use crate::syntax::words::UNITS;
 
 /// The words that declare one name.
 const DECLARING: [&str; 5] = ["event", "predicate", "behavior", "task", "tree"];
-
-/// The types that are built in.
-const TYPES: [&str; 13] = [
-    "bool",
-    "number",
-    "ratio",
-    "length",
-    "time",
-    "angle",
-    "speed",
-    "turn_rate",
-    "frequency",
-    "point",
-    "place",
-    "wall",
-    "target",
-];
 
 /// What other languages call the way that a robot stands in a place.
 const WAYS: [&str; 6] = [
@@ -51,6 +36,8 @@ impl Place<'_> {
             .or_else(|| self.other_length())
             .or_else(|| self.ended_by_time())
             .or_else(|| self.bare_point())
+            .or_else(|| self.typed_predicate())
+            .or_else(|| self.listed_condition())
             .or_else(|| self.in_pieces())
     }
 
@@ -58,22 +45,88 @@ impl Place<'_> {
     fn bare_point(&self) -> Option<Diagnostic> {
         let start = matches!(
             self.failure.strict,
-            Rule::strict_start_line | Rule::strict_stmt
+            Rule::strict_start_line | Rule::strict_stmt | Rule::strict_item
         );
-        if !start || self.before() != "," || self.found.kind != Kind::Number {
+        let index = self
+            .tokens
+            .partition_point(|token| token.start < self.failure.start);
+        let comma = index
+            .checked_sub(1)
+            .and_then(|index| self.tokens.get(index).copied());
+        let follows = comma.is_some_and(|comma| comma.of(self.text) == ",");
+        let number = self.before() == "," && self.found.kind == Kind::Number;
+        // `2,5 m` is a decimal fraction.
+        let fraction = comma.is_some_and(|comma| comma.end == self.found.start);
+        if fraction
+            || !start
+            || !(number || follows && self.failure.strict == Rule::strict_start_line)
+        {
             return None;
         }
-        let head = self.text.get(..self.found.start)?;
+        let head = self.text.get(..self.failure.start)?;
         let line = head.rfind('\n').map_or(0, |at| at + 1);
         let mark = head.get(line..)?.find('=')? + line + 1;
         let from = head.len() - head.get(mark..)?.trim_start().len();
-        let end = self.found.start + self.rest_of_line(self.found.start).len();
+        let end = self.failure.start + self.rest_of_line(self.failure.start).len();
         let value = self.text.get(from..end)?;
         let span = Span::new(self.file, from, end);
-        let plain = !value.contains(['(', ')', '{', '}']) && value.matches(',').count() == 1;
+        let mut depth = 0_i32;
+        let mut commas = 0;
+        for letter in value.chars() {
+            match letter {
+                '(' => depth += 1,
+                ')' => depth -= 1,
+                ',' if depth == 0 => commas += 1,
+                _ => {}
+            }
+        }
+        let plain = depth == 0 && commas == 1 && !value.contains(['{', '}', '<', '>']);
         plain
             .then(|| self.told(span, "a point stands in parentheses", format!("({value})")))
             .flatten()
+    }
+
+    /// `predicate low: bool = …`
+    fn typed_predicate(&self) -> Option<Diagnostic> {
+        let (word, name) = (self.second_before?, self.before?);
+        let ty = self.next()?;
+        let typed = word.of(self.text) == "predicate" && self.found() == ":" && is_word(ty);
+        let rest = self.text.get(ty.end..)?.trim_start();
+        let whole = rest.starts_with('=') && !rest.starts_with("==");
+        (typed && whole).then(|| {
+            let span = self.span().to(self.span_of(ty));
+            Diagnostic::new(Code::E0101, span, "a predicate has no type")
+                .label("it holds or does not")
+                .fix(
+                    format!("drop `{}`", self.text.get(span.range()).unwrap_or_default()),
+                    self.span_of(name).after().to(span),
+                    "",
+                    Applicability::Unsafe,
+                )
+        })
+    }
+
+    /// `succeed when a, b`
+    fn listed_condition(&self) -> Option<Diagnostic> {
+        let comma = self.before?;
+        let clause = ["requires", "succeed", "fail", "event", "predicate"];
+        let listed = matches!(self.failure.strict, Rule::strict_clause | Rule::strict_item)
+            && self.open().is_none_or(|open| open.of(self.text) == "{")
+            && comma.of(self.text) == ","
+            && self.found.kind != Kind::Number
+            && self.same_line_as_before()
+            && clause.iter().any(|word| self.line_begins_with(word));
+        listed.then(|| {
+            let span = self.span_of(comma);
+            Diagnostic::new(Code::E0101, span, "conditions are joined by `and` or `or`")
+                .label("a comma joins nothing here")
+                .fix(
+                    "if both must hold, write `and`",
+                    span,
+                    " and",
+                    Applicability::Unsafe,
+                )
+        })
     }
 
     /// A line that lacks what stands before its last word or number.
@@ -160,6 +213,14 @@ impl Place<'_> {
             return None;
         }
         let span = self.span_of(name).to(self.span());
+        let is_task = |pair: &[Token]| match pair {
+            [word, task] => word.of(self.text) == "task" && task.of(self.text) == self.found(),
+            _ => false,
+        };
+        if matches!(word.of(self.text), "tree" | "learn") && self.tokens.windows(2).any(is_task) {
+            let right = format!("{} for {}", name.of(self.text), self.found());
+            return self.told(span, "its task follows `for`", right);
+        }
         let joined = format!("{}_{}", name.of(self.text), self.found());
         self.told(span, "a name is one word", joined)
     }
@@ -205,6 +266,16 @@ impl Place<'_> {
         let (inner, span) = self.within(']')?;
         if inner.contains('[') {
             return None;
+        }
+        if self
+            .second_before
+            .is_some_and(|mark| mark.of(self.text) == ":")
+        {
+            return Some(
+                Diagnostic::new(Code::E0101, span, "there are no lists")
+                    .label("one value has one type")
+                    .help("a value for each member of a kind is a family: `state NAME(x: KIND): TYPE = …`"),
+            );
         }
         match inner.trim() {
             "0" => self.told(span, "the first coordinate of a point is `x`", ".x"),

@@ -7,46 +7,9 @@ use crate::spelling::RESERVED;
 use crate::syntax::expected;
 use crate::syntax::grammar::Rule;
 use crate::syntax::tokens::{Kind, Token};
-use crate::syntax::words::{FOREIGN, ITEMS, UNITS};
+use crate::syntax::words::{FOREIGN, ITEMS};
 
 impl Place<'_> {
-    pub(super) fn unit(&self) -> Option<Diagnostic> {
-        let after_number = self.before.is_some_and(|token| token.kind == Kind::Number);
-        let after_unit = UNITS.contains(&self.before());
-        let word = self.found();
-        if !(after_number || after_unit)
-            || self.found.kind != Kind::Word
-            || !self.same_line_as_before()
-            || RESERVED.contains(&word)
-            || matches!(
-                word,
-                "within" | "with" | "of" | "per" | "to" | "x" | "while"
-            )
-            || expected::words(&self.failure.expected).contains(&word)
-        {
-            return None;
-        }
-        let links: &[&str] = if self.failure.strict == Rule::strict_learn_entry {
-            &["of", "per"]
-        } else {
-            &[]
-        };
-        if self.open_paren().is_some() && matches!(self.after_found(), ":" | "=") {
-            return Some(comma_before(self.span(), word, self.before));
-        }
-        if after_unit && expected::words(&[Rule::wrong_unit]).is_empty() && is_unit_word(word) {
-            let drop = self.before.map_or(self.span(), |before| {
-                Span::new(self.file, before.end, self.found.end)
-            });
-            return Some(
-                Diagnostic::new(Code::E0114, self.span(), "a number has one unit")
-                    .label(format!("`{}` says it already", self.before()))
-                    .fix(format!("drop `{word}`"), drop, "", Applicability::Unsafe),
-            );
-        }
-        Some(no_such_unit(self.span(), word, links))
-    }
-
     /// The spelling of the token after the one that does not fit.
     pub(super) fn after_found(&self) -> &str {
         self.next().map_or("", |token| token.of(self.text))
@@ -57,29 +20,6 @@ impl Place<'_> {
             .tokens
             .partition_point(|token| token.end <= self.found.end);
         self.tokens.get(index).copied()
-    }
-
-    /// `2,000`: digits in groups.
-    pub(super) fn grouped_digits(&self) -> Option<Diagnostic> {
-        let (first, comma) = (self.second_before?, self.before?);
-        let touching = first.end == comma.start && comma.end == self.found.start;
-        let is_group = self.found.kind == Kind::Number && self.found().len() == 3;
-        if !touching || !is_group || first.kind != Kind::Number || comma.of(self.text) != "," {
-            return None;
-        }
-        let span = self.span_of(first).to(self.span());
-        let digits = format!("{}_{}", first.of(self.text), self.found());
-        let message = "digits are not grouped by commas";
-        Some(
-            Diagnostic::new(Code::E0124, span, message)
-                .label(format!("write `{digits}`"))
-                .fix(
-                    format!("write `{digits}`"),
-                    span,
-                    digits,
-                    Applicability::Safe,
-                ),
-        )
     }
 
     pub(super) fn meant(
@@ -315,6 +255,12 @@ impl Place<'_> {
                     .help(format!("put it there: `control {{ {word} … }}`")),
             );
         }
+        if self.failure.strict == Rule::strict_clause && self.after_found() == "(" && near.is_none()
+        {
+            return Some(diagnostic.label("not known here").help(
+                "another behaviour under a name of its own is `behavior NAME = BEHAVIOR(…)`",
+            ));
+        }
         let diagnostic = match near.map(|near| self.in_full(near)) {
             Some((near, span)) => diagnostic.label(format!("did you mean `{near}`?")).fix(
                 format!("write `{near}`"),
@@ -335,6 +281,14 @@ impl Place<'_> {
                 diagnostic.label("not known here").help(format!(
                     "what stays is `let {word} = …`, what changes `state {word} = …`"
                 ))
+            }
+            None if self.failure.strict == Rule::strict_item && self.after_found() == ":" => {
+                diagnostic.label("not known here").fix(
+                    format!("what changes is a state: put `state` before `{word}`"),
+                    self.span().before(),
+                    "state ",
+                    Applicability::Unsafe,
+                )
             }
             None => diagnostic.label("not known here"),
         };
@@ -358,6 +312,7 @@ impl Place<'_> {
         let line = line.lines().next().unwrap_or_default();
         match meant {
             "end" if is_number(&next) => ("end after", self.span()),
+            "each" if self.after_found() == "{" => ("each tick", self.span()),
             "end" if matches!(self.after_found(), "=" | ":") && is_number(&second) => {
                 let mark = next.map_or(self.span(), |next| self.span_of(next));
                 ("end after", self.span().to(mark))
@@ -382,24 +337,6 @@ pub(super) fn of_kind(kind: &str) -> String {
     format!("say it where a place or a wall is of this kind: `place NAME: {kind} = …`")
 }
 
-/// Whether a word is a unit as other languages spell it.
-fn is_unit_word(word: &str) -> bool {
-    let plain = word.trim_end_matches('s');
-    UNITS.contains(&word)
-        || matches!(
-            plain,
-            "percent"
-                | "meter"
-                | "metre"
-                | "second"
-                | "sec"
-                | "minute"
-                | "hour"
-                | "degree"
-                | "radian"
-        )
-}
-
 /// "a, b or c"
 pub(super) fn either(words: &[String]) -> String {
     match words.split_last() {
@@ -412,70 +349,4 @@ pub(super) fn either(words: &[String]) -> String {
 /// Whether a token is a word.
 pub(super) fn is_word(token: Token) -> bool {
     token.kind == Kind::Word
-}
-
-/// The message for a comma that is missing before a word of arguments.
-fn comma_before(span: Span, word: &str, before: Option<Token>) -> Diagnostic {
-    let at = before.map_or(span.before(), |before| Span {
-        start: u32::try_from(before.end).unwrap_or(span.start),
-        end: u32::try_from(before.end).unwrap_or(span.start),
-        ..span
-    });
-    Diagnostic::new(
-        Code::E0112,
-        span,
-        format!("a comma is missing before `{word}`"),
-    )
-    .label("this begins another one")
-    .fix("put a comma", at, ",", Applicability::Safe)
-}
-
-/// The units, as advice.
-pub(in crate::syntax) fn units_note() -> String {
-    format!(
-        "the units are {}",
-        UNITS.map(|unit| format!("`{unit}`")).join(", ")
-    )
-}
-
-/// The message for a word that follows a number and is not a unit; `others` may follow a number too.
-pub(in crate::syntax) fn no_such_unit(span: Span, word: &str, others: &[&str]) -> Diagnostic {
-    let diagnostic = Diagnostic::new(Code::E0114, span, format!("`{word}` is not a unit"));
-    let units = UNITS.into_iter().filter(|unit| unit.len() > 1);
-    let foreign = match word {
-        "step" | "steps" | "frame" | "frames" | "iterations" => Some("ticks"),
-        "secs" | "second" | "seconds" => Some("s"),
-        "kmh" | "kph" | "kmph" => Some("km/h"),
-        "mps" => Some("m/s"),
-        "dps" => Some("deg/s"),
-        _ => None,
-    };
-    if matches!(
-        word,
-        "kg" | "g" | "N" | "Nm" | "V" | "A" | "W" | "J" | "lb" | "lbs" | "mAh" | "Wh"
-    ) {
-        return diagnostic
-            .label("this follows a number")
-            .help("there are lengths, times and angles, and what is made of them: no masses, no forces, no currents")
-            .note(units_note());
-    }
-    let near = foreign
-        .or_else(|| suggest::nearest(word, units.chain(others.iter().copied())))
-        .or_else(|| {
-            UNITS
-                .into_iter()
-                .find(|unit| unit.eq_ignore_ascii_case(word))
-        });
-    let diagnostic = match near {
-        Some(near) => diagnostic.label(format!("did you mean `{near}`?")).fix(
-            format!("write `{near}`"),
-            span,
-            near,
-            Applicability::Unsafe,
-        ),
-        None => diagnostic
-            .label("this follows a number")
-            .help("a plain number stands without a unit"),
-    };
-    diagnostic.note(units_note())
 }

@@ -11,6 +11,7 @@
 use super::columns::Align;
 use crate::source::Span;
 use std::borrow::Cow;
+use std::ops::Range;
 
 /// A document.
 pub(super) struct Doc<'a> {
@@ -28,8 +29,9 @@ pub(super) enum Part<'a> {
     Row(Vec<Doc<'a>>),
     /// The next column of the line; in a list on one line, this text.
     Column(&'static str),
-    /// A blank, or the end of the line where the group around it is broken.
-    Line,
+    /// A blank, or the end of the line where the group around it is broken; with the bytes of the source, if it has any,
+    /// whose comments stay there.
+    Line(Range<usize>),
     /// One level deeper.
     Nest(Box<Doc<'a>>),
     /// On one line or on several; where it stands in the source, and when it is broken.
@@ -223,9 +225,9 @@ impl<'a> Doc<'a> {
         Self::leaf(Part::Column(""), 0)
     }
 
-    /// A place where a broken group ends its line.
-    pub(super) fn line() -> Self {
-        Self::leaf(Part::Line, 1)
+    /// A place where a broken group ends its line, with the comments that stand in a part of the source.
+    pub(super) fn line_in(gap: Range<usize>) -> Self {
+        Self::leaf(Part::Line(gap), 1)
     }
 
     /// Moves the comments before byte `at` above the entry.
@@ -283,14 +285,16 @@ impl<'a> Doc<'a> {
         self.around(|doc| Part::Settle(end, doc))
     }
 
-    /// Whether a comment at byte `at` of the source can stay where it is: in braces, or among the entries of a list.
+    /// Whether a comment at byte `at` of the source can stay where it is: in braces, among the entries of a list, or where
+    /// a line ends.
     pub(super) fn has_place(&self, at: usize) -> bool {
         match &self.part {
             Part::Row(parts) => parts.iter().any(|part| part.has_place(at)),
             Part::Nest(doc) | Part::Room(_, doc) | Part::Settle(_, doc) => doc.has_place(at),
             Part::Group(doc, span, _) => span.range().contains(&at) && doc.has_place(at),
             Part::List(list) => list.has_place(at),
-            Part::Text(_) | Part::Column(_) | Part::Line | Part::Flat(_) | Part::Hoist(_) => false,
+            Part::Line(gap) => gap.contains(&at),
+            Part::Text(_) | Part::Column(_) | Part::Flat(_) | Part::Hoist(_) => false,
         }
     }
 
@@ -305,7 +309,7 @@ impl<'a> Doc<'a> {
             | Part::Room(_, doc)
             | Part::Settle(_, doc) => doc.first(),
             Part::List(list) => list.brackets.open.chars().next(),
-            Part::Column(_) | Part::Line | Part::Hoist(_) => None,
+            Part::Column(_) | Part::Line(_) | Part::Hoist(_) => None,
         }
     }
 
@@ -321,7 +325,7 @@ impl<'a> Doc<'a> {
     pub(super) fn write(&self, cells: &mut Vec<String>, in_list: bool) {
         match &self.part {
             Part::Text(text) => push(cells, text),
-            Part::Line => push(cells, " "),
+            Part::Line(_) => push(cells, " "),
             Part::Column(blank) if in_list => push(cells, blank),
             Part::Column(_) => cells.push(String::new()),
             Part::Hoist(_) => {}

@@ -11,6 +11,7 @@ use crate::syntax::ast::{
 };
 use crate::syntax::print::columns::Align;
 use crate::syntax::words::UNITS;
+use std::ops::Range;
 
 impl Printer<'_> {
     pub(super) fn expr<'a>(&self, expr: &'a Expr) -> Doc<'a> {
@@ -102,26 +103,29 @@ impl Printer<'_> {
         &self,
         expr: &'a Expr,
         level: Level,
-        lead: Option<BinaryOp>,
+        lead: Option<(BinaryOp, Range<usize>)>,
         operands: &mut Vec<Doc<'a>>,
     ) {
-        let link = |op: BinaryOp, operand| row![Doc::line(), op.spelling(), " ", operand].nested();
+        let link = |(op, gap): (BinaryOp, Range<usize>), operand| {
+            row![Doc::line_in(gap), op.spelling(), " ", operand].nested()
+        };
         let mut rest = expr;
         while let ExprKind::Binary { op, left, right } = &rest.kind
             && Level::of(rest) == level
         {
             let associates = matches!(op.node, BinaryOp::And | BinaryOp::Or);
+            let lead = (op.node, left.span.range().end..right.span.range().start);
             if associates && Level::of(right) == level {
-                self.links(right, level, Some(op.node), operands);
+                self.links(right, level, Some(lead), operands);
             } else {
                 let right = self.operand(right, Level::sides(op.node).1);
-                operands.push(link(op.node, right));
+                operands.push(link(lead, right));
             }
             rest = left;
         }
         let first = self.operand(rest, level);
         operands.push(match lead {
-            Some(op) => link(op, first),
+            Some(lead) => link(lead, first),
             None => first,
         });
     }

@@ -64,7 +64,10 @@ impl<'s> Layout<'s> {
                 self.cells.push(String::new());
                 self.filled += 1;
             }
-            Part::Line => self.end_line(Align::None),
+            Part::Line(gap) => {
+                self.end_line(Align::None);
+                self.between(gap);
+            }
             Part::Nest(inner) => {
                 self.indent += 1;
                 self.put(inner, after);

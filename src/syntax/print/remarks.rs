@@ -7,6 +7,7 @@ use crate::source::Span;
 use crate::syntax::ast::{Comment, CommentKind};
 use crate::syntax::comments::is_whole_line;
 use std::collections::VecDeque;
+use std::ops::Range;
 
 /// The source with the comments that are still to be printed.
 pub(super) struct Remarks<'a> {
@@ -168,6 +169,20 @@ impl Layout<'_> {
 
     /// Puts the comment that follows byte `end` on its line behind the last line.
     pub(super) fn trailing(&mut self, end: usize) {
+        self.trailing_behind(end, |letter| letter.is_whitespace() || letter == ',');
+    }
+
+    /// Prints the comments that stand between two operands: the first behind the line of the left one, if it stands there.
+    pub(super) fn between(&mut self, gap: &Range<usize>) {
+        if gap.is_empty() || !self.has_comment_before(gap.end) {
+            return;
+        }
+        self.trailing_behind(gap.start, |_| true);
+        while self.whole_line_before(gap.end) {}
+    }
+
+    /// The same where other text than blanks may stand before the comment.
+    fn trailing_behind(&mut self, end: usize, may_stand: impl Fn(char) -> bool) {
         let Some(remarks) = self.remarks.as_mut() else {
             return;
         };
@@ -177,12 +192,7 @@ impl Layout<'_> {
         };
         let start = comment.span.start as usize;
         let gap = remarks.slice(end, start);
-        if start < end
-            || gap.contains('\n')
-            || !gap
-                .chars()
-                .all(|letter| letter.is_whitespace() || letter == ',')
-        {
+        if start < end || gap.contains('\n') || !gap.chars().all(may_stand) {
             return;
         }
         let column = remarks.column(start);
@@ -210,10 +220,14 @@ impl Layout<'_> {
 
     /// Whether a comment that is still to be printed stands in `span`.
     pub(super) fn has_comment(&self, span: Span) -> bool {
+        self.has_comment_before(span.range().end)
+    }
+
+    fn has_comment_before(&self, end: usize) -> bool {
         let next = self
             .remarks
             .as_ref()
             .and_then(|remarks| remarks.comments.front());
-        next.is_some_and(|comment| comment.span.start < span.end)
+        next.is_some_and(|comment| comment.span.range().start < end)
     }
 }

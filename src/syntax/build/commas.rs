@@ -1,0 +1,276 @@
+//! Commas that are missing, and what looks like it: other words and brackets that are missing between two entries.
+
+use super::Builder;
+use crate::diagnostic::{Applicability, Code, Diagnostic};
+use crate::source::Span;
+use crate::syntax::grammar::Node;
+use crate::syntax::words::{CALLED, NODES, UNITS};
+
+/// What the commas of a history part.
+pub(super) const HISTORY: &str = "the ends of a history";
+
+/// What other notations put before the nodes of a tree.
+const BEFORE_NODES: [&str; 14] = [
+    "subtree",
+    "SubTree",
+    "Subtree",
+    "SubTreePlus",
+    "when",
+    "action",
+    "condition",
+    "do",
+    "run",
+    "then",
+    "execute",
+    "check",
+    "call",
+    "node",
+];
+
+impl<'i> Builder<'i> {
+    /// Reports a comma that is missing just before `node`, after what stands at `before`.
+    pub(super) fn missing_comma(&mut self, node: &Node<'i>, before: Option<Span>, what: &str) {
+        let at = self.starts(node);
+        let next = self.token_at(at);
+        let place = next.map_or(Span::new(self.file, at, at), |token| {
+            Span::new(self.file, token.start, token.end)
+        });
+        let comma = before.map_or(place.before(), Span::after);
+        let message = format!("a comma is missing before `{}`", self.slice(place));
+        let name = before.map(|before| self.slice(before));
+        if self.linked(place, before) {
+            return;
+        }
+        // What a quote that is not closed has taken is reported there.
+        if name.is_some_and(|name| name.starts_with('`') && !name.ends_with('`')) {
+            return;
+        }
+        // Of `full => goto` the last word is the one that lacks its arguments.
+        let last = before.map(|before| {
+            let word = self.slice(before).rsplit(' ').next().unwrap_or_default();
+            let range = before.range();
+            (
+                word,
+                Span::new(self.file, range.end - word.len(), range.end),
+            )
+        });
+        if let Some((name, before)) = last
+            && what != HISTORY
+            && self.missing_brackets(name, before, place, what)
+        {
+            return;
+        }
+        let of_kind = [
+            "place",
+            "wall",
+            "robot",
+            "sensor",
+            "state",
+            "event",
+            "predicate",
+        ];
+        if let (Some(kind), Some(before)) = (name, before)
+            && of_kind.contains(&kind)
+        {
+            let name = self.slice(place);
+            let diagnostic = Diagnostic::new(
+                Code::E0101,
+                before,
+                format!("`{kind}` is not said of `{name}` here"),
+            )
+            .label("a name stands alone")
+            .fix(
+                format!("drop `{kind}`"),
+                before.to(place.before()),
+                "",
+                Applicability::Unsafe,
+            );
+            self.report(diagnostic);
+            return;
+        }
+        if let Some((word, before)) = last.filter(|(word, _)| *word == "memory") {
+            let diagnostic = Diagnostic::new(
+                Code::E0604,
+                before,
+                format!("only a `selector` or a `sequence` has a `{word}`"),
+            )
+            .label("a node goes before which this stands")
+            .help("a node that goes on where it was: `memory sequence { …, … }`");
+            self.report(diagnostic);
+            return;
+        }
+        let mut diagnostic = Diagnostic::new(Code::E0112, place, message)
+            .label("this begins another one")
+            .note(format!("commas part {what}"))
+            .fix("put a comma", comma, ",", Applicability::Safe);
+        let is_word = |word: &str| {
+            let letters = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
+            !word.is_empty() && word.chars().all(letters)
+        };
+        let gap = before.and_then(|before| self.text.get(before.range().end..place.range().start));
+        if let Some(name) = name.filter(|name| is_word(name) && is_word(self.slice(place)))
+            && gap.is_some_and(|gap| !gap.contains('\n'))
+            && what != HISTORY
+            && what != "variants"
+        {
+            let argument = self.slice(place);
+            diagnostic = diagnostic.help(format!(
+                "if `{argument}` is an argument: `{name}({argument})`"
+            ));
+        }
+        self.report(diagnostic);
+    }
+
+    /// Reports an argument without parentheses or a child without braces, at `next`, after the word `name`.
+    fn missing_brackets(&mut self, name: &str, before: Span, next: Span, what: &str) -> bool {
+        let gap = self.text.get(before.range().end..next.range().start);
+        if gap.is_none_or(|gap| gap.contains('\n')) {
+            return false;
+        }
+        let word = name.split('(').next().unwrap_or(name);
+        let found = self.slice(next);
+        let is_word = found.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+        let diagnostic = if NODES.iter().any(|(node, _)| *node == word) {
+            let message = format!("expected `{{` after `{word}`, found `{found}`");
+            let form = match word {
+                "timeout" => "timeout(10 s) { … }".to_owned(),
+                "retry" | "repeat" | "parallel" => format!("{word}(2) {{ … }}"),
+                _ => format!("{word} {{ … }}"),
+            };
+            Diagnostic::new(Code::E0101, next, message)
+                .label("expected `{`")
+                .help(format!("its form is `{form}`"))
+        } else if BEFORE_NODES.contains(&name) && what == "the children of a node" {
+            Diagnostic::new(
+                Code::E0101,
+                before,
+                format!("a node does not begin with `{name}`"),
+            )
+            .label("this is not said here")
+            .fix(
+                format!("drop `{name}`"),
+                before.to(next.before()),
+                "",
+                Applicability::Unsafe,
+            )
+        } else if name == "by" {
+            Diagnostic::new(Code::E0127, next, "the argument `by` is given with `=`")
+                .label("write `by = …`")
+                .fix("write `=`", before.after(), " =", Applicability::Safe)
+        } else if is_word && self.is_one_name(name, found) {
+            let right = format!("{name}_{found}");
+            Diagnostic::new(Code::E0101, before.to(next), "a name is one word")
+                .label(format!("write `{right}`"))
+                .fix(
+                    format!("write `{right}`"),
+                    before.to(next),
+                    right,
+                    Applicability::Unsafe,
+                )
+        } else if is_word
+            && (CALLED.contains(&name)
+                || self.takes_arguments(name) && !self.declared_by(found, &["behavior", "tree"]))
+        {
+            Diagnostic::new(
+                Code::E0101,
+                next,
+                format!("the arguments of `{name}` stand in parentheses"),
+            )
+            .label(format!("write `{name}({found})`"))
+            .fix(
+                format!("write `{name}({found})`"),
+                before.to(next),
+                format!("{name}({found})"),
+                Applicability::Unsafe,
+            )
+        } else {
+            return false;
+        };
+        self.report(diagnostic);
+        true
+    }
+
+    /// Reports words that other languages join nodes and conditions by, and arguments that stand outside of parentheses; what
+    /// begins at `place` follows what stands at `before`. Of both commas that seem to miss there, none is told.
+    fn linked(&mut self, place: Span, before: Option<Span>) -> bool {
+        let Some(before) = before else {
+            return false;
+        };
+        let next = self.slice(place);
+        // Of `full => wait 2 s` the last word lacks its arguments.
+        let name = self.slice(before).rsplit(' ').next().unwrap_or_default();
+        let gap = self.text.get(before.range().end..place.range().start);
+        if gap.is_none_or(|gap| gap.contains('\n')) {
+            return false;
+        }
+        if matches!(name, "then" | "xor") {
+            return true;
+        }
+        let is_call = name.ends_with(')') && !self.slice(before).contains("=>");
+        let diagnostic = match next {
+            "then" if is_call && CALLED.iter().any(|word| name.starts_with(word)) => {
+                Diagnostic::new(Code::E0101, place, "`then` joins no nodes")
+                    .label("not said here")
+                    .help(format!(
+                        "one after the other: `memory sequence {{ {name}, … }}`"
+                    ))
+            }
+            "of" if name == "one" => {
+                let message = "a list says its entries alone";
+                Diagnostic::new(Code::E0101, before.to(place), message)
+                    .label("not said here")
+                    .fix("drop `one of`", before.to(place), "", Applicability::Unsafe)
+            }
+            "then" => {
+                let message = "what a condition guards follows `=>`";
+                Diagnostic::new(Code::E0116, place, message)
+                    .label("write `=>`")
+                    .fix("write `=>`", place, "=>", Applicability::Safe)
+            }
+            "xor" => Diagnostic::new(Code::E0110, place, "there is no `xor`")
+                .label("conditions are joined by `and`, `or` and `not`")
+                .help("one of the two, and not both: `a and not b or b and not a`"),
+            _ => {
+                let is_word = name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+                let rest = self.text.get(place.range().start..).unwrap_or_default();
+                let rest = rest.split(['\n', ',', '}']).next().unwrap_or_default();
+                // In `success(wait 5 s)` the call around it ends.
+                let within = rest.split(')').next().filter(|rest| !rest.contains('('));
+                let is_argument = next.starts_with(|c: char| c.is_ascii_digit());
+                let rest = match within.filter(|_| is_argument && !UNITS.contains(&name)) {
+                    Some(within) => within,
+                    None => rest,
+                };
+                let rest = rest.split("//").next().unwrap_or_default().trim_end();
+                let mut letters =
+                    rest.trim_start_matches(|c: char| c.is_ascii_alphanumeric() || c == '_');
+                letters = letters.trim_start();
+                let named = letters.starts_with('=')
+                    && !letters.starts_with("=>")
+                    && !letters.starts_with("==");
+                let number = next.starts_with(|c: char| c.is_ascii_digit());
+                if !is_word || !(named || number) || rest.contains(['(', ')', '{', '>']) {
+                    return false;
+                }
+                let start = place.range().start;
+                let right = format!("({rest})");
+                let span = Span::new(self.file, before.range().end, start + rest.len());
+                self.failed_at = Some(start + rest.len());
+                Diagnostic::new(
+                    Code::E0101,
+                    place,
+                    format!("the arguments of `{name}` stand in parentheses"),
+                )
+                .label(format!("write `{name}{right}`"))
+                .fix(
+                    format!("write `{name}{right}`"),
+                    span,
+                    right,
+                    Applicability::Unsafe,
+                )
+            }
+        };
+        self.report(diagnostic);
+        true
+    }
+}

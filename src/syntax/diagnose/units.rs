@@ -1,0 +1,177 @@
+//! Words and marks behind numbers that are no units.
+
+use super::Place;
+use crate::diagnostic::{Applicability, Code, Diagnostic, suggest};
+use crate::source::Span;
+use crate::spelling::RESERVED;
+use crate::syntax::expected;
+use crate::syntax::grammar::Rule;
+use crate::syntax::tokens::{Kind, Token};
+use crate::syntax::words::UNITS;
+
+impl Place<'_> {
+    pub(super) fn unit(&self) -> Option<Diagnostic> {
+        let after_number = self.before.is_some_and(|token| token.kind == Kind::Number);
+        let after_unit = UNITS.contains(&self.before());
+        let word = self.found();
+        if !(after_number || after_unit)
+            || self.found.kind != Kind::Word
+            || !self.same_line_as_before()
+            || RESERVED.contains(&word)
+            || matches!(
+                word,
+                "within" | "with" | "of" | "per" | "to" | "x" | "while"
+            )
+            || expected::words(&self.failure.expected).contains(&word)
+        {
+            return None;
+        }
+        if self.failure.strict == Rule::strict_test_entry && self.line_begins_with("tick") {
+            return Some(
+                Diagnostic::new(Code::E0101, self.span(), "how long goes behind what holds")
+                    .label("a number stands before this")
+                    .help(format!("several ticks are `tick {word} for 3 ticks => …`")),
+            );
+        }
+        let links: &[&str] = if self.failure.strict == Rule::strict_learn_entry {
+            &["of", "per"]
+        } else {
+            &[]
+        };
+        if self.open_paren().is_some() && matches!(self.after_found(), ":" | "=") {
+            return Some(comma_before(self.span(), word, self.before));
+        }
+        if after_unit && expected::words(&[Rule::wrong_unit]).is_empty() && is_unit_word(word) {
+            let drop = self.before.map_or(self.span(), |before| {
+                Span::new(self.file, before.end, self.found.end)
+            });
+            return Some(
+                Diagnostic::new(Code::E0114, self.span(), "a number has one unit")
+                    .label(format!("`{}` says it already", self.before()))
+                    .fix(format!("drop `{word}`"), drop, "", Applicability::Unsafe),
+            );
+        }
+        // `2 m = true`: a unit before `=` is taken for the beginning of the next line.
+        let next = self.next().filter(|next| next.of(self.text) == "=");
+        if let Some(next) = next.filter(|_| UNITS.contains(&word) && after_number) {
+            let span = self.span_of(next);
+            return Some(
+                Diagnostic::new(
+                    Code::E0109,
+                    span,
+                    "two values are compared with `==`, not with `=`",
+                )
+                .label("write `==`")
+                .fix("write `==`", span, "==", Applicability::Unsafe),
+            );
+        }
+        Some(no_such_unit(self.span(), word, links))
+    }
+
+    /// `2,000`: digits in groups.
+    pub(super) fn grouped_digits(&self) -> Option<Diagnostic> {
+        let (first, comma) = (self.second_before?, self.before?);
+        let touching = first.end == comma.start && comma.end == self.found.start;
+        let is_group = self.found.kind == Kind::Number && self.found().len() == 3;
+        if !touching || !is_group || first.kind != Kind::Number || comma.of(self.text) != "," {
+            return None;
+        }
+        let span = self.span_of(first).to(self.span());
+        let digits = format!("{}_{}", first.of(self.text), self.found());
+        let message = "digits are not grouped by commas";
+        Some(
+            Diagnostic::new(Code::E0124, span, message)
+                .label(format!("write `{digits}`"))
+                .fix(
+                    format!("write `{digits}`"),
+                    span,
+                    digits,
+                    Applicability::Safe,
+                ),
+        )
+    }
+}
+
+/// Whether a word is a unit as other languages spell it.
+fn is_unit_word(word: &str) -> bool {
+    let plain = word.trim_end_matches('s');
+    UNITS.contains(&word)
+        || matches!(
+            plain,
+            "percent"
+                | "meter"
+                | "metre"
+                | "second"
+                | "sec"
+                | "minute"
+                | "hour"
+                | "degree"
+                | "radian"
+        )
+}
+
+/// The message for a comma that is missing before a word of arguments.
+fn comma_before(span: Span, word: &str, before: Option<Token>) -> Diagnostic {
+    let at = before.map_or(span.before(), |before| Span {
+        start: u32::try_from(before.end).unwrap_or(span.start),
+        end: u32::try_from(before.end).unwrap_or(span.start),
+        ..span
+    });
+    Diagnostic::new(
+        Code::E0112,
+        span,
+        format!("a comma is missing before `{word}`"),
+    )
+    .label("this begins another one")
+    .fix("put a comma", at, ",", Applicability::Safe)
+}
+
+/// The units, as advice.
+pub(in crate::syntax) fn units_note() -> String {
+    format!(
+        "the units are {}",
+        UNITS.map(|unit| format!("`{unit}`")).join(", ")
+    )
+}
+
+/// The message for a word that follows a number and is not a unit; `others` may follow a number too.
+pub(in crate::syntax) fn no_such_unit(span: Span, word: &str, others: &[&str]) -> Diagnostic {
+    let diagnostic = Diagnostic::new(Code::E0114, span, format!("`{word}` is not a unit"));
+    let units = UNITS.into_iter().filter(|unit| unit.len() > 1);
+    let foreign = match word {
+        "step" | "steps" | "frame" | "frames" | "iterations" => Some("ticks"),
+        "secs" | "second" | "seconds" => Some("s"),
+        "kmh" | "kph" | "kmph" => Some("km/h"),
+        "mps" => Some("m/s"),
+        "dps" => Some("deg/s"),
+        _ => None,
+    };
+    if matches!(
+        word,
+        "kg" | "g" | "N" | "Nm" | "V" | "A" | "W" | "J" | "lb" | "lbs" | "mAh" | "Wh"
+    ) {
+        return diagnostic
+            .label("this follows a number")
+            .help("there are lengths, times and angles, and what is made of them: no masses, no forces, no currents")
+            .note(units_note());
+    }
+    let near = foreign
+        .or_else(|| suggest::nearest(word, units.chain(others.iter().copied())))
+        .or_else(|| {
+            UNITS
+                .into_iter()
+                .find(|unit| unit.eq_ignore_ascii_case(word))
+        });
+    let diagnostic = match near {
+        Some(near) => diagnostic.label(format!("did you mean `{near}`?")).fix(
+            format!("write `{near}`"),
+            span,
+            near,
+            Applicability::Unsafe,
+        ),
+        None => diagnostic
+            .label("this follows a number")
+            .help("a plain number stands without a unit"),
+    };
+    diagnostic.note(units_note())
+}
