@@ -2,7 +2,8 @@
 //!
 //! A problem takes these steps:
 //!
-//! 1. `split`: ON cubes become their minterms where these are few, since several primes may cover one cube together.
+//! 1. `split`: ON cubes become their minterms where these are few, since several primes may cover one cube together. Where
+//!    there are more, smaller parts of the cubes are tried beside them.
 //! 2. `core`: a large table is minimised by a sample of its rows, which grows by the rows that the cover gets wrong.
 //! 3. `instance`: the rows of the sample, ON and OFF apart, and the pool of the primes that are found for them.
 //! 4. `exact`, for small problems: all primes, and the cheapest choice among them.
@@ -99,7 +100,35 @@ pub fn minimise_within(
 ) -> Option<Solution> {
     match split::split(columns, on, off) {
         Some((columns, on, off)) => by_core(&columns, &on, &off, effort, account),
-        None => by_core(columns, on, off, effort, account),
+        None => {
+            let whole = by_core(columns, on, off, effort, account)?;
+            Some(by_parts(columns, on, off, whole, effort, account))
+        }
+    }
+}
+
+/// The solution, or that of the same problem with finer ON rows if its cover costs less: there several primes may cover an
+/// ON cube together.
+fn by_parts(
+    columns: &Columns,
+    on: &Bits,
+    off: &Bits,
+    whole: Solution,
+    effort: &Effort,
+    account: &Account,
+) -> Solution {
+    let cost = |solution: &Solution| (solution.cover.cubes().len(), solution.cover.literals());
+    if whole.proved || effort.rounds == 0 || account.is_spent() {
+        return whole;
+    }
+    let finer = split::finer(columns, on, off, &whole.cover);
+    let finer = finer.and_then(|(columns, on, off)| {
+        account.spend((columns.atoms() * columns.rows()) as u64);
+        by_core(&columns, &on, &off, effort, account)
+    });
+    match finer {
+        Some(finer) if finer.proved || cost(&finer) < cost(&whole) => finer,
+        _ => whole,
     }
 }
 

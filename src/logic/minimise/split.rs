@@ -1,32 +1,45 @@
-//! ON cubes as their minterms.
+//! ON cubes in smaller parts.
 //!
-//! A cube that lies in no prime, or only in long ones, may be covered by several primes together. Few minterms replace the
-//! cubes; where there are many, one prime covers each ON cube.
+//! A cube that lies in no prime, or only in long ones, may be covered by several primes together. Few minterms take the
+//! places of the cubes; where there are more, but not too many, they are tried beside the cubes. What is larger still is
+//! cut where the primes of a cover cut it.
 
 use crate::logic::bits::Bits;
 use crate::logic::columns::Columns;
+use crate::logic::cube::{Cover, Cube};
 use crate::logic::packed::Packed;
 use std::collections::BTreeSet;
 
 /// The most minterms that replace cubes.
 const MINTERMS: usize = 2_048;
+/// The most minterms, or parts of cubes, that are tried beside them.
+const PARTS: usize = 16_384;
+
+/// A problem with other rows: the table, the ON rows and the OFF rows.
+pub(super) type Split = (Columns, Bits, Bits);
 
 /// The same problem with minterms for ON rows; `None` where they are minterms already, or too many.
-pub(super) fn split(columns: &Columns, on: &Bits, off: &Bits) -> Option<(Columns, Bits, Bits)> {
+pub(super) fn split(columns: &Columns, on: &Bits, off: &Bits) -> Option<Split> {
+    minterms(columns, on, off, MINTERMS)
+}
+
+/// The same problem with smaller ON rows: minterms, or what the primes of a cover cut the cubes into. `None` where neither
+/// changes anything, or there would be too many.
+pub(super) fn finer(columns: &Columns, on: &Bits, off: &Bits, cover: &Cover) -> Option<Split> {
+    if columns.are_minterms() {
+        return None;
+    }
+    minterms(columns, on, off, PARTS).or_else(|| cut(columns, on, off, cover))
+}
+
+fn minterms(columns: &Columns, on: &Bits, off: &Bits, most: usize) -> Option<Split> {
     let atoms = columns.atoms();
-    let cube = |row| {
-        let mut cube = Packed::universe(atoms);
-        for literal in columns.literals_of(row) {
-            cube.set(literal.atom, Some(literal.positive));
-        }
-        cube
-    };
-    let ons: Vec<Packed> = on.iter().map(cube).collect();
+    let ons: Vec<Packed> = on.iter().map(|row| cube(columns, row)).collect();
     let mut all: usize = 0;
     for cube in &ons {
         let free = u32::try_from(atoms - cube.literals()).ok()?;
         all = all.checked_add(1_usize.checked_shl(free)?)?;
-        if all > MINTERMS {
+        if all > most {
             return None;
         }
     }
@@ -34,13 +47,55 @@ pub(super) fn split(columns: &Columns, on: &Bits, off: &Bits) -> Option<(Columns
         return None;
     }
     let minterms = ons.into_iter().flat_map(|cube| cube.minterms(atoms));
-    let minterms: BTreeSet<Packed> = minterms.collect();
-    let ones = minterms.len();
-    let rows: Vec<Packed> = minterms.into_iter().chain(off.iter().map(cube)).collect();
+    Some(with_parts(columns, minterms.collect(), off))
+}
+
+/// Each ON cube in disjoint parts, of which each lies wholly in a prime of the cover or does not meet it.
+fn cut(columns: &Columns, on: &Bits, off: &Bits, cover: &Cover) -> Option<Split> {
+    let atoms = columns.atoms();
+    let mut parts: Vec<Packed> = on.iter().map(|row| cube(columns, row)).collect();
+    let before = parts.len();
+    for prime in cover.cubes() {
+        let prime = packed(atoms, prime);
+        let mut smaller = Vec::with_capacity(parts.len());
+        for part in parts {
+            if part.meets(&prime) && !prime.contains(&part) {
+                smaller.push(part.and(&prime));
+                smaller.extend(part.minus(&prime));
+            } else {
+                smaller.push(part);
+            }
+        }
+        parts = smaller;
+        if parts.len() > PARTS {
+            return None;
+        }
+    }
+    (parts.len() > before).then(|| with_parts(columns, parts.into_iter().collect(), off))
+}
+
+/// A table of these ON rows and of the OFF rows as they are.
+fn with_parts(columns: &Columns, parts: BTreeSet<Packed>, off: &Bits) -> Split {
+    let ones = parts.len();
+    let offs = off.iter().map(|row| cube(columns, row));
+    let rows: Vec<Packed> = parts.into_iter().chain(offs).collect();
     let set = |range| Bits::collect(rows.len(), range);
-    Some((
-        Columns::of(atoms, &rows),
+    (
+        Columns::of(columns.atoms(), &rows),
         set(0..ones),
         set(ones..rows.len()),
-    ))
+    )
+}
+
+/// A row as a cube.
+fn cube(columns: &Columns, row: usize) -> Packed {
+    packed(columns.atoms(), &Cube::new(columns.literals_of(row)))
+}
+
+fn packed(atoms: usize, cube: &Cube) -> Packed {
+    let mut packed = Packed::universe(atoms);
+    for literal in cube.literals() {
+        packed.set(literal.atom, Some(literal.positive));
+    }
+    packed
 }

@@ -154,3 +154,36 @@ fn a_complement_that_is_too_large_is_refused() {
         1 << 10
     );
 }
+
+/// Where `b` and `c` hold, either `a` or `not a` decides: two cubes cover that row together, however many minterms it has.
+#[test]
+fn several_primes_cover_a_large_cube_together() {
+    let cubes = |rows: &[&[(usize, bool)]], atoms| {
+        let row = |row: &&[(usize, bool)]| {
+            let mut cube = Packed::universe(atoms);
+            row.iter()
+                .for_each(|(atom, value)| cube.set(*atom, Some(*value)));
+            cube
+        };
+        rows.iter().map(row).collect::<Vec<Packed>>()
+    };
+    let (a, b, c) = (0, 1, 2);
+    let rows: [&[(usize, bool)]; 5] = [
+        &[(b, true), (c, true)],
+        &[(a, true), (b, true), (c, false)],
+        &[(a, false), (b, false), (c, true)],
+        &[(a, true), (b, false)],
+        &[(a, false), (c, false)],
+    ];
+    for atoms in [10, 14, 30, 100] {
+        let columns = Columns::of(atoms, &cubes(&rows, atoms));
+        let set = |range: std::ops::Range<usize>| Bits::collect(5, range);
+        let cover = minimise_with(&columns, &set(0..3), &set(3..5), &Effort::default()).cover;
+        assert_eq!(
+            (cover.cubes().len(), cover.literals()),
+            (2, 4),
+            "{atoms} atoms: {cover:?}"
+        );
+        assert!(columns.cover_meets(&cover, &set(3..5)).is_empty());
+    }
+}
