@@ -121,6 +121,32 @@ pub(super) fn load(path: &str, say: &Reporter) -> Result<Loaded, Failure> {
     Ok(loaded)
 }
 
+/// Writes new texts over files of a program, without a stop between them. What somebody has written there since the program
+/// was read is kept: then none is written.
+pub(super) fn rewrite(loaded: &Loaded, texts: &[(String, String)]) -> Result<(), Failure> {
+    let read = |name: &str| {
+        loaded
+            .sources
+            .iter()
+            .find(|(_, source)| source.name == name)
+    };
+    let is_as_read = |name: &str| {
+        let now = std::fs::read(name).ok();
+        read(name).is_some_and(|(_, source)| now.as_deref() == Some(source.text.as_bytes()))
+    };
+    interrupt::uninterrupted(|| {
+        if let Some((name, _)) = texts.iter().find(|(name, _)| !is_as_read(name)) {
+            return Err(complain(&format!(
+                "{name}: it has changed since this command read it, and is left as it is: run the command again"
+            )));
+        }
+        texts.iter().try_for_each(|(name, text)| {
+            file::write(&System, Path::new(name), text.as_bytes())
+                .map_err(|error| complain(&format!("{name}: {error}")))
+        })
+    })
+}
+
 /// Writes a whole file or nothing. A device or a pipe is written to directly.
 pub(super) fn write(path: &Path, text: &str) -> Result<(), Failure> {
     let irregular = std::fs::metadata(path).is_ok_and(|found| !found.is_file());

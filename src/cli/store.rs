@@ -7,6 +7,7 @@ pub mod disk;
 pub mod file;
 pub mod folder;
 pub mod manifest;
+pub mod project;
 mod stale;
 
 pub use checkpoint::Checkpoint;

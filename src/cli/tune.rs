@@ -58,7 +58,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
         }
         let loaded = files::load(&arguments.file, say)?;
         let tuned = search(&loaded, &arguments.options(&Forgetful), say)?;
-        return say_all(arguments, &tuned);
+        return say_all(arguments, &loaded, &tuned);
     };
     let loaded = files::load(&arguments.file, say)?;
     let folder = Folder::new(place);
@@ -78,7 +78,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     let files: Vec<(String, String)> = tuned_files(&tuned).collect();
     interrupt::uninterrupted(|| folder.add(&System, &files))
         .map_err(|error| files::complain(&error.to_string()))?;
-    say_all(arguments, &tuned)
+    say_all(arguments, &loaded, &tuned)
 }
 
 impl Arguments {
@@ -118,10 +118,10 @@ fn search(loaded: &Loaded, options: &Options, say: &Reporter) -> Result<Outcome,
 }
 
 /// Fixes the program if that is asked for, and prints what was found.
-fn say_all(arguments: &Arguments, tuned: &Outcome) -> Result<(), Failure> {
+fn say_all(arguments: &Arguments, loaded: &Loaded, tuned: &Outcome) -> Result<(), Failure> {
     if arguments.fix {
-        for (name, text) in &tuned.fixed {
-            files::write(Path::new(name), text)?;
+        files::rewrite(loaded, &tuned.fixed)?;
+        for (name, _) in &tuned.fixed {
             tell(&format!("written to {name}"));
         }
     }

@@ -5,6 +5,7 @@ mod folders;
 mod kills;
 mod searches;
 mod states;
+mod writers;
 
 use std::collections::BTreeMap;
 use std::fs;

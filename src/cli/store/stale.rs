@@ -12,6 +12,9 @@ const FILE: &str = ".btc-file-";
 /// What the names of folders begin with in which a result is made.
 const STAGE: &str = ".btc-stage-";
 
+/// What the names of folders begin with that are made before they take their place, and have nothing of anyone else in them.
+const DRAFT: &str = ".btc-draft-";
+
 /// What is added to the name of a file that is kept while another takes its place.
 pub(super) const BACKUP: &str = ".btc-old";
 
@@ -25,14 +28,21 @@ pub(super) fn file(disk: &dyn Disk, folder: &Path) -> io::Result<(PathBuf, File)
 
 /// Makes a folder for a result within another folder, locked where folders can be.
 pub(super) fn stage(disk: &dyn Disk, folder: &Path) -> io::Result<(PathBuf, Option<File>)> {
-    fresh(folder, STAGE, |path| {
-        disk.make_folder(path)?;
-        let held = File::open(path).ok();
-        if let Some(held) = &held {
-            disk::hold(held, path)?;
-        }
-        Ok(held)
-    })
+    fresh(folder, STAGE, |path| held_folder(disk, path))
+}
+
+/// Makes a folder within another folder that is to take another place as a whole, locked where folders can be.
+pub(super) fn draft(disk: &dyn Disk, folder: &Path) -> io::Result<(PathBuf, Option<File>)> {
+    fresh(folder, DRAFT, |path| held_folder(disk, path))
+}
+
+fn held_folder(disk: &dyn Disk, path: &Path) -> io::Result<Option<File>> {
+    disk.make_folder(path)?;
+    let held = File::open(path).ok();
+    if let Some(held) = &held {
+        disk::hold(held, path)?;
+    }
+    Ok(held)
 }
 
 /// Makes something under a name that nothing has.
@@ -63,7 +73,8 @@ pub(super) fn sweep(disk: &dyn Disk, folder: &Path) {
             continue;
         };
         let (file, stage) = (found.is_file() && is(FILE), found.is_dir() && is(STAGE));
-        if !file && !stage {
+        let draft = found.is_dir() && is(DRAFT);
+        if !file && !stage && !draft {
             continue;
         }
         // The lock is kept until the name is gone, so that who waits for it sees that.
@@ -75,10 +86,24 @@ pub(super) fn sweep(disk: &dyn Disk, folder: &Path) {
         }
         if file {
             let _ = disk.remove_file(&path);
+        } else if draft {
+            discard(disk, &path);
         } else {
             clear(disk, &path);
         }
     }
+}
+
+/// Removes a draft with all that is in it.
+pub(super) fn discard(disk: &dyn Disk, draft: &Path) {
+    for path in fs::read_dir(draft).into_iter().flatten().flatten() {
+        let path = path.path();
+        match fs::symlink_metadata(&path).is_ok_and(|found| found.is_dir()) {
+            true => discard(disk, &path),
+            false => drop(disk.remove_file(&path)),
+        }
+    }
+    let _ = disk.remove_folder(draft);
 }
 
 /// Whether a name is one of those that [`fresh`] makes.

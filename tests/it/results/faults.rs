@@ -3,7 +3,7 @@
 
 use super::{files, leftovers};
 use btc::cli::store::manifest::Manifest;
-use btc::cli::store::{Disk, Folder, System, file};
+use btc::cli::store::{Disk, Folder, System, file, project};
 use std::collections::BTreeMap;
 use std::fs::{self, File, Permissions};
 use std::io;
@@ -237,6 +237,45 @@ fn a_file_is_the_old_or_the_new() {
             }
         }
     }
+}
+
+#[test]
+fn a_project_is_there_as_a_whole_or_not_at_all() {
+    let texts = [("a.bt", "a"), ("deep/down/b.yml", "b"), (".hidden", "c")];
+    let is_whole = |place: &Path| {
+        let read = |(name, text): &(&str, &str)| {
+            fs::read_to_string(place.join(name)).is_ok_and(|found| found == *text)
+        };
+        texts.iter().all(read)
+    };
+    let mut faults = 0;
+    for how in [Failing::Once, Failing::Forever] {
+        for at in 0.. {
+            let folder = tempfile::tempdir().unwrap();
+            let around = folder.path().join("around");
+            let place = around.join("project");
+            let disk = Faulty::new(at, how, true);
+            let done = project::make(&disk, &place, &texts);
+            assert_eq!(done.is_ok(), is_whole(&place), "{how:?}, call {at}");
+            assert_eq!(done.is_ok(), place.exists(), "{how:?}, call {at}");
+            // A process that another test starts holds all locks for a moment.
+            for _ in 0..100 {
+                let _ = fs::remove_dir_all(&place);
+                project::make(&System, &place, &texts).unwrap();
+                assert!(is_whole(&place));
+                if leftovers(&around).is_empty() {
+                    break;
+                }
+                std::thread::sleep(std::time::Duration::from_millis(5));
+            }
+            assert!(leftovers(&around).is_empty(), "{how:?}, call {at}");
+            if !disk.was_met() {
+                break;
+            }
+            faults += 1;
+        }
+    }
+    assert!(faults > 20, "{faults}");
 }
 
 /// A file that somebody is writing is not taken for stale.
