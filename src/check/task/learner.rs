@@ -117,13 +117,11 @@ impl<'a> Checker<'a> {
 
     /// Reports what is to be done in unseen minterms and is none of the choices of the task.
     fn chosen_if_unseen(&mut self, learn: &'a ast::Learn, built: &Learner, task: Option<Id<Task>>) {
-        let settings = learn.entries.iter().filter_map(|entry| match entry {
+        let mut settings = learn.entries.iter().filter_map(|entry| match entry {
             LearnEntry::Setting(setting) => Some(setting),
             _ => None,
         });
-        let setting = settings
-            .filter(|setting| setting.name.name == "unseen")
-            .last();
+        let setting = settings.rfind(|setting| setting.name.name == "unseen");
         let (Some(setting), Some(unseen), Some(task)) = (setting, built.unseen, task) else {
             return;
         };
