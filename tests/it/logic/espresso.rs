@@ -4,14 +4,36 @@
 //! are drawn again here, by the hash of their PLAs; seconds are of processor time.
 
 use crate::functions::{Kind, pla};
+use btc::logic::packed::Packed;
 use btc::logic::pla::read;
-use btc::logic::{Effort, minimise_with};
+use btc::logic::{Columns, Cover, Cube, Effort, minimise_with};
 use sha2::{Digest, Sha256};
 
 const RECORDED: &str = include_str!("../../cases/minimise/espresso.csv");
 
 /// The most rows of a function that is minimised in a test.
 const ROWS: usize = 300;
+
+/// Whether the cubes of a cover cover a row together.
+fn is_covered(columns: &Columns, row: usize, cover: &Cover) -> bool {
+    let packed = |cube: &Cube| {
+        let mut packed = Packed::universe(columns.atoms());
+        for literal in cube.literals() {
+            packed.set(literal.atom, Some(literal.positive));
+        }
+        packed
+    };
+    let mut left = vec![packed(&Cube::new(columns.literals_of(row)))];
+    for cube in cover.cubes() {
+        let cube = packed(cube);
+        let parts = left.into_iter().flat_map(|part| match part.meets(&cube) {
+            true => part.minus(&cube),
+            false => vec![part],
+        });
+        left = parts.collect();
+    }
+    left.is_empty()
+}
 
 #[test]
 fn covers_are_smaller_than_those_of_espresso() {
@@ -36,7 +58,9 @@ fn covers_are_smaller_than_those_of_espresso() {
         let function = pla.function(&columns, 0, 0).unwrap();
         let (on, off) = (&function.on, &function.off);
         let cover = minimise_with(&columns, on, off, &Effort::default()).cover;
-        assert_eq!(columns.cover_rows(&cover, on), *on, "{line}");
+        for row in on.minus(&columns.cover_rows(&cover, on)).iter() {
+            assert!(is_covered(&columns, row, &cover), "{line}: row {row}");
+        }
         assert!(columns.cover_meets(&cover, off).is_empty(), "{line}");
 
         let literals: usize = literals.parse().unwrap();
