@@ -177,7 +177,10 @@ fn one(
             files::print(&match arguments.format {
                 Form::Json => scripted::missing(&shown),
                 _ => {
-                    format!("{shown}: there is no snapshot yet; `btc test --accept` writes it\n")
+                    format!(
+                        "{}: there is no snapshot yet; `btc test --accept` writes it\n",
+                        render::visible(&shown)
+                    )
                 }
             })?;
             count.failed += 1;
@@ -192,7 +195,7 @@ fn one(
         count.passed += 1;
         files::print(&match arguments.format {
             Form::Json => text,
-            _ => format!("{shown}: ok\n"),
+            _ => format!("{}: ok\n", render::visible(&shown)),
         })?;
         return Ok(learned);
     }

@@ -51,7 +51,9 @@ pub(super) fn skip(
     due.iter().try_for_each(|due| {
         let (title, tree) = (&due.test.title, &due.test.tree);
         files::print(&format!(
-            "{path}: {title}: skipped, for `{tree}` is not learned\n"
+            "{}: {}: skipped, for `{tree}` is not learned\n",
+            render::visible(path),
+            render::visible(title)
         ))
     })
 }
