@@ -6,13 +6,14 @@
 //! was not is counted, and the next round knows it.
 
 use super::evidence::{Cell, Evidence, Sight};
-use super::ground::{self, Ground};
+use super::ground::{Ground, does_more_harm};
 use crate::checkpoint::Part;
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::learn::episode::{Episode, play, play_all};
 use crate::learn::extract::{Decided, Decisions};
 use crate::learn::greedy::Greedy;
+use crate::learn::improve::is_worth_it;
 use crate::learn::process::{Key, World};
 use crate::learn::q_table::QTable;
 use crate::learn::simulated::Purpose;
@@ -30,12 +31,11 @@ const DOUBTS: [f64; 3] = [4.0, 15.0, 40.0];
 /// The standard errors of its worth by which a choice is held for worse than it looks.
 const CARES: [f64; 2] = [0.0, 1.5];
 /// The stage from which on a policy has to look better.
-const TELLING: usize = 8;
+const TELLING: usize = 16;
 /// Policies of a round that are counted under, whether they turn out good or not.
 const COUNTED: usize = 3;
-/// The gain that a policy must have, in standard errors and as a part of the return.
+/// The gain that a policy must have, in standard errors.
 const SURE: f64 = 2.0;
-const WORTH: f64 = 0.01;
 /// Rounds without a better policy before it is enough.
 const FAILURES: usize = 10;
 /// Rounds without a better policy before the same one is counted under again.
@@ -58,7 +58,7 @@ impl Pace {
     /// Many rounds, in which small gains show.
     pub const THOROUGH: Self = Self {
         collections: 100,
-        stages: [(2, 10), (8, 4), (32, 1)],
+        stages: [(4, 8), (16, 3), (64, 1)],
     };
     /// A few rounds, in which large gains show.
     pub const QUICK: Self = Self {
@@ -146,14 +146,6 @@ struct Halted {
 struct Candidate {
     choices: Choices,
     played: Vec<Episode>,
-}
-
-impl Candidate {
-    /// The mean return.
-    fn returns(&self) -> Mean {
-        let totals: Vec<f64> = self.played.iter().map(|it| it.total).collect();
-        Mean::of(&totals)
-    }
 }
 
 impl<W: World> Iteration<'_, '_, W> {
@@ -262,7 +254,7 @@ impl<W: World> Iteration<'_, '_, W> {
             start,
             TELLING,
         );
-        let gain = self.gain(&acting, base);
+        let gain = gain(&acting, base);
         if gain.mean >= -error(&gain) {
             *base = acting;
         }
@@ -364,11 +356,11 @@ impl<W: World> Iteration<'_, '_, W> {
             used += self.play(evidence, standing.iter_mut(), start, episodes);
             if episodes >= TELLING {
                 standing.retain(|candidate| {
-                    let gain = self.gain(candidate, base);
+                    let gain = gain(candidate, base);
                     gain.mean + 0.5 * error(&gain) > 0.0
                 });
             }
-            let worth = |candidate: &Candidate| self.gain(candidate, base).mean;
+            let worth = |candidate: &Candidate| gain(candidate, base).mean;
             standing.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
             standing.truncate(stay);
             if stage == 0 {
@@ -378,30 +370,19 @@ impl<W: World> Iteration<'_, '_, W> {
                 }
             }
         }
-        let least = WORTH * base.returns().mean.abs();
         let surely = |candidate: &Candidate| {
-            let gain = self.gain(candidate, base);
-            gain.mean > least.max(SURE * error(&gain))
+            let totals = |played: &[Episode]| -> Vec<f64> {
+                played.iter().map(|episode| episode.total).collect()
+            };
+            let harms = |played: &[Episode]| -> u64 {
+                let harms = played.iter().map(|episode| self.ground.harm(episode));
+                harms.sum()
+            };
+            let (own, other) = (harms(&candidate.played), harms(&base.played));
+            !does_more_harm([own, other], 1.0)
+                && is_worth_it(&totals(&candidate.played), &totals(&base.played), SURE)
         };
         (standing.into_iter().next().filter(surely), used)
-    }
-
-    /// How much more a policy returns than another, episode by episode, less what its harm costs more. An episode with harm
-    /// costs one return: where any harm is too much, a policy is never found that does some at first and is mended then.
-    fn gain(&self, candidate: &Candidate, base: &Candidate) -> Mean {
-        let pairs = candidate.played.iter().zip(&base.played);
-        let gains: Vec<f64> = pairs.map(|(own, other)| own.total - other.total).collect();
-        let gain = Mean::of(&gains);
-        let rate = |candidate: &Candidate| {
-            let harms = candidate.played.iter().map(|it| self.ground.harm(it));
-            harms.sum::<u64>() as f64 / candidate.played.len().max(1) as f64
-        };
-        let one = ground::scale(&base.returns(), base.played.len());
-        let cost = one * (rate(candidate) - rate(base));
-        Mean {
-            mean: gain.mean - cost,
-            ci95: gain.ci95.map(|bound| bound - cost),
-        }
     }
 
     /// Lets policies play up to a number of episodes, on all threads, and counts what came of it and the ticks.
@@ -459,4 +440,11 @@ impl<W: World> Iteration<'_, '_, W> {
         });
         Greedy::of(behaviors.collect(), self.unseen)
     }
+}
+
+/// How much more a policy returns than another, episode by episode.
+fn gain(candidate: &Candidate, base: &Candidate) -> Mean {
+    let pairs = candidate.played.iter().zip(&base.played);
+    let gains: Vec<f64> = pairs.map(|(own, other)| own.total - other.total).collect();
+    Mean::of(&gains)
 }
