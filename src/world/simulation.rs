@@ -12,12 +12,10 @@ use super::script::Other;
 use crate::eval::{Fixed, Register, Registers, run, status};
 use crate::geometry::{Circle, Point};
 use crate::ir::Id;
-use crate::ir::expr;
 use crate::ir::law::Behavior;
 use crate::ir::program::{Event, State};
 use crate::ir::tree::Status;
 use serde::{Deserialize, Serialize};
-use std::cmp::Ordering;
 
 /// Why an episode ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -47,22 +45,13 @@ pub struct Tick {
     pub lost: bool,
 }
 
-/// What came of going on with a behaviour.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Gone {
-    /// It has answered otherwise than that it runs, in a tick that has still to be ended.
-    Answered(Status),
-    /// It runs, and a tick has ended.
-    Ended(Tick),
-}
-
 /// A running instance of a behaviour.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Instance {
     /// The last tick in which ticking it would resume it; later, it starts.
-    until: u64,
+    pub(super) until: u64,
     /// The tick in which it started.
-    since: u64,
+    pub(super) since: u64,
 }
 
 /// A run of a world. Nothing is allocated between episodes or ticks.
@@ -77,18 +66,18 @@ pub struct Simulation<'a> {
     /// The other robots.
     pub(super) others: Vec<Other<'a>>,
     /// All robots where they stand, the acting one first; kept so that nothing is allocated in a tick.
-    robots: Vec<Circle>,
+    pub(super) robots: Vec<Circle>,
     /// The terminations of other robots' behaviours in this tick.
-    elsewhere: Vec<(Id<Behavior>, Status)>,
+    pub(super) elsewhere: Vec<(Id<Behavior>, Status)>,
     /// The behaviours of which it is asked whether they run, with their registers.
-    watched: Vec<(Id<Behavior>, Register)>,
+    pub(super) watched: Vec<(Id<Behavior>, Register)>,
     /// The obstacles as they stand now; where no wall may open, nothing is kept here.
     pub(super) scene: Option<Box<Scene>>,
     pub(super) counts: Vec<u64>,
     pub(super) atoms: u128,
     pub(super) slack: f64,
     /// The registers of the lines of sight to fixed points.
-    sights: Vec<Register>,
+    pub(super) sights: Vec<Register>,
     /// The number of the tick, from 1; 0 before the first.
     pub(super) now: u64,
     pub(super) limit: u64,
@@ -155,6 +144,13 @@ impl<'a> Simulation<'a> {
             false => 0.0,
         };
         self.registers.set(Fixed::Clear.register(), clear);
+    }
+
+    /// Forgets what is remembered of distances and lines of sight, for every robot: nothing changes by it but the time.
+    pub fn forget(&mut self) {
+        self.slack = 0.0;
+        self.publish_clear();
+        self.forget_sights();
     }
 
     /// What was seen holds no more, for any robot.
@@ -230,7 +226,7 @@ impl<'a> Simulation<'a> {
     }
 
     #[cold]
-    fn terminate(&mut self, behavior: Id<Behavior>, status: Status) {
+    pub(super) fn terminate(&mut self, behavior: Id<Behavior>, status: Status) {
         if let Some(instance) = self.instances.get_mut(behavior.index()) {
             instance.until = 0;
         }
@@ -240,99 +236,13 @@ impl<'a> Simulation<'a> {
         self.terminations.push((behavior, status));
     }
 
-    /// Goes on with a behaviour alone, for at most so many ticks: until it answers otherwise than that it runs, or a tick ends that
-    /// changes an atom or the course of things. `pays` is told of all ticks before that one. Also says how many ticks have begun.
-    #[inline]
-    pub fn go_on(
-        &mut self,
-        behavior: Id<Behavior>,
-        most: u64,
-        mut pays: impl FnMut(f64),
-    ) -> (u64, Gone) {
-        let from = self.now;
-        let last = from.saturating_add(most).min(self.limit);
-        let plain = self.is_plain();
-        loop {
-            if plain
-                && self.now > from
-                && let Some(answered) = self.run_on(behavior, last, &mut pays)
-            {
-                return (self.now - from, answered);
-            }
-            self.begin_tick();
-            let status = self.act(behavior);
-            if status != Status::Running {
-                return (self.now - from, Gone::Answered(status));
-            }
-            if plain {
-                self.go();
-                let quiet = self.ends_quietly();
-                if quiet && self.body.atoms == self.atoms && self.now < last {
-                    pays(self.flow());
-                    continue;
-                }
-                return (self.now - from, Gone::Ended(self.outcome(quiet)));
-            }
-            let before = self.atoms;
-            let tick = self.end_tick();
-            if self.atoms != before || tick.closed || tick.end.is_some() || self.now >= last {
-                return (self.now - from, Gone::Ended(tick));
-            }
-            pays(tick.flow);
-        }
-    }
-
-    /// Goes on with a behaviour that has run in the tick before, in which nothing has happened, in a plain world. None if that
-    /// cannot be done in one go, and nothing has been done.
-    #[inline]
-    fn run_on(
-        &mut self,
-        behavior: Id<Behavior>,
-        last: u64,
-        pays: &mut impl FnMut(f64),
-    ) -> Option<Gone> {
-        let simulator = self.simulator;
-        let routine = simulator.compiled.routines.get(behavior.index())?;
-        let again = routine.again.as_ref()?;
-        let since = self.instances.get(behavior.index())?.since;
-        let gone = loop {
-            self.now += 1;
-            self.rest();
-            if routine.timed {
-                let elapsed = (self.now - since) as f64 * simulator.tick;
-                self.registers.set(Fixed::Elapsed.register(), elapsed);
-            }
-            let answer = status(run(again, &mut self.registers, &mut self.body));
-            if answer != Status::Running {
-                self.terminate(behavior, answer);
-                return Some(Gone::Answered(answer));
-            }
-            self.go();
-            let quiet = self.ends_quietly();
-            if !quiet || self.body.atoms != self.atoms || self.now >= last {
-                break Gone::Ended(self.outcome(quiet));
-            }
-            pays(self.flow());
-        };
-        if let Some(instance) = self.instances.get_mut(behavior.index()) {
-            instance.until = self.now + 1;
-        }
-        Some(gone)
-    }
-
     /// The wheels rest until they are told otherwise, and what was noise is none.
     #[inline(always)]
-    fn rest(&mut self) {
+    pub(super) fn rest(&mut self) {
         for fixed in [Fixed::Speed, Fixed::Strafe, Fixed::Turn] {
             self.registers.set(fixed.register(), 0.0);
         }
         self.body.tick();
-    }
-
-    /// Whether there is nothing in the world but the robot and what always stands, and nobody asks what runs.
-    #[inline]
-    fn is_plain(&self) -> bool {
-        self.others.is_empty() && self.scene.is_none() && self.watched.is_empty()
     }
 
     /// Ends a tick: the robot moves, then history, events, effects, predicates, end and reward (steps 4 to 8).
@@ -362,7 +272,7 @@ impl<'a> Simulation<'a> {
 
     /// Whether nothing happens in this tick, in which nothing has ended; what then is to be done is done.
     #[inline]
-    fn ends_quietly(&mut self) -> bool {
+    pub(super) fn ends_quietly(&mut self) -> bool {
         self.body.atoms = self.history.bits;
         let quiet = &self.simulator.compiled.quiet;
         run(quiet, &mut self.registers, &mut self.body) != NOT_QUIET
@@ -370,7 +280,7 @@ impl<'a> Simulation<'a> {
 
     /// What the tick pays, whatever happens in it.
     #[inline]
-    fn flow(&self) -> f64 {
+    pub(super) fn flow(&self) -> f64 {
         match self.simulator.compiled.flow {
             Some(value) => value,
             None => self.registers.get(Fixed::Flow.register()),
@@ -378,7 +288,7 @@ impl<'a> Simulation<'a> {
     }
 
     /// What the tick led to. `quiet`: nothing has happened, and the tick has ended so already.
-    fn outcome(&mut self, quiet: bool) -> Tick {
+    pub(super) fn outcome(&mut self, quiet: bool) -> Tick {
         let mut tick = Tick {
             changed: false,
             terminated: !self.terminations.is_empty(),
@@ -433,7 +343,7 @@ impl<'a> Simulation<'a> {
 
     /// Moves the robot by the commands of this tick.
     #[inline(always)]
-    fn go(&mut self) {
+    pub(super) fn go(&mut self) {
         let motion = &self.simulator.motion;
         let read = |fixed: Fixed| self.registers.get(fixed.register());
         let command = Command {
@@ -453,145 +363,6 @@ impl<'a> Simulation<'a> {
             self.body.came_from(before);
             self.publish_pose();
         }
-    }
-
-    /// Ticks the trees of the other robots (step 3), in the order of their declaration.
-    #[cold]
-    fn others_act(&mut self) {
-        let Self {
-            simulator,
-            registers,
-            instances,
-            others,
-            elsewhere,
-            now,
-            sights,
-            ..
-        } = self;
-        for other in others {
-            other.body.tick();
-            let kept = other.enter(registers, sights);
-            let Other {
-                runner,
-                body,
-                atoms,
-                ..
-            } = other;
-            runner.tick_key(*atoms, |behavior| {
-                let instance = instances.get_mut(behavior.index());
-                let status = tick_behavior(simulator, *now, behavior, instance, registers, body);
-                if status != Status::Running {
-                    if let Some(instance) = instances.get_mut(behavior.index()) {
-                        instance.until = 0;
-                    }
-                    if let Some(register) = simulator.layout.ended(behavior, status) {
-                        registers.set(register, 1.0);
-                    }
-                    elsewhere.push((behavior, status));
-                }
-                status
-            });
-            other.leave(registers, sights, kept);
-        }
-        self.body.moved();
-    }
-
-    /// Moves the other robots by their commands, one after the other.
-    #[cold]
-    fn others_go(&mut self) {
-        self.tell_of(0);
-        for index in 0..self.others.len() {
-            let Some(other) = self.others.get_mut(index) else {
-                continue;
-            };
-            let (script, command) = (other.script, other.command);
-            let before = other.body.pose.position;
-            let (scene, bodies, random, pose) = other.body.moving();
-            let motion = &script.motion;
-            let slack = &mut other.slack;
-            let touched = motion.step(scene, bodies, command, random, pose, slack);
-            other.body.came_from(before);
-            other.touching = f64::from(u8::from(touched));
-            self.tell_of(index + 1);
-        }
-        self.body.moved();
-        self.publish_others();
-    }
-
-    /// Tells each robot where the others are.
-    pub(super) fn meet(&mut self) {
-        let mut robots = std::mem::take(&mut self.robots);
-        robots.clear();
-        robots.extend(
-            self.standing()
-                .map(|(center, radius)| Circle { center, radius }),
-        );
-        let but = |own: usize| {
-            let circles = robots.iter().enumerate();
-            circles.filter(move |(at, _)| *at != own).map(|(_, it)| *it)
-        };
-        self.body.bodies.clear();
-        self.body.bodies.extend(but(0));
-        self.body.moved();
-        for (other, own) in self.others.iter_mut().zip(1..) {
-            other.body.bodies.clear();
-            other.body.bodies.extend(but(own));
-        }
-        self.robots = robots;
-    }
-
-    /// Tells all others where a robot is now, by its place among all of them.
-    fn tell_of(&mut self, robot: usize) {
-        let other = robot.checked_sub(1).and_then(|at| self.others.get(at));
-        let center = other
-            .map_or(self.body.pose, |other| other.body.pose)
-            .position;
-        let others = self.others.iter_mut().map(|other| &mut other.body.bodies);
-        let all = std::iter::once(&mut self.body.bodies).chain(others);
-        for (own, bodies) in all.enumerate() {
-            // A robot is not in its own list.
-            let at = match robot.cmp(&own) {
-                Ordering::Less => robot,
-                Ordering::Equal => continue,
-                Ordering::Greater => robot - 1,
-            };
-            if let Some(body) = bodies.get_mut(at) {
-                body.center = center;
-            }
-        }
-    }
-
-    /// Tells the code where all robots are.
-    pub(super) fn publish_others(&mut self) {
-        let others = self.others.iter().map(|other| &other.body.pose);
-        let poses = std::iter::once(&self.body.pose).chain(others);
-        for (index, pose) in poses.enumerate() {
-            let id = Id::new(index);
-            let parts = [pose.position[0], pose.position[1], pose.heading];
-            let coordinates = [expr::Pose::X, expr::Pose::Y, expr::Pose::Heading];
-            for (coordinate, part) in coordinates.into_iter().zip(parts) {
-                let register = self.simulator.layout.robot(id, coordinate);
-                self.registers.set(register, part);
-            }
-        }
-    }
-
-    /// Asks what the trees of the other robots ask.
-    pub(super) fn others_look(&mut self) {
-        let Self {
-            registers,
-            others,
-            sights,
-            ..
-        } = self;
-        for other in others {
-            let kept = other.enter(registers, sights);
-            other.body.atoms = 0;
-            run(&other.script.predicates, registers, &mut other.body);
-            other.atoms = other.body.atoms;
-            other.leave(registers, sights, kept);
-        }
-        self.body.moved();
     }
 
     /// Lets doors open and close by what holds now, then reads the predicates.
@@ -620,7 +391,7 @@ impl<'a> Simulation<'a> {
     }
 
     /// Where all robots are, with their radii, the acting one first.
-    fn standing(&self) -> impl Iterator<Item = (Point, f64)> + '_ {
+    pub(super) fn standing(&self) -> impl Iterator<Item = (Point, f64)> + '_ {
         let others = self.others.iter();
         let others = others.map(|other| (other.body.pose.position, other.script.radius));
         std::iter::once((self.body.pose.position, self.simulator.radius)).chain(others)
@@ -638,9 +409,7 @@ impl<'a> Simulation<'a> {
         for other in &mut self.others {
             other.body.set_scene(scene);
         }
-        self.slack = 0.0;
-        self.publish_clear();
-        self.forget_sights();
+        self.forget();
     }
 
     /// The minterm: a bit for each atom of the task, see [`Simulator::atoms`].
@@ -703,7 +472,7 @@ impl<'a> Simulation<'a> {
 
 /// Ticks a behaviour, in the registers and with the senses of its robot. A behaviour without a law fails.
 #[inline(always)]
-fn tick_behavior(
+pub(super) fn tick_behavior(
     simulator: &Simulator,
     now: u64,
     behavior: Id<Behavior>,

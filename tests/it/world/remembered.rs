@@ -3,16 +3,20 @@
 
 use super::geometry::twin;
 use super::ticks::small_program;
+use crate::program::named;
 use btc::geometry::{Point, Shape};
 use btc::ir::expr::{Binary, Draw, Echo};
 use btc::ir::law::{Block, Stmt};
 use btc::ir::task::StartLine;
 use btc::ir::world::{Contact, DriveKind, Sensor, SensorKind, World};
 use btc::ir::{Expr, Id, Program, Table};
+use btc::learn::episode::Controller;
 use btc::random::Random;
+use btc::trial::play::ready;
 use btc::world::{Gone, Scene, Simulator, Start};
 use proptest::prelude::*;
 use std::f64::consts::PI;
+use std::path::Path;
 
 /// The behaviour that drives about.
 const ROAM: usize = 0;
@@ -232,4 +236,80 @@ fn going_on_is_many_ticks() {
         }
         assert_eq!(one.ticks(), 500);
     }
+}
+
+/// The programs of a folder with the name of its file, without those that lie in folders of it.
+fn programs(folder: &str) -> Vec<(String, Program)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
+    let paths = std::fs::read_dir(folder).unwrap();
+    let paths = paths.map(|entry| entry.unwrap().path());
+    let mut paths: Vec<_> = paths
+        .filter(|path| path.extension().is_some_and(|extension| extension == "bt"))
+        .collect();
+    paths.sort();
+    let loaded = paths.iter().map(|path| {
+        let name = path.file_name().unwrap().to_str().unwrap();
+        (name.to_owned(), named(name, path))
+    });
+    let sound = loaded.filter(|(_, loaded)| !loaded.has_errors());
+    sound.map(|(name, loaded)| (name, loaded.program)).collect()
+}
+
+/// Worlds with doors that swing, robots that run scripts and all else that programs have are the same to a simulation that
+/// remembers and to one that forgets before and within each tick.
+#[test]
+fn who_forgets_in_each_tick_sees_the_same() {
+    let folders = ["examples", "tests/worlds", "tests/cases/run"];
+    let (mut played, mut with_doors, mut with_others) = (0, 0, 0);
+    for (name, program) in folders.into_iter().flat_map(programs) {
+        let Some(world) = &program.world else {
+            continue;
+        };
+        for tree in program.trees.values() {
+            let Some(task) = tree.task.or(program.tasks.ids().next()) else {
+                continue;
+            };
+            let Ok((simulator, controller)) = ready(&program, task, &tree.root) else {
+                continue;
+            };
+            let (mut one, mut other) = (simulator.simulation(), simulator.simulation());
+            let (mut first, mut second) = (controller.clone(), controller);
+            for episode in 0..2 {
+                let start = Start {
+                    seed: 3,
+                    episode,
+                    limit: 1500,
+                    ..Start::default()
+                };
+                one.start(start);
+                other.start(start);
+                first.reset();
+                second.reset();
+                loop {
+                    one.begin_tick();
+                    other.forget();
+                    other.begin_tick();
+                    first.tick(&mut one);
+                    other.forget();
+                    second.tick(&mut other);
+                    let (tick, forgotten) = (one.end_tick(), other.end_tick());
+                    let at = format!("{name}, {:?}, tick {}", tree.name, one.ticks());
+                    assert_eq!(tick, forgotten, "{at}");
+                    assert_eq!(one.atoms(), other.atoms(), "{at}");
+                    assert_eq!(one.pose(), other.pose(), "{at}");
+                    assert!(one.others().eq(other.others()), "{at}");
+                    if tick.end.is_some() {
+                        break;
+                    }
+                }
+            }
+            played += 1;
+            with_doors += usize::from(world.walls.values().any(|wall| wall.when.is_some()));
+            with_others += usize::from(!world.others.is_empty());
+        }
+    }
+    assert!(
+        played > 25 && with_doors > 2 && with_others > 2,
+        "{played}, {with_doors}, {with_others}"
+    );
 }
