@@ -110,3 +110,19 @@ pub fn names() -> impl Iterator<Item = &'static str> {
     let calls = unary.chain(binary).chain(functions);
     constants.chain(calls.filter(|name| !name.is_empty()))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::check::types::written;
+    use crate::syntax::words::{FUNCTIONS, TYPES};
+
+    /// What the parser takes for built-in names is built in.
+    #[test]
+    fn the_parser_knows_what_is_built_in() {
+        for name in FUNCTIONS {
+            assert!(BuiltIn::named(name).is_some(), "{name}");
+        }
+        assert!(written::names().eq(TYPES));
+    }
+}

@@ -53,6 +53,11 @@ impl<'d> Draft<'d> {
         self.with(|diagnostic| diagnostic.label(message))
     }
 
+    /// Says what is to be written at the primary place, and offers to write it over a span.
+    pub fn write(self, span: Span, right: impl Into<String>, applicability: Applicability) -> Self {
+        self.with(|diagnostic| diagnostic.write(span, right, applicability))
+    }
+
     /// Labels the primary place with what is there.
     pub fn this_is(self, what: impl Display) -> Self {
         self.label(format!("this is {what}"))

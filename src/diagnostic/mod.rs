@@ -118,6 +118,15 @@ impl Diagnostic {
         self
     }
 
+    /// Says at the primary place what is to be written, and offers to write it over a span.
+    #[must_use]
+    pub fn write(self, span: Span, right: impl Into<String>, applicability: Applicability) -> Self {
+        let right = right.into();
+        let title = format!("write `{right}`");
+        self.label(title.clone())
+            .fix(title, span, right, applicability)
+    }
+
     /// Offers to replace the text of one span.
     #[must_use]
     pub fn fix(

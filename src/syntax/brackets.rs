@@ -51,11 +51,10 @@ pub(super) fn innermost_open(
     start: usize,
     at: usize,
 ) -> Option<Token> {
+    let first = tokens.partition_point(|token| token.start < start);
+    let end = tokens.partition_point(|token| token.end <= at);
     let mut stack = Vec::new();
-    for &token in tokens
-        .iter()
-        .filter(|token| token.start >= start && token.end <= at)
-    {
+    for &token in tokens.get(first..end).unwrap_or_default() {
         match token.of(text) {
             "{" | "(" => stack.push(token),
             "}" | ")" => {

@@ -19,11 +19,13 @@ mod world;
 
 use super::ast::{Comment, Expr, ExprKind, File, Ident, Item, ItemKind, Lost, Spanned};
 use super::comments::docs_before;
+use super::glance::Glance;
 use super::grammar::{Node, Parts, Rule};
 use super::tokens::{Kind, Token, is_blank};
 use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::source::{FileId, Span};
 pub use number::unit;
+use std::cell::OnceCell;
 
 /// What the tree is built with.
 pub(super) struct Builder<'i> {
@@ -31,6 +33,8 @@ pub(super) struct Builder<'i> {
     text: &'i str,
     tokens: &'i [Token],
     comments: &'i [Comment],
+    /// What the text declares, once it was asked.
+    glance: OnceCell<Glance<'i>>,
     /// Where the text begins whose productions are at hand.
     base: usize,
     diagnostics: Vec<Diagnostic>,
@@ -62,6 +66,7 @@ impl<'i> Builder<'i> {
             text,
             tokens,
             comments,
+            glance: OnceCell::new(),
             base: 0,
             diagnostics: Vec::new(),
             failed_at: None,
@@ -100,6 +105,12 @@ impl<'i> Builder<'i> {
             lost: self.lost,
         };
         (file, self.diagnostics)
+    }
+
+    /// What the text declares, as its tokens show it.
+    fn glance(&self) -> &Glance<'i> {
+        self.glance
+            .get_or_init(|| Glance::of(self.text, self.tokens))
     }
 
     // ---- places

@@ -5,6 +5,9 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use std::cmp::Ordering;
 
+/// What is advised where a child of a tree stands behind the `}` of its tree.
+pub(super) const CLOSED_ABOVE: &str = "the `}` of its tree stands above: is there one too many?";
+
 /// Leaves out what follows from another mistake, and notes where the text was not understood.
 pub(super) fn left_out(text: &str, tree: &mut File, sorted: Vec<Diagnostic>) -> Vec<Diagnostic> {
     tree.lost.any = sorted.iter().any(Diagnostic::is_error);
@@ -52,7 +55,7 @@ pub(super) fn left_out(text: &str, tree: &mut File, sorted: Vec<Diagnostic>) -> 
     tree.lost.places = places;
     // A `}` too many closes a tree: what stands behind it is told, and not the comma between.
     let closed = |found: &Diagnostic| {
-        found.code == Code::E0105 && found.help.iter().any(|help| help.contains("one too many"))
+        found.code == Code::E0105 && found.help.iter().any(|help| help == CLOSED_ABOVE)
     };
     let follows: Vec<bool> = told
         .iter()

@@ -7,6 +7,7 @@ mod comments;
 mod diagnose;
 mod expected;
 mod follow_ups;
+mod glance;
 mod grammar;
 mod nesting;
 mod parse;

@@ -47,7 +47,7 @@ pub const DRIVING: [&str; 12] = [
 ];
 
 /// The types that are built in.
-pub(super) const TYPES: [&str; 13] = [
+pub const TYPES: [&str; 15] = [
     "bool",
     "number",
     "ratio",
@@ -60,7 +60,15 @@ pub(super) const TYPES: [&str; 13] = [
     "point",
     "place",
     "wall",
+    "robot",
+    "sensor",
     "target",
+];
+
+/// What is reckoned of numbers.
+pub const FUNCTIONS: [&str; 20] = [
+    "abs", "sign", "min", "max", "clamp", "wrap", "sqrt", "exp", "ln", "floor", "ceil", "round",
+    "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "uniform",
 ];
 
 /// What is never written without arguments.

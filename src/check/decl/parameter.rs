@@ -210,13 +210,7 @@ impl<'a> Checker<'a> {
             span,
             "two arguments stand the other way around",
         )
-        .label(format!("write `{right}`"))
-        .fix(
-            format!("write `{right}`"),
-            span,
-            right,
-            Applicability::Unsafe,
-        );
+        .write(span, right, Applicability::Unsafe);
     }
 
     fn in_library<T>(&mut self, library: bool, pass: impl FnOnce(&mut Self) -> T) -> T {

@@ -386,13 +386,7 @@ impl<'a> Checker<'a> {
                     tail.span,
                     "a discount is counted by decisions, or by time",
                 )
-                .label("write `decision`")
-                .fix(
-                    "write `decision`",
-                    tail.span,
-                    "decision",
-                    Applicability::Unsafe,
-                )
+                .write(tail.span, "decision", Applicability::Unsafe)
                 .none();
         }
         let seconds = self.constant(tail, &Type::TIME, "the time of a discount")?;

@@ -93,8 +93,7 @@ impl<'a> Checker<'a> {
                 let sign = op.node.spelling();
                 let message = format!("a guard is followed by `=>`, not by `{sign}`");
                 self.error(Code::E0116, op.span, message)
-                    .label("write `=>`")
-                    .fix("write `=>`", op.span, "=>", Applicability::Unsafe)
+                    .write(op.span, "=>", Applicability::Unsafe)
                     .none()
             }
             ExprKind::Binary { op, .. } if op.node <= BinaryOp::Ge => {

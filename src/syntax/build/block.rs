@@ -9,6 +9,7 @@ use crate::syntax::ast::{
 use crate::syntax::diagnose::{self, no_such_unit};
 use crate::syntax::grammar::{Node, Parts, Rule};
 use crate::syntax::tokens::Kind;
+use crate::syntax::words::TYPES;
 
 impl<'i> Builder<'i> {
     pub(super) fn take_block(&mut self, parts: &mut Parts<'i>) -> Block {
@@ -275,16 +276,11 @@ impl<'i> Builder<'i> {
             let message = format!("`{written}` is no operator here");
             let whole = span.to(mark);
             self.failed_at = Some(mark.range().end);
-            self.report(
-                Diagnostic::new(Code::E0110, mark, message)
-                    .label(format!("write `{right}`"))
-                    .fix(
-                        format!("write `{right}`"),
-                        whole,
-                        right,
-                        Applicability::Unsafe,
-                    ),
-            );
+            self.report(Diagnostic::new(Code::E0110, mark, message).write(
+                whole,
+                right,
+                Applicability::Unsafe,
+            ));
             return;
         }
         let spare = [
@@ -318,17 +314,11 @@ impl<'i> Builder<'i> {
             );
             self.failed_at = Some(place.range().end);
             let diagnostic = Diagnostic::new(Code::E0101, place, "arguments stand in parentheses")
-                .label(format!("write `{right}`"))
-                .fix(
-                    format!("write `{right}`"),
-                    place,
-                    right,
-                    Applicability::Unsafe,
-                );
+                .write(place, right, Applicability::Unsafe);
             self.report(diagnostic);
             return;
         }
-        let typed = crate::syntax::words::TYPES.contains(&name);
+        let typed = TYPES.contains(&name);
         let declares = same_line && word && !found.is_empty() && typed;
         if declares && self.slice(span) == name {
             let span = span.to(at);
@@ -338,13 +328,7 @@ impl<'i> Builder<'i> {
                 span,
                 "the name of a value goes before its type",
             )
-            .label(format!("write `{right}`"))
-            .fix(
-                format!("write `{right}`"),
-                span,
-                right,
-                Applicability::Unsafe,
-            );
+            .write(span, right, Applicability::Unsafe);
             self.report(diagnostic);
             return;
         }

@@ -6,7 +6,7 @@ use crate::source::Span;
 use crate::syntax::ast::{Arg, ArgKind, Expr, ExprKind, Ident, Ref};
 use crate::syntax::diagnose::no_such_unit;
 use crate::syntax::grammar::{Node, Parts, Rule};
-use crate::syntax::tokens::{Kind, Token};
+use crate::syntax::tokens::Kind;
 use crate::syntax::words::RANGING;
 
 /// What comes next of a range whose `..` is another word.
@@ -28,7 +28,7 @@ impl<'i> Builder<'i> {
             _ => return ExprKind::Ref(call),
         };
         if call.args.is_some()
-            || self.declares(&call.name.name)
+            || self.glance().declares(&call.name.name)
             || self.slice(call.span).starts_with('`')
         {
             return ExprKind::Ref(call);
@@ -82,7 +82,7 @@ impl<'i> Builder<'i> {
 
     pub(super) fn args(&mut self, node: Node<'i>) -> Vec<Arg> {
         let mut args: Vec<Arg> = Vec::new();
-        let mut is_unit = false;
+        let mut is_rest = false;
         let mut range = None;
         for part in Parts::of(node) {
             if part.as_rule() == Rule::missing_arg_comma && self.binder_is_meant(&part) {
@@ -113,8 +113,8 @@ impl<'i> Builder<'i> {
                 continue;
             }
             match part.as_rule() {
-                // What was to be a unit is no argument.
-                Rule::arg if std::mem::take(&mut is_unit) => {
+                // What was to be a unit or a condition is no argument.
+                Rule::arg if std::mem::take(&mut is_rest) => {
                     if let Some(Arg { kind, .. }) = args.last_mut()
                         && let ArgKind::Positional(value) | ArgKind::Named(_, value) = kind
                     {
@@ -122,15 +122,7 @@ impl<'i> Builder<'i> {
                     }
                 }
                 Rule::arg => args.push(self.arg(part)),
-                Rule::missing_arg_comma if self.condition_follows(&part, args.last()) => {
-                    is_unit = true;
-                }
-                Rule::missing_arg_comma if self.kind_goes_first(&part, args.last()) => {
-                    is_unit = true;
-                }
-                Rule::missing_arg_comma if self.unit_is_meant(&part, args.last()) => {
-                    is_unit = true;
-                }
+                Rule::missing_arg_comma if self.no_argument(&part, args.last()) => is_rest = true,
                 Rule::missing_arg_comma => {
                     let before = args.last().map(|arg| arg.span);
                     self.missing_comma(&part, before, "arguments");
@@ -193,6 +185,13 @@ impl<'i> Builder<'i> {
         true
     }
 
+    /// Reports what follows an argument without a comma, and is none.
+    fn no_argument(&mut self, node: &Node<'i>, before: Option<&Arg>) -> bool {
+        self.condition_follows(node, before)
+            || self.kind_goes_first(node, before)
+            || self.unit_is_meant(node, before)
+    }
+
     /// Reports `nearest(b in bush where …)`, whose condition follows a colon.
     fn condition_follows(&mut self, node: &Node<'i>, before: Option<&Arg>) -> bool {
         let binds =
@@ -210,37 +209,42 @@ impl<'i> Builder<'i> {
         let span = Span::new(self.file, word.start, word.end);
         let message = "what is asked of each member follows a `:`".to_owned();
         let gap = before.map_or(span, |before| before.span.after().to(span));
-        let diagnostic = Diagnostic::new(Code::E0101, span, message)
-            .label("write `:`")
-            .fix("write `:`", gap, ":", Applicability::Unsafe);
+        let diagnostic =
+            Diagnostic::new(Code::E0101, span, message).write(gap, ":", Applicability::Unsafe);
         self.report(diagnostic);
         self.unbound = true;
         self.failed_at = Some(word.end);
         true
     }
 
-    /// Reports `nearest(bush b: …)`, which binds a name behind its kind.
+    /// Reports `nearest(bush b: …)` and `on picked(bush b)`, which bind a name behind its kind.
     fn kind_goes_first(&mut self, node: &Node<'i>, before: Option<&Arg>) -> bool {
         let (Some(before), Some(name)) = (before, self.token_at(self.starts(node))) else {
             return false;
         };
+        let kind = self.slice(before.span);
         let after = self.token_at(name.end);
-        let colon = after.is_some_and(|after| after.of(self.text) == ":");
-        if !(self.ranging && colon && name.kind == Kind::Word) {
+        let after = after.map_or("", |after| after.of(self.text));
+        let binds = match self.ranging {
+            true => after == ":",
+            false => matches!(after, ")" | ",") && self.glance().is_kind(kind),
+        };
+        if !binds || name.kind != Kind::Word {
             return false;
         }
-        let right = format!("{} in {}", name.of(self.text), self.slice(before.span));
+        let head = self.text.get(..before.span.range().start);
+        let line = head.and_then(|head| head.rsplit('\n').next());
+        let declares = !self.ranging && line.is_some_and(|line| line.starts_with("on "));
+        let mark = if declares { ":" } else { " in" };
+        let right = format!("{}{mark} {kind}", name.of(self.text));
         let span = before.span.to(Span::new(self.file, name.start, name.end));
         let message = "the name that ranges over a kind goes before it".to_owned();
-        let diagnostic = Diagnostic::new(Code::E0101, span, message)
-            .label(format!("write `{right}`"))
-            .fix(
-                format!("write `{right}`"),
-                span,
-                right,
-                Applicability::Unsafe,
-            );
+        let diagnostic =
+            Diagnostic::new(Code::E0101, span, message).write(span, right, Applicability::Unsafe);
         self.report(diagnostic);
+        if declares {
+            self.lost.names.push(name.of(self.text).to_owned());
+        }
         self.unbound = true;
         true
     }
@@ -289,16 +293,7 @@ impl<'i> Builder<'i> {
     /// The name behind a colon, if places or walls are of a kind that is called so.
     fn kind_after(&self, colon: Option<&Node<'i>>) -> Option<String> {
         let kind = self.token_at(self.ends(colon?))?.of(self.text);
-        let declares = |four: &[Token]| match four {
-            [word, _, colon, of] => {
-                matches!(word.of(self.text), "place" | "wall")
-                    && colon.of(self.text) == ":"
-                    && of.of(self.text) == kind
-            }
-            _ => false,
-        };
-        let known = self.tokens.windows(4).any(declares);
-        known.then(|| kind.to_owned())
+        self.glance().is_kind(kind).then(|| kind.to_owned())
     }
 
     fn named(&mut self, node: Node<'i>) -> ArgKind {

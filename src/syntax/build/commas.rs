@@ -9,6 +9,9 @@ use crate::syntax::words::{CALLED, NODES, UNITS};
 /// What the commas of a history part.
 pub(super) const HISTORY: &str = "the ends of a history";
 
+/// What declares the leaves of trees.
+const LEAVES: [&str; 2] = ["behavior", "tree"];
+
 /// What other notations put before the nodes of a tree.
 const BEFORE_NODES: [&str; 14] = [
     "subtree",
@@ -157,19 +160,17 @@ impl<'i> Builder<'i> {
             Diagnostic::new(Code::E0127, next, "the argument `by` is given with `=`")
                 .label("write `by = …`")
                 .fix("write `=`", before.after(), " =", Applicability::Safe)
-        } else if is_word && self.is_one_name(name, found) {
+        } else if is_word && self.glance().has(&format!("{name}_{found}")) {
             let right = format!("{name}_{found}");
-            Diagnostic::new(Code::E0101, before.to(next), "a name is one word")
-                .label(format!("write `{right}`"))
-                .fix(
-                    format!("write `{right}`"),
-                    before.to(next),
-                    right,
-                    Applicability::Unsafe,
-                )
+            Diagnostic::new(Code::E0101, before.to(next), "a name is one word").write(
+                before.to(next),
+                right,
+                Applicability::Unsafe,
+            )
         } else if is_word
             && (CALLED.contains(&name)
-                || self.takes_arguments(name) && !self.declared_by(found, &["behavior", "tree"]))
+                || self.glance().declares_called(&LEAVES, name)
+                    && !self.glance().declares_by(&LEAVES, found))
         {
             Diagnostic::new(
                 Code::E0101,
@@ -223,9 +224,7 @@ impl<'i> Builder<'i> {
             }
             "then" => {
                 let message = "what a condition guards follows `=>`";
-                Diagnostic::new(Code::E0116, place, message)
-                    .label("write `=>`")
-                    .fix("write `=>`", place, "=>", Applicability::Safe)
+                Diagnostic::new(Code::E0116, place, message).write(place, "=>", Applicability::Safe)
             }
             "xor" => Diagnostic::new(Code::E0110, place, "there is no `xor`")
                 .label("conditions are joined by `and`, `or` and `not`")

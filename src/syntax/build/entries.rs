@@ -7,6 +7,10 @@ use crate::syntax::brackets;
 use crate::syntax::diagnose::{self, Failure};
 use crate::syntax::grammar::{self, Node, Parts, Rule};
 use crate::syntax::tokens::{Kind, is_blank};
+use std::ops::Range;
+
+/// The items that the parser sees to fail on one, with that one.
+const ITEMS_SEEN: usize = 3;
 
 impl<'i> Builder<'i> {
     /// Hands each entry among `parts` to `push`, with its place; a bad one, which is reported here, without its
@@ -87,23 +91,61 @@ impl<'i> Builder<'i> {
 
     /// How the text at byte `start` fails to parse as `strict` entries, read from byte `from` on.
     pub(super) fn failure(&self, strict: Rule, from: usize, start: usize) -> Failure {
-        let rest = |at: usize| self.text.get(at..).unwrap_or_default();
-        let (at, expected) = match grammar::parse(strict, rest(from)) {
-            Ok(_) => (start, Vec::new()),
-            Err(stop) => {
-                let at = (from + stop.at).max(start);
-                (
-                    self.text.len() - rest(at).trim_start_matches(is_blank).len(),
-                    stop.expected,
-                )
-            }
+        let seen = match strict {
+            Rule::strict_item => self.seen_from(from),
+            _ => self.text.len(),
         };
-        Failure {
+        let near = self.failure_within(strict, from..seen, start);
+        let near = near.filter(|near| near.at < seen);
+        let whole = || self.failure_within(strict, from..self.text.len(), start);
+        near.or_else(whole).unwrap_or(Failure {
             start,
-            at,
-            expected,
+            at: start,
+            expected: Vec::new(),
             strict,
+        })
+    }
+
+    /// The same, read as if the text ended with a range; none if all of the range is right.
+    fn failure_within(&self, strict: Rule, range: Range<usize>, start: usize) -> Option<Failure> {
+        let from = range.start;
+        let stop = grammar::parse(strict, self.text.get(range)?).err()?;
+        let at = (from + stop.at).max(start);
+        let rest = self.text.get(at..).unwrap_or_default();
+        Some(Failure {
+            start,
+            at: self.text.len() - rest.trim_start_matches(is_blank).len(),
+            expected: stop.expected,
+            strict,
+        })
+    }
+
+    /// How much of the text the parser needs to see to fail on the item at byte `from` as it does in the whole text: some
+    /// items more, if every bracket up to there has its partner; else all. pest's time for a failure grows with the text
+    /// behind it.
+    fn seen_from(&self, from: usize) -> usize {
+        let first = self.tokens.partition_point(|token| token.start < from);
+        let (mut open, mut items) = (0_usize, 0);
+        for token in self.tokens.iter().skip(first) {
+            let before = self.text.get(..token.start).unwrap_or_default();
+            if token.kind == Kind::Word && before.ends_with('\n') {
+                items += 1;
+                match open {
+                    0 if items > ITEMS_SEEN => return token.start,
+                    0 => {}
+                    _ => break,
+                }
+            }
+            match token.of(self.text) {
+                "{" | "(" => open += 1,
+                "}" | ")" => match open.checked_sub(1) {
+                    Some(rest) => open = rest,
+                    None => break,
+                },
+                _ => {}
+            }
         }
+        self.text.len()
     }
 
     /// A text that fails at once may go on with the previous entry: read together, they fail further on, or they
@@ -245,5 +287,51 @@ impl<'i> Builder<'i> {
             let diagnostic = brackets::unclosed(self.file, self.text, self.tokens, open, at);
             self.report(diagnostic);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::source::FileId;
+    use crate::syntax::comments::comments;
+    use crate::syntax::tokens::tokens;
+
+    const TEXTS: [&str; 3] = [
+        include_str!("../../../examples/delivery_small.bt"),
+        include_str!("../../../examples/delivery_large.bt"),
+        include_str!("../../../examples/grasp.bt"),
+    ];
+
+    /// What of a text is enough to fail on an item fails as the whole of it, wherever a word stands at the margin and
+    /// whichever token is left out.
+    #[test]
+    fn an_item_fails_among_its_neighbours_as_it_does_in_the_whole_text() {
+        let (mut items, mut near) = (0, 0);
+        for whole in TEXTS {
+            for dropped in tokens(whole).iter().step_by(5) {
+                let text = [&whole[..dropped.start], &whole[dropped.end..]].concat();
+                let tokens = tokens(&text);
+                let comments = comments(FileId(0), &text, &tokens);
+                let builder = Builder::new(FileId(0), &text, &tokens, &comments);
+                let margin = |at: &usize| *at == 0 || text[..*at].ends_with('\n');
+                let margins = tokens.iter().map(|token| token.start).filter(margin);
+                for at in margins.step_by(3) {
+                    let seen = builder.failure(Rule::strict_item, at, at);
+                    let all = at..text.len();
+                    let Some(whole) = builder.failure_within(Rule::strict_item, all, at) else {
+                        continue;
+                    };
+                    assert_eq!(
+                        (seen.at, seen.expected),
+                        (whole.at, whole.expected),
+                        "{text}"
+                    );
+                    items += 1;
+                    near += usize::from(builder.seen_from(at) < text.len());
+                }
+            }
+        }
+        assert!(items > 1000 && near > 500, "{items} items, {near} near");
     }
 }

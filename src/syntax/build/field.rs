@@ -5,7 +5,7 @@ use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind};
 use crate::syntax::grammar::{Node, Parts, Rule};
-use crate::syntax::words::NODES;
+use crate::syntax::words::{FUNCTIONS, NODES};
 
 /// What reads something of a target.
 const READS: [&str; 6] = [
@@ -15,12 +15,6 @@ const READS: [&str; 6] = [
     "visible",
     "inside",
     "facing",
-];
-
-/// What is reckoned of numbers.
-const FUNCTIONS: [&str; 20] = [
-    "abs", "sign", "min", "max", "clamp", "wrap", "sqrt", "exp", "ln", "floor", "ceil", "round",
-    "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "uniform",
 ];
 
 /// What sensors and drives are set up by, which nothing reads.
@@ -38,6 +32,9 @@ const SETTINGS: [&str; 12] = [
     "turn_noise",
     "body",
 ];
+
+/// What declares families.
+const FAMILIES: [&str; 4] = ["state", "event", "predicate", "let"];
 
 /// What asks how a behaviour ended.
 const ENDS: [&str; 3] = ["success", "failure", "running"];
@@ -141,7 +138,7 @@ impl<'i> Builder<'i> {
         if args == Some("()") && one_of(&READS) {
             return Ok(format!("{name}({owner})"));
         }
-        if let Some(args) = args.filter(|_| self.declared_by(owner, &["robot"])) {
+        if let Some(args) = args.filter(|_| self.glance().declares_by(&["robot"], owner)) {
             let inner = args
                 .strip_prefix('(')
                 .and_then(|args| args.strip_suffix(')'));
@@ -155,7 +152,7 @@ impl<'i> Builder<'i> {
                 "what another robot does is asked so: `success({name}{args}, by = {owner})`"
             )));
         }
-        if one_of(&READS) || one_of(&ENDS) || self.declares_family(name) {
+        if one_of(&READS) || one_of(&ENDS) || self.glance().declares_called(&FAMILIES, name) {
             return Ok(format!("{name}({owner})"));
         }
         if one_of(&["position", "heading", "pose"]) && !matches!(owner, "robot" | "self" | "this") {
@@ -165,16 +162,19 @@ impl<'i> Builder<'i> {
             if one_of(&["heading"]) {
                 return Err(None);
             }
-            if self.declared_by(owner, &["state", "let"]) {
+            if self.glance().declares_by(&["state", "let"], owner) {
                 return Ok(owner.to_owned());
             }
             return Ok(format!("pose({owner})"));
         }
-        if args.is_none() && self.declares_family(owner) && self.declares(name) {
+        if args.is_none()
+            && self.glance().declares_called(&FAMILIES, owner)
+            && self.glance().declares(name)
+        {
             return Ok(format!("{owner}({name})"));
         }
-        if args.is_none() && self.declared_by(owner, &["input"]) {
-            return Ok(match self.names_variant(name) {
+        if args.is_none() && self.glance().declares_by(&["input"], owner) {
+            return Ok(match self.glance().lists(name) {
                 true => format!("{owner} == {name}"),
                 false => owner.to_owned(),
             });
@@ -182,38 +182,16 @@ impl<'i> Builder<'i> {
         if args.is_none() && one_of(&["X", "Y"]) {
             return Ok(format!("{owner}.{}", name.to_ascii_lowercase()));
         }
-        let known = self.declares(name) && !SETTINGS.contains(&name)
+        let known = self.glance().declares(name) && !SETTINGS.contains(&name)
             || one_of(&["position", "heading", "touching"]);
-        match is_name && args.is_none() && (known || self.names_variant(name)) {
+        match is_name && args.is_none() && (known || self.glance().lists(name)) {
             true => Ok(name.to_owned()),
             false if args.is_some() => Err(None),
-            false if self.declared_by(owner, &["state"]) => {
+            false if self.glance().declares_by(&["state"], owner) => {
                 Err(Some(format!("a value is compared: `{owner} == …`")))
             }
             false => Err(None),
         }
-    }
-
-    /// Whether one of these words declares a name.
-    pub(super) fn declared_by(&self, name: &str, words: &[&str]) -> bool {
-        self.tokens.windows(2).any(|pair| match pair {
-            [word, declared] => {
-                words.contains(&word.of(self.text)) && declared.of(self.text) == name
-            }
-            _ => false,
-        })
-    }
-
-    /// Whether a name stands in a list in braces, as the variants of an enum do.
-    fn names_variant(&self, name: &str) -> bool {
-        self.tokens.windows(3).any(|three| match three {
-            [before, word, after] => {
-                word.of(self.text) == name
-                    && matches!(before.of(self.text), "{" | ",")
-                    && matches!(after.of(self.text), "}" | ",")
-            }
-            _ => false,
-        })
     }
 
     /// Warns of a sign that is taken for another one than it looks like: `-0.5` on a line of its own goes on with the line

@@ -247,7 +247,7 @@ impl<'i> Builder<'i> {
                 format!("the parameter `{}` has no type", name.name),
             )
             .label("a type goes after it")
-            .help(match self.declares_task(&name.name) {
+            .help(match self.glance().declares_by(&["task"], &name.name) {
                 true => format!("if it is the task: `tree NAME for {} = …`", name.name),
                 false => format!(
                     "write `{}: {}`, or whichever type it has",

@@ -6,7 +6,6 @@ use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, Literal, Unit, UnitFactor};
 use crate::syntax::diagnose::units_note;
 use crate::syntax::grammar::{Node, Parts, Rule};
-use crate::syntax::tokens::Kind;
 use crate::syntax::words::UNITS;
 
 /// What other units are called here.
@@ -157,12 +156,7 @@ impl<'i> Builder<'i> {
             Diagnostic::new(Code::E0114, span, format!("`{written}` is not a unit"));
         diagnostic = match note {
             Some(fact) => diagnostic.label("not a unit here").note(fact),
-            None => diagnostic.label(format!("write `{right}`")).fix(
-                format!("write `{right}`"),
-                span,
-                right,
-                Applicability::Safe,
-            ),
+            None => diagnostic.write(span, right, Applicability::Safe),
         };
         self.report(diagnostic.note(units_note()));
     }
@@ -180,7 +174,7 @@ impl<'i> Builder<'i> {
         if divisor.args.is_some()
             || !is_unit
             || self.slice(right.span).starts_with('`')
-            || self.declares(name)
+            || self.glance().declares(name)
         {
             return None;
         }
@@ -218,76 +212,6 @@ impl<'i> Builder<'i> {
                 ..literal.clone()
             }),
             span,
-        })
-    }
-
-    /// Whether the file seems to declare `name` anywhere: after `let`, before `:`, `=` or `in`, or in a list of
-    /// variants.
-    pub(super) fn declares(&self, name: &str) -> bool {
-        let spelling = |index: usize| {
-            self.tokens
-                .get(index)
-                .map_or("", |token| token.of(self.text))
-        };
-        self.tokens.iter().enumerate().any(|(index, token)| {
-            token.kind == Kind::Word
-                && token.of(self.text) == name
-                && (matches!(spelling(index + 1), ":" | "=" | "in")
-                    && !(index > 0
-                        && (self.tokens.get(index - 1))
-                            .is_some_and(|token| token.kind == Kind::Number))
-                    || index > 0
-                        && matches!(
-                            spelling(index - 1),
-                            "let" | "state" | "place" | "predicate" | "enum"
-                        )
-                    || index > 0
-                        && matches!(spelling(index - 1), "{" | ",")
-                        && matches!(spelling(index + 1), "}" | ","))
-        })
-    }
-
-    /// Whether the file declares a family of that name.
-    pub(super) fn declares_task(&self, name: &str) -> bool {
-        self.tokens.windows(2).any(|pair| match pair {
-            [word, of] => word.of(self.text) == "task" && of.of(self.text) == name,
-            _ => false,
-        })
-    }
-
-    /// Whether two words are a name of this text if they are written as one.
-    pub(super) fn is_one_name(&self, left: &str, right: &str) -> bool {
-        let whole = |name: &str| {
-            let rest = name.strip_prefix(left)?.strip_prefix('_')?;
-            (rest == right).then_some(())
-        };
-        self.tokens
-            .iter()
-            .any(|token| token.kind == Kind::Word && whole(token.of(self.text)).is_some())
-    }
-
-    /// Whether a behaviour or a tree of that name has parameters.
-    pub(super) fn takes_arguments(&self, name: &str) -> bool {
-        self.tokens.windows(3).any(|three| match three {
-            [word, of, open] => {
-                matches!(word.of(self.text), "behavior" | "tree")
-                    && of.of(self.text) == name
-                    && open.of(self.text) == "("
-            }
-            _ => false,
-        })
-    }
-
-    /// Whether a family of that name is declared.
-    pub(super) fn declares_family(&self, name: &str) -> bool {
-        let families = ["state", "event", "predicate", "let"];
-        self.tokens.windows(3).any(|three| match three {
-            [word, of, open] => {
-                families.contains(&word.of(self.text))
-                    && of.of(self.text) == name
-                    && open.of(self.text) == "("
-            }
-            _ => false,
         })
     }
 }

@@ -104,7 +104,7 @@ impl<'i> Builder<'i> {
             return false;
         };
         let name = reference.name.name.as_str();
-        DRIVING.contains(&name) || self.declared_by(name, &["behavior", "tree"])
+        DRIVING.contains(&name) || self.glance().declares_by(&["behavior", "tree"], name)
     }
 
     /// `if c { … }`, as other languages branch.
@@ -239,14 +239,11 @@ impl<'i> Builder<'i> {
             true => "`memory` is said twice".to_owned(),
             false => format!("`memory` goes before `{}`", word.node.spelling()),
         };
-        let diagnostic = Diagnostic::new(Code::E0101, late, message)
-            .label(format!("write `{right}`"))
-            .fix(
-                format!("write `{right}`"),
-                word.span.to(late),
-                right,
-                Applicability::Safe,
-            );
+        let diagnostic = Diagnostic::new(Code::E0101, late, message).write(
+            word.span.to(late),
+            right,
+            Applicability::Safe,
+        );
         self.report(diagnostic);
     }
 

@@ -96,7 +96,15 @@ impl Place<'_> {
             && self.found.kind == Kind::Number
         {
             let title = "a history keeps the last ends";
-            return diagnostic.fix(title, self.span().before(), "last ", Applicability::Safe);
+            let ends = self.next().map_or("", |token| token.of(self.text));
+            return match matches!(ends, "success" | "failure") {
+                true => diagnostic.fix(title, self.span().before(), "last ", Applicability::Safe),
+                false => {
+                    let right = format!("last {found} success");
+                    let title = "a history keeps the last ends, of one kind or of both";
+                    diagnostic.fix(title, self.span(), right, Applicability::Unsafe)
+                }
+            };
         }
         if self.before() == "last" && wants_value && is_word(self.found) {
             let title = "say how many";

@@ -72,9 +72,7 @@ impl Place<'_> {
         let right = format!("\"{inner}\"");
         let message = "`'` stands where `\"` should".to_owned();
         wanted.then(|| {
-            Diagnostic::new(Code::E0121, span, message)
-                .label(format!("write `{right}`"))
-                .fix(format!("write `{right}`"), span, right, Applicability::Safe)
+            Diagnostic::new(Code::E0121, span, message).write(span, right, Applicability::Safe)
         })
     }
 

@@ -149,8 +149,7 @@ impl Place<'_> {
         }
         let right = format!("{{ {effect} }}");
         let until = at.end + rest.find(effect)? + effect.len();
-        Some(diagnostic.label(format!("write `{right}`")).fix(
-            format!("write `{right}`"),
+        Some(diagnostic.write(
             Span::new(self.file, at.start, until),
             right,
             Applicability::Unsafe,

@@ -175,16 +175,7 @@ impl Place<'_> {
         right: impl Into<String>,
     ) -> Option<Diagnostic> {
         let right = right.into();
-        Some(
-            Diagnostic::new(Code::E0101, span, message)
-                .label(format!("write `{right}`"))
-                .fix(
-                    format!("write `{right}`"),
-                    span,
-                    right,
-                    Applicability::Unsafe,
-                ),
-        )
+        Some(Diagnostic::new(Code::E0101, span, message).write(span, right, Applicability::Unsafe))
     }
 
     /// The rest of the line from byte `at` on, without a comment.
@@ -326,22 +317,26 @@ impl Place<'_> {
 
     /// The last token of this spelling before the one that was found, on its line and not at its beginning.
     fn before_on_line(&self, word: &str) -> Option<Token> {
-        let line = self.tokens.iter().rev();
-        let mut line = line.skip_while(|token| token.start >= self.found.start);
+        let end = self
+            .tokens
+            .partition_point(|token| token.start < self.found.start);
+        let line = self.tokens.get(..end)?.iter().rev();
+        let before = self.text.get(..self.found.start)?;
+        let begins = before.rfind('\n').map_or(0, |at| at + 1);
+        let mut line = line.take_while(|token| token.start >= begins);
         let token = line.find(|token| token.of(self.text) == word)?;
-        let between = self.text.get(token.start..self.found.start)?;
         let head = self.text.get(..token.start)?;
         let begins = head
             .trim_end_matches([' ', '\t'])
             .ends_with(['\n', '{', '}']);
-        (!between.contains('\n') && !begins).then_some(*token)
+        (!begins).then_some(*token)
     }
 
     /// The mark behind which the value before a token begins.
     fn value_begins_behind(&self, end: Token) -> Option<Token> {
         let mut closed = 0_usize;
-        let before = self.tokens.iter().rev();
-        for token in before.skip_while(|token| token.start >= end.start) {
+        let last = self.tokens.partition_point(|token| token.start < end.start);
+        for token in self.tokens.get(..last)?.iter().rev() {
             match token.of(self.text) {
                 ")" | "]" => closed += 1,
                 "(" | "[" if closed > 0 => closed -= 1,

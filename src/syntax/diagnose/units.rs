@@ -61,8 +61,7 @@ impl Place<'_> {
                     span,
                     "two values are compared with `==`, not with `=`",
                 )
-                .label("write `==`")
-                .fix("write `==`", span, "==", Applicability::Unsafe),
+                .write(span, "==", Applicability::Unsafe),
             );
         }
         Some(no_such_unit(self.span(), word, links))
@@ -79,16 +78,7 @@ impl Place<'_> {
         let span = self.span_of(first).to(self.span());
         let digits = format!("{}_{}", first.of(self.text), self.found());
         let message = "digits are not grouped by commas";
-        Some(
-            Diagnostic::new(Code::E0124, span, message)
-                .label(format!("write `{digits}`"))
-                .fix(
-                    format!("write `{digits}`"),
-                    span,
-                    digits,
-                    Applicability::Safe,
-                ),
-        )
+        Some(Diagnostic::new(Code::E0124, span, message).write(span, digits, Applicability::Safe))
     }
 }
 

@@ -5,6 +5,7 @@ use crate::diagnostic::{Applicability, Code, Diagnostic, suggest};
 use crate::source::Span;
 use crate::spelling::RESERVED;
 use crate::syntax::expected;
+use crate::syntax::follow_ups::CLOSED_ABOVE;
 use crate::syntax::grammar::Rule;
 use crate::syntax::tokens::{Kind, Token};
 use crate::syntax::words::{FOREIGN, ITEMS};
@@ -271,9 +272,7 @@ impl Place<'_> {
             None if self.failure.strict == Rule::strict_item
                 && matches!(self.after_found(), "=>" | ",") =>
             {
-                diagnostic
-                    .label("this stands in a tree")
-                    .help("the `}` of its tree stands above: is there one too many?")
+                diagnostic.label("this stands in a tree").help(CLOSED_ABOVE)
             }
             None if self.failure.strict == Rule::strict_item
                 && matches!(self.after_found(), "=" | ":=") =>
