@@ -148,9 +148,7 @@ pub fn tables(rounds: u64) {
         print!("| {name}");
         costs.iter().for_each(|cost| print!(" | {cost:.0}"));
         let (first, last) = (costs[0], costs[costs.len() - 1]);
-        println!(
-            " | {:.1} |",
-            (last - first) / COUNTS[COUNTS.len() - 1] as f64
-        );
+        let each = (last - first) / COUNTS[COUNTS.len() - 1] as f64;
+        println!(" | {:.1} |", each.max(0.0));
     }
 }

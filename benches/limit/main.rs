@@ -11,6 +11,7 @@
     reason = "a bench fails where it goes wrong"
 )]
 
+mod examples;
 mod growth;
 mod hand;
 mod large;
@@ -45,12 +46,12 @@ fn program(text: &str) -> Program {
     loaded.program
 }
 
-/// A program's world and its tree `expert`.
+/// A program's world and the tree that a person wrote for it, `expert` or `hand`.
 fn world(program: &Program) -> (Simulator, Ticked) {
     let expert = program
         .trees
         .values()
-        .find(|tree| tree.name == "expert".into());
+        .find(|tree| ["expert", "hand"].map(Into::into).contains(&tree.name));
     let task = program.tasks.ids().next().unwrap();
     ready(program, task, &expert.unwrap().root).unwrap()
 }
@@ -167,4 +168,5 @@ fn main() {
     let large = include_str!("../../examples/delivery_large.bt");
     row::<large::Large>("large delivery", large, rounds);
     growth::tables(rounds);
+    examples::table(rounds);
 }

@@ -75,12 +75,12 @@ impl Segment {
         let across = cross(u, self.along);
         // p + s u = start + t along, solved by Cramer's rule.
         let s = cross(start, self.along) / across;
-        let t = cross(start, u) / across;
+        let t = cross(start, u);
         if across != 0.0 {
-            if s >= 0.0 && (0.0..=1.0).contains(&t) {
-                s
-            } else {
-                f64::INFINITY
+            // All at once: which of them fails cannot be foreseen. That t is from 0 to 1 needs no division.
+            match (s >= 0.0) & (t * across >= 0.0) & (t.abs() <= across.abs()) {
+                true => s,
+                false => f64::INFINITY,
             }
         } else if cross(u, start) == 0.0 {
             // Along the same line: the nearer end ahead, or 0 from within.
@@ -93,19 +93,6 @@ impl Segment {
         } else {
             f64::INFINITY
         }
-    }
-
-    /// False only if a ray from `p` in the direction of the unit vector `u` does not meet the segment before it has gone so far:
-    /// nothing is divided to know that.
-    #[inline(always)]
-    pub fn may_be_met(&self, p: Point, u: Point, far: f64) -> bool {
-        let start = minus(self.start, p);
-        let across = cross(u, self.along);
-        let (s, t) = (cross(start, self.along), cross(start, u));
-        let (s, t) = (s.copysign(s * across), t.copysign(t * across));
-        let most = across.abs() * (1.0 + 1e-9);
-        // All at once: which of them fails cannot be foreseen.
-        (across == 0.0) | ((s >= 0.0) & (t >= 0.0) & (t <= most) & (s <= far * most))
     }
 
     /// Whether the segment from `p` to `q` meets it.

@@ -325,11 +325,8 @@ impl Scene {
     pub(super) fn ray_within(&self, p: Point, u: Point, range: f64) -> f64 {
         let mut best = range;
         for segment in self.straight() {
-            // Few segments are met: most are behind, beside or beyond what was met before.
-            if segment.may_be_met(p, u, best) {
-                let s = segment.ray(p, u);
-                best = if s < best { s } else { best };
-            }
+            let s = segment.ray(p, u);
+            best = if s < best { s } else { best };
         }
         for circle in self.round() {
             let s = circle.ray(p, u);
