@@ -12,7 +12,7 @@ use crate::learn::simulated::Purpose;
 use crate::learn::statistics::Mean;
 use crate::math;
 use crate::tree::Size;
-use crate::trial::paired::error;
+use crate::trial::paired::{Trials, error};
 use serde::{Deserialize, Serialize};
 
 /// For each stage of the choice, the episodes up to which its trees play, and the most that stay after it.
@@ -111,19 +111,26 @@ pub(super) fn choose<W: World>(
     } = found;
     let part = (settings.effort as f64 / WHOLE).min(1.0);
     let of = |episodes: usize| ((episodes as f64 * part) as usize).max(FEWEST);
-    let entrants = confirmed(
-        &mut judge,
+    let race = judge.fresh();
+    let trials = judge.ground.trials(Purpose::Confirm, race);
+    let mut entrants = confirmed(
+        (&mut judge, &trials),
         candidates(visited, starts),
         starts,
         &of,
         settings,
         price,
     )?;
-    let harms = |entrant: &Entrant| judge.harms(entrant);
     let exact = entrants.len().saturating_sub(1);
     let theirs = starts.others.iter().map(|(_, other)| other);
     let theirs: Vec<&Node> = theirs.collect();
-    let chosen = chosen(&judge, &entrants, (exact, &theirs), settings.choice, price);
+    let chosen = loop {
+        let chosen = chosen(&judge, &entrants, (exact, &theirs), settings.choice, price);
+        if chosen != exact || !plays_next((&mut judge, &trials), &mut entrants, price) {
+            break chosen;
+        }
+    };
+    let harms = |entrant: &Entrant| judge.harms(entrant);
     let front = points(&entrants, chosen, &harms);
     let root = entrants
         .get(chosen)
@@ -169,15 +176,13 @@ fn candidates(visited: Vec<Visited>, starts: &Starts) -> Vec<Node> {
 /// The trees with episodes that none was chosen by, the exact one last. The best play longest, unless a front is drawn: it
 /// is of trees that have played alike long.
 fn confirmed<W: World>(
-    judge: &mut Judge<'_, '_, W>,
+    (judge, trials): (&mut Judge<'_, '_, W>, &Trials<'_, W>),
     trees: Vec<Node>,
     starts: &Starts,
     of: &impl Fn(usize) -> usize,
     settings: &Settings,
     price: f64,
 ) -> Result<Vec<Entrant>, Atom> {
-    let race = judge.fresh();
-    let trials = judge.ground.trials(Purpose::Confirm, race);
     let mut exact = vec![Entrant {
         root: starts.exact.clone(),
         nodes: Size::of(&starts.exact).nodes,
@@ -185,15 +190,15 @@ fn confirmed<W: World>(
     }];
     let others = trees.iter().filter(|root| **root != starts.exact);
     let mut entrants: Vec<Entrant> = others
-        .filter_map(|root| judge.entrant(&trials, root))
+        .filter_map(|root| judge.entrant(trials, root))
         .collect();
     let halves = settings.choice == Choice::Knee && !settings.front;
     let stages = STAGES.len() - usize::from(!halves);
     let mut out: Vec<Entrant> = Vec::new();
     for (episodes, stay) in STAGES.into_iter().take(stages) {
         let episodes = judge.scaled(of(episodes));
-        judge.play(&trials, &mut exact, episodes, None);
-        judge.play(&trials, &mut entrants, episodes, exact.first());
+        judge.play(trials, &mut exact, episodes, None);
+        judge.play(trials, &mut entrants, episodes, exact.first());
         if halves {
             let Some(exact) = exact.first() else { break };
             let terms = Terms::taking(price);
@@ -205,6 +210,30 @@ fn confirmed<W: World>(
     entrants.extend(out);
     entrants.extend(exact);
     Ok(entrants)
+}
+
+/// Lets the best of the trees that left early play to the end, if it looks better than the exact one, which stands last. Harm
+/// that is rare shows late, so those that stayed longest may all have turned out to do more of it.
+fn plays_next<W: World>(
+    (judge, trials): (&mut Judge<'_, '_, W>, &Trials<'_, W>),
+    entrants: &mut [Entrant],
+    price: f64,
+) -> bool {
+    let Some((exact, others)) = entrants.split_last_mut() else {
+        return false;
+    };
+    let episodes = exact.contender.episodes();
+    let gains = others.iter_mut().filter_map(|entrant| {
+        let gain = judge.gain(entrant, exact, Terms::taking(price)).mean;
+        let waits = entrant.contender.episodes() < episodes && gain > 0.0;
+        waits.then_some((gain, entrant))
+    });
+    let next = gains.reduce(|best, next| if next.0 > best.0 { next } else { best });
+    let Some((_, next)) = next else {
+        return false;
+    };
+    judge.play(trials, std::slice::from_mut(next), episodes, Some(exact));
+    true
 }
 
 /// The place of the tree that is taken; the exact one stands last.
