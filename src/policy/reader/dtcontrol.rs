@@ -183,13 +183,14 @@ fn called(numbers: &[Decimal]) -> String {
 /// A row that has other cells than `#BEGIN` says.
 fn ragged(line: &str, found: usize, expected: usize) -> TableErrorKind {
     let cells = if found == 1 { "cell" } else { "cells" };
-    let help = match line.ends_with(',') {
-        true => "no comma stands behind the last number",
-        false => "the numbers are parted by commas",
+    let help = match (line.ends_with(','), line.contains(',')) {
+        (true, _) => Some("no comma stands behind the last number"),
+        (_, false) if expected > 1 => Some("the numbers are parted by commas"),
+        _ => None,
     };
     TableErrorKind::Foreign {
         message: format!("this row has {found} {cells}, by `#BEGIN` it has {expected}"),
-        help: Some(help),
+        help,
     }
 }
 
