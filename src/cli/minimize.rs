@@ -13,6 +13,9 @@ pub(super) struct Arguments {
     /// Make the outputs a decision list: of the rows that hold the first decides.
     #[arg(long, value_name = "ORDER")]
     order: Option<Order>,
+    /// Minimise each output by itself, although together they may have fewer rows.
+    #[arg(long, conflicts_with = "order")]
+    separate: bool,
     /// The file to write to instead of standard output.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -29,6 +32,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     let options = Options {
         order: arguments.order,
         limit: arguments.limit,
+        separate: arguments.separate,
     };
     let minimized =
         minimize::minimize(file.text(), &options).map_err(|refused| say.refused(&refused))?;

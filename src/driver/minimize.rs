@@ -4,7 +4,7 @@ use super::refused::Refused;
 use super::text::Text;
 use crate::diagnostic::{Code, Diagnostic};
 pub use crate::logic::Order;
-use crate::logic::pla::{self, Cost, Line, Part, Pla, PlaError, PlaErrorKind, Uncovered};
+use crate::logic::pla::{self, Cost, Found, Line, Part, Pla, PlaError, PlaErrorKind, Uncovered};
 use crate::source::{FileId, Span};
 
 /// What a user may set.
@@ -14,6 +14,8 @@ pub struct Options {
     pub order: Option<Order>,
     /// The most cubes of a complement.
     pub limit: usize,
+    /// Whether each output is minimised by itself, although they could share cubes.
+    pub separate: bool,
 }
 
 /// A minimised PLA.
@@ -44,8 +46,13 @@ fn minimized(pla: &Pla, options: &Options) -> Result<Minimized, Uncovered> {
     let (lines, comments, note) = match options.order {
         Some(order) => (pla.decision_list(order)?, &[LIST][..], String::new()),
         None => {
-            let (lines, proved) = pla.covers(options.limit)?;
-            let note = format!("# proved smallest: {proved} of {} outputs\n", pla.outputs);
+            let (lines, found) = pla.covers(options.limit, options.separate)?;
+            let note = match found {
+                Found::Each { proved } => {
+                    format!("# proved smallest: {proved} of {} outputs\n", pla.outputs)
+                }
+                Found::Together => "# outputs share cubes: minimised together\n".to_owned(),
+            };
             (lines, &[][..], note)
         }
     };
@@ -123,7 +130,14 @@ fn located(file: FileId, error: &PlaError) -> Diagnostic {
     let diagnostic = Diagnostic::new(code, span, error.kind.to_string());
     match &error.kind {
         PlaErrorKind::Keyword(_) => {
-            diagnostic.help("`.i`, `.o`, `.ilb`, `.ob`, `.p`, `.type`, `.e` and `.end` are known")
+            let known =
+                "`.i`, `.o`, `.ilb`, `.ob`, `.p`, `.type`, `.phase`, `.e` and `.end` are known";
+            diagnostic.help(known)
+        }
+        PlaErrorKind::Phase => diagnostic
+            .help("to complement an output, exchange 0 and 1 in its column of an `fr` file"),
+        PlaErrorKind::Valued(_) => {
+            diagnostic.help("write an input of several values as one input for each value")
         }
         PlaErrorKind::Type(_) => diagnostic.help("the types are `f`, `fd`, `fr` and `fdr`"),
         PlaErrorKind::Size => diagnostic.help("begin with `.i` and `.o`"),

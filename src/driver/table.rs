@@ -170,6 +170,9 @@ fn located(file: FileId, text: &str, error: &TableError) -> Diagnostic {
         TableErrorKind::MissingColumn { name, .. } if name == "behavior" => {
             found.help("what is done stands under `behavior`, `behaviour` or `action`")
         }
+        TableErrorKind::Nameless if text.get(..error.span.start).is_some_and(|before| before.ends_with(',')) => {
+            found.help("a comma at the end of a line begins one more column")
+        }
         TableErrorKind::Nameless => {
             found.help("a table that pandas has written has a column of row numbers: write it with `index=False`")
         }

@@ -1,5 +1,6 @@
 //! Cubes in machine words, for operations on lists of them.
 
+use super::cube::Cube;
 use super::minterm::bit;
 
 /// A cube: for each atom whether it is fixed to 1, and whether it is fixed to 0.
@@ -30,6 +31,15 @@ impl Packed {
             *zero = !value & fixed;
         }
         cube
+    }
+
+    /// A cube over `atoms` atoms.
+    pub fn of(atoms: usize, cube: &Cube) -> Self {
+        let mut packed = Self::universe(atoms);
+        for literal in cube.literals() {
+            packed.set(literal.atom, Some(literal.positive));
+        }
+        packed
     }
 
     /// The values, with 0 for atoms that are free.
@@ -121,6 +131,33 @@ impl Packed {
         Self {
             ones: or(&self.ones, &other.ones),
             zeros: or(&self.zeros, &other.zeros),
+        }
+    }
+
+    /// The number of atoms that are fixed here and not there.
+    pub fn literals_beside(&self, other: &Self) -> usize {
+        let mine = self.ones.iter().zip(&self.zeros);
+        let theirs = other.ones.iter().zip(&other.zeros);
+        let words = mine.zip(theirs).map(|((a, b), (c, d))| (a | b) & !(c | d));
+        words.map(|word| word.count_ones() as usize).sum()
+    }
+
+    /// The number of literals that the smallest cube does not have that contains this one and another.
+    pub fn lost(&self, other: &Self) -> usize {
+        let lost = |a: &[u64], b: &[u64]| -> u32 {
+            let words = a.iter().zip(b).map(|(a, b)| (a & !b).count_ones());
+            words.sum()
+        };
+        (lost(&self.ones, &other.ones) + lost(&self.zeros, &other.zeros)) as usize
+    }
+
+    /// The smallest cube that contains both.
+    #[must_use]
+    pub fn supercube(&self, other: &Self) -> Self {
+        let and = |a: &[u64], b: &[u64]| a.iter().zip(b).map(|(a, b)| a & b).collect();
+        Self {
+            ones: and(&self.ones, &other.ones),
+            zeros: and(&self.zeros, &other.zeros),
         }
     }
 

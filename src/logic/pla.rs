@@ -3,14 +3,17 @@
 mod conflict;
 mod error;
 mod functions;
+mod joint;
 mod minimised;
+mod products;
 mod read;
+mod rest;
 mod write;
 
 pub use conflict::Conflict;
 pub use error::{PlaError, PlaErrorKind};
 pub use functions::{Function, TooLarge};
-pub use minimised::Uncovered;
+pub use minimised::{Found, Uncovered};
 pub use read::read;
 pub use write::{Line, write};
 

@@ -264,6 +264,7 @@ fn wrong_plas() {
         let options = minimize::Options {
             order: (code == Code::E0807).then_some(minimize::Order::Given),
             limit: if code == Code::E0806 { 1 } else { 100 },
+            separate: false,
         };
         let minimized = |heading| {
             let text = example(code, heading);

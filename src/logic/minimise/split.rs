@@ -14,6 +14,8 @@ use std::collections::BTreeSet;
 const MINTERMS: usize = 2_048;
 /// The most minterms, or parts of cubes, that are tried beside them.
 const PARTS: usize = 16_384;
+/// How many times as many may be written out, since overlapping cubes have some in common.
+const OVERLAP: usize = 8;
 
 /// A problem with other rows: the table, the ON rows and the OFF rows.
 pub(super) type Split = (Columns, Bits, Bits);
@@ -34,20 +36,27 @@ pub(super) fn finer(columns: &Columns, on: &Bits, off: &Bits, cover: &Cover) -> 
 
 fn minterms(columns: &Columns, on: &Bits, off: &Bits, most: usize) -> Option<Split> {
     let atoms = columns.atoms();
-    let ons: Vec<Packed> = on.iter().map(|row| cube(columns, row)).collect();
-    let mut all: usize = 0;
-    for cube in &ons {
+    let mut ons: Vec<Packed> = on.iter().map(|row| cube(columns, row)).collect();
+    // Overlapping cubes have minterms in common, which count once. With the larger cubes first, too many are noticed early.
+    ons.sort_by_cached_key(Packed::literals);
+    if ons
+        .first()
+        .is_none_or(|largest| largest.literals() == atoms)
+    {
+        return None;
+    }
+    let mut all: BTreeSet<Packed> = BTreeSet::new();
+    let mut left = most.saturating_mul(OVERLAP);
+    for cube in ons {
         let free = u32::try_from(atoms - cube.literals()).ok()?;
-        all = all.checked_add(1_usize.checked_shl(free)?)?;
-        if all > most {
+        let size = 1_usize.checked_shl(free).filter(|size| *size <= most)?;
+        left = left.checked_sub(size)?;
+        all.extend(cube.minterms(atoms));
+        if all.len() > most {
             return None;
         }
     }
-    if all == ons.len() {
-        return None;
-    }
-    let minterms = ons.into_iter().flat_map(|cube| cube.minterms(atoms));
-    Some(with_parts(columns, minterms.collect(), off))
+    Some(with_parts(columns, all, off))
 }
 
 /// Each ON cube in disjoint parts, of which each lies wholly in a prime of the cover or does not meet it.
@@ -56,7 +65,7 @@ fn cut(columns: &Columns, on: &Bits, off: &Bits, cover: &Cover) -> Option<Split>
     let mut parts: Vec<Packed> = on.iter().map(|row| cube(columns, row)).collect();
     let before = parts.len();
     for prime in cover.cubes() {
-        let prime = packed(atoms, prime);
+        let prime = Packed::of(atoms, prime);
         let mut smaller = Vec::with_capacity(parts.len());
         for part in parts {
             if part.meets(&prime) && !prime.contains(&part) {
@@ -89,13 +98,28 @@ fn with_parts(columns: &Columns, parts: BTreeSet<Packed>, off: &Bits) -> Split {
 
 /// A row as a cube.
 fn cube(columns: &Columns, row: usize) -> Packed {
-    packed(columns.atoms(), &Cube::new(columns.literals_of(row)))
+    Packed::of(columns.atoms(), &Cube::new(columns.literals_of(row)))
 }
 
-fn packed(atoms: usize, cube: &Cube) -> Packed {
-    let mut packed = Packed::universe(atoms);
-    for literal in cube.literals() {
-        packed.set(literal.atom, Some(literal.positive));
+#[cfg(test)]
+mod tests {
+    use super::minterms;
+    use crate::logic::bits::Bits;
+    use crate::logic::columns::Columns;
+    use crate::logic::packed::Packed;
+
+    /// Of three atoms, three cubes of four minterms each come to seven.
+    #[test]
+    fn minterms_of_several_cubes_count_once() {
+        let cube = |atom| {
+            let mut cube = Packed::universe(3);
+            cube.set(atom, Some(true));
+            cube
+        };
+        let columns = Columns::of(3, &[cube(0), cube(1), cube(2)]);
+        let (on, off) = (Bits::full(3), Bits::empty(3));
+        let found = minterms(&columns, &on, &off, 7).map(|(columns, on, _)| (columns.rows(), on));
+        assert_eq!(found, Some((7, Bits::full(7))));
+        assert!(minterms(&columns, &on, &off, 6).is_none());
     }
-    packed
 }

@@ -23,6 +23,10 @@ pub enum PlaErrorKind {
     Many(String, u32),
     /// A size that was given before.
     Again(String),
+    /// Outputs that are to be complemented.
+    Phase,
+    /// A keyword of inputs with several values.
+    Valued(String),
     /// A type that there is not.
     Type(String),
     /// Names that are not as many as there are columns.
@@ -52,6 +56,13 @@ impl fmt::Display for PlaErrorKind {
             Self::Number(word) => write!(f, "`{word}` needs a number"),
             Self::Many(word, most) => write!(f, "`{word}` is at most {most}"),
             Self::Again(word) => write!(f, "`{word}` was given before"),
+            Self::Phase => write!(f, "outputs are minimised as they are, not complemented"),
+            Self::Valued(word) => {
+                write!(
+                    f,
+                    "`{word}` is for inputs of several values; here each is 0 or 1"
+                )
+            }
             Self::Type(word) => write!(f, "there is no type `{word}`"),
             Self::Names { wanted, found } => {
                 write!(f, "{found} names for {wanted} columns")

@@ -12,8 +12,8 @@ const MISTAKES: usize = 20;
 ///
 /// A row begins on a line of its own and may go on in the next: inputs `0`, `1`, `-` (also `2` and `~`), then outputs `0`, `1`,
 /// `-`, `~` (also `3` for `0`, `4` for `1`, `2` for `-`); blanks and `|` between them say nothing. Names may go on in the next
-/// line as well, and the last outputs may have none. Everything after `#` is a comment, and so is, as in Espresso, a line
-/// before the sizes that is no keyword: a title.
+/// line as well, may stand before the sizes, and the last outputs may have none. Everything after `#` is a comment, and so is,
+/// as in Espresso, a line before the sizes that is no keyword: a title.
 ///
 /// # Errors
 /// Every mistake, with its place; no more than a screenful.
@@ -29,7 +29,9 @@ pub fn read(text: &str) -> Result<Pla, Vec<PlaError>> {
         }
     }
     reader.complete();
-    if reader.mistakes.is_empty() && !(reader.has_inputs && reader.has_outputs) {
+    if reader.has_inputs && reader.has_outputs {
+        reader.count_names();
+    } else if reader.mistakes.is_empty() {
         reader.wrong(0..text.len().min(1), PlaErrorKind::Size);
     }
     if reader.mistakes.is_empty() {
@@ -49,6 +51,8 @@ struct Reader {
     open: Option<Open>,
     /// The names that may go on in the next line.
     naming: Option<Naming>,
+    /// The names that are whole.
+    named: Vec<Naming>,
     mistakes: Vec<PlaError>,
 }
 
@@ -110,16 +114,25 @@ impl Reader {
         }
     }
 
-    /// Whether a line has more names: fewer are known than columns, and it is no row.
+    /// Whether a line has more names: fewer are known than columns, or it is not known how many there are, and it is no row.
     fn goes_on_naming(&self, text: &str) -> bool {
         let Some(naming) = &self.naming else {
             return false;
         };
-        let (names, columns) = match naming.outputs {
+        let is_counted = match naming.outputs {
+            true => self.has_outputs,
+            false => self.has_inputs,
+        };
+        let (found, wanted) = self.names(naming.outputs);
+        (found < wanted || !is_counted) && !is_row(text)
+    }
+
+    /// How many inputs or outputs have names, and how many there are.
+    fn names(&self, outputs: bool) -> (usize, usize) {
+        match outputs {
             true => (self.pla.output_names.len(), self.pla.outputs),
             false => (self.pla.input_names.len(), self.pla.inputs),
-        };
-        names < columns && !is_row(text)
+        }
     }
 
     fn name(&mut self, text: &str, at: usize) {
@@ -133,28 +146,30 @@ impl Reader {
         }
     }
 
-    /// Ends a list of names. Names of outputs that are missing are made.
+    /// Ends a list of names.
     fn named(&mut self) {
-        let Some(Naming { outputs, span }) = self.naming.take() else {
-            return;
-        };
-        let (found, wanted) = match outputs {
-            true => (self.pla.output_names.len(), self.pla.outputs),
-            false => (self.pla.input_names.len(), self.pla.inputs),
-        };
-        if outputs && (1..wanted).contains(&found) {
-            let names = &mut self.pla.output_names;
-            let given: FxHashSet<String> = names.iter().cloned().collect();
-            names.extend((found..wanted).map(|output| {
-                let mut name = format!("out{output}");
-                while given.contains(&name) {
-                    name.push('_');
-                }
-                name
-            }));
-        } else if found != wanted {
-            self.wrong(span, PlaErrorKind::Names { wanted, found });
+        self.named.extend(self.naming.take());
+    }
+
+    /// Holds the names against the sizes. Names of outputs that are missing are made.
+    fn count_names(&mut self) {
+        for Naming { outputs, span } in std::mem::take(&mut self.named) {
+            let (found, wanted) = self.names(outputs);
+            if outputs && (1..wanted).contains(&found) {
+                let names = &mut self.pla.output_names;
+                let given: FxHashSet<String> = names.iter().cloned().collect();
+                names.extend((found..wanted).map(|output| {
+                    let mut name = format!("out{output}");
+                    while given.contains(&name) {
+                        name.push('_');
+                    }
+                    name
+                }));
+            } else if found != wanted {
+                self.wrong(span, PlaErrorKind::Names { wanted, found });
+            }
         }
+        self.mistakes.sort_by_key(|mistake| mistake.span.start);
     }
 
     fn keyword(&mut self, text: &str, at: usize) {
@@ -174,21 +189,14 @@ impl Reader {
                     self.has_outputs = true;
                 }
             }
-            ".ilb" if self.has_inputs => {
-                self.pla.input_names = words.map(str::to_owned).collect();
-                self.naming = Some(Naming {
-                    outputs: false,
-                    span,
-                });
+            ".ilb" | ".ob" => self.begin_names(keyword, words, span),
+            // A phase of ones asks for the outputs as they are.
+            ".phase" if words.clone().all(|word| word.bytes().all(|c| c == b'1')) => {}
+            ".phase" => self.wrong(span, PlaErrorKind::Phase),
+            ".mv" | ".kiss" | ".symbolic" | ".symbolic-output" => {
+                let word = at..at + keyword.len();
+                self.wrong(word, PlaErrorKind::Valued(keyword.to_owned()));
             }
-            ".ob" if self.has_outputs => {
-                self.pla.output_names = words.map(str::to_owned).collect();
-                self.naming = Some(Naming {
-                    outputs: true,
-                    span,
-                });
-            }
-            ".ilb" | ".ob" => self.wrong(span, PlaErrorKind::Size),
             ".type" => match words.next().map(|word| (word, Kind::parse(word))) {
                 Some((_, Some(kind))) => self.pla.kind = kind,
                 Some((word, None)) => self.wrong(span, PlaErrorKind::Type(word.to_owned())),
@@ -202,6 +210,25 @@ impl Reader {
                 self.wrong(word, PlaErrorKind::Keyword(other.to_owned()));
             }
         }
+    }
+
+    fn begin_names<'w>(
+        &mut self,
+        keyword: &str,
+        words: impl Iterator<Item = &'w str>,
+        span: Range<usize>,
+    ) {
+        let outputs = keyword == ".ob";
+        if self.named.iter().any(|named| named.outputs == outputs) {
+            self.wrong(span, PlaErrorKind::Again(keyword.to_owned()));
+            return;
+        }
+        let names = words.map(str::to_owned).collect();
+        match outputs {
+            true => self.pla.output_names = names,
+            false => self.pla.input_names = names,
+        }
+        self.naming = Some(Naming { outputs, span });
     }
 
     fn number(

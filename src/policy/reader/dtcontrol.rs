@@ -91,11 +91,7 @@ pub(super) fn read(text: &[u8]) -> Result<Valued, Vec<TableError>> {
         }
         let cells: Vec<&str> = line.split(',').map(str::trim).collect();
         if cells.len() != state + done {
-            let kind = TableErrorKind::Ragged {
-                found: cells.len(),
-                expected: state + done,
-            };
-            builder.report(&row, kind);
+            builder.report(&row, ragged(line, cells.len(), state + done));
             continue;
         }
         let numbers = cells.iter().map(|cell| Decimal::parse(cell).ok_or(*cell));
@@ -181,6 +177,20 @@ fn called(numbers: &[Decimal]) -> String {
     match numbers.as_slice() {
         [one] => format!("u = {one}"),
         several => format!("u = ({})", several.join(", ")),
+    }
+}
+
+/// A row that has other cells than `#BEGIN` says.
+fn ragged(line: &str, found: usize, expected: usize) -> TableErrorKind {
+    let cells = if found == 1 { "cell" } else { "cells" };
+    let help = match (line.ends_with(','), line.contains(',')) {
+        (true, _) => Some("no comma stands behind the last number"),
+        (_, false) if expected > 1 => Some("the numbers are parted by commas"),
+        _ => None,
+    };
+    TableErrorKind::Foreign {
+        message: format!("this row has {found} {cells}, by `#BEGIN` it has {expected}"),
+        help,
     }
 }
 

@@ -16,6 +16,14 @@ use std::ops::Range;
 const FLAGS: &str =
     "export it with `--exportscheduler FILE.json --buildstateval --buildchoiceorig`";
 
+const LINES: &str = "rows of a table are JSON Lines: an object a line, without brackets around them or commas between them";
+
+/// Whether an entry is an object of another kind: neither its state nor its choices are there.
+fn is_of_a_table(entry: &str) -> bool {
+    let object = serde_json::from_str::<Map<String, Value>>(entry);
+    object.is_ok_and(|object| !object.contains_key("s") && !object.contains_key("c"))
+}
+
 /// What a scheduler says of a state.
 #[derive(Deserialize)]
 struct Entry {
@@ -65,6 +73,11 @@ pub(super) fn read(text: &[u8]) -> Result<Valued, Vec<TableError>> {
         let place = at..at + raw.len();
         let entry: Entry = match serde_json::from_str(raw) {
             Ok(entry) => entry,
+            Err(_) if is_of_a_table(raw) => {
+                let message = "an entry of a scheduler has a state `s` and choices `c`";
+                builder.report(&place, foreign(message, Some(LINES)));
+                break;
+            }
             Err(_) => {
                 let message = "an entry of a scheduler has a state `s` and choices `c`";
                 builder.report(&place, foreign(message, None));

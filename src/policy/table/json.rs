@@ -154,7 +154,13 @@ impl Line<'_> {
             Some(keys.add(name, column))
         });
         let Some(number) = number else {
-            let kind = TableErrorKind::UnknownKey(name.to_owned());
+            let kind = match value {
+                Value::Object(_) => TableErrorKind::UnknownValue {
+                    found: value.to_string(),
+                    expected: "a truth value, a number, a word or null: objects are flat",
+                },
+                _ => TableErrorKind::UnknownKey(name.to_owned()),
+            };
             return reading.report(&self.place(shown), kind);
         };
         let (Some((_, role)), Some(said)) = (keys.roles.get(number), keys.said.get_mut(number))

@@ -30,9 +30,19 @@ pub fn holds(bytes: &[u8]) {
 
 /// What `btc minimize` makes of a text, or what it shows of its mistakes.
 pub(crate) fn run(text: &str, order: Option<Order>) -> Result<Minimized, String> {
+    minimised(text, order, false)
+}
+
+/// As [`run`], each output by itself.
+pub(crate) fn separately(text: &str) -> Result<Minimized, String> {
+    minimised(text, None, true)
+}
+
+fn minimised(text: &str, order: Option<Order>, separate: bool) -> Result<Minimized, String> {
     let options = Options {
         order,
         limit: 1_000,
+        separate,
     };
     let text = Text {
         name: "test.pla",

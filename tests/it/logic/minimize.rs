@@ -1,9 +1,9 @@
 //! `btc minimize`, from text to text.
 
-use crate::laws::pla::{covers, run};
+use crate::laws::pla::{covers, run, separately};
 use crate::planted::{below, planted};
 use crate::snapshot::check;
-use btc::driver::minimize::Order;
+use btc::driver::minimize::{Minimized, Order};
 use btc::logic::pla::{Part, read};
 use rand_core::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -42,7 +42,7 @@ fn a_decision_list_of_outputs() {
 
 #[test]
 fn mistakes_have_places() {
-    let text = ".i 3\n.o 1\n.type fx\n.ilb a b\n11 1\n1x1 1\n.phase 1\n";
+    let text = ".i 3\n.o 1\n.type fx\n.ilb a b\n11 1\n1x1 1\n.phase 0\n.mv 3 1 4\n";
     check("minimize.mistakes", &run(text, None).unwrap_err());
     let text = ".i 3\n.o 2\n.type fr\n1-1 10\n0-- 00\n-01 01 # here\n";
     check("minimize.contradiction", &run(text, None).unwrap_err());
@@ -59,6 +59,67 @@ fn files_are_read_as_they_are() {
     let bars = text.replace("111\n10", "|\n111\n| |\n10");
     let bars = bars.replace(".e", "|\n.e");
     assert_eq!(run(&bars, None).unwrap().text, found.text);
+}
+
+/// Names may stand before the sizes, over several lines, the type after them, and a phase of ones says nothing.
+#[test]
+fn names_may_stand_before_the_sizes() {
+    let text = ".ob x\n.ilb a\n b c\n.i 3\n.o 2\n.phase 11\n.type fr\n110 10\n011 01\n.e\n";
+    let usual = ".i 3\n.o 2\n.type fr\n.ilb a b c\n.ob x out1\n110 10\n011 01\n";
+    let found = run(text, None).unwrap().text;
+    assert_eq!(found, run(usual, None).unwrap().text);
+    assert!(found.contains(".ilb a b c\n.ob x out1\n"), "{found}");
+    let said = run(&text.replace(" b c", " b c d"), None).unwrap_err();
+    assert!(said.contains("4 names for 3 columns"), "{said}");
+}
+
+/// The squares of six bits: together the outputs have fewer rows than each by itself.
+#[test]
+fn outputs_share_products() {
+    let mut text = ".i 6\n.o 12\n.type fr\n".to_owned();
+    for number in 0_u32..64 {
+        writeln!(text, "{number:06b} {:012b}", number * number).unwrap();
+    }
+    covers(&text, &read(&text).unwrap());
+    let rows = |text: &str| read(text).unwrap().rows();
+    let together = rows(&run(&text, None).unwrap().text);
+    let separate = rows(&separately(&text).unwrap().text);
+    assert!(
+        together <= 52 && together < separate,
+        "{together} rows together, {separate} for each by itself"
+    );
+}
+
+/// Random tables of several outputs: together they never have more rows than each by itself.
+#[test]
+fn shared_products_are_never_more() {
+    for seed in 0..60 {
+        let mut random = Xoshiro256PlusPlus::seed_from_u64(1_000 + seed);
+        let outputs = 2 + below(&mut random, 3);
+        let kind = ["fr", "fd", "f"][seed as usize % 3];
+        let mut text = format!(".i 5\n.o {outputs}\n.type {kind}\n");
+        let mut known = std::collections::BTreeSet::new();
+        for _ in 0..4 + below(&mut random, 16) {
+            let choices: &[char] = if kind == "fr" {
+                &['0', '1']
+            } else {
+                &['0', '1', '-']
+            };
+            let inputs: String = (0..5)
+                .map(|_| choices[below(&mut random, choices.len())])
+                .collect();
+            let said: String = (0..outputs)
+                .map(|_| ['0', '1'][below(&mut random, 2)])
+                .collect();
+            if known.insert(inputs.clone()) {
+                writeln!(text, "{inputs} {said}").unwrap();
+            }
+        }
+        covers(&text, &read(&text).unwrap());
+        let rows = |found: Minimized| read(&found.text).unwrap().rows();
+        let together = rows(run(&text, None).unwrap());
+        assert!(together <= rows(separately(&text).unwrap()), "{text}");
+    }
 }
 
 #[test]

@@ -45,6 +45,45 @@ fn csv(rows: &[(Vec<char>, usize)]) -> String {
     text
 }
 
+/// The rows with each cube as its minterms.
+fn minterms(rows: &[(Vec<char>, usize)]) -> Vec<(Vec<char>, usize)> {
+    let mut all = Vec::new();
+    for (cells, behavior) in rows {
+        let mut open = vec![cells.clone()];
+        while let Some(cells) = open.pop() {
+            match cells.iter().position(|cell| *cell == '-') {
+                Some(at) => open.extend(['0', '1'].map(|value| {
+                    let mut cells = cells.clone();
+                    cells[at] = value;
+                    cells
+                })),
+                None => all.push((cells, *behavior)),
+            }
+        }
+    }
+    all
+}
+
+/// The number of nodes of the tree that is made of a table.
+fn nodes(table: &str) -> usize {
+    let made = made(text("table.csv", table.as_bytes()), None, &USUAL);
+    let report = made.unwrap_or_else(|r| panic!("{}", shown(&r))).report;
+    let tree = report.iter().find_map(|line| line.strip_prefix("tree "));
+    let number = tree.and_then(|line| line.split_whitespace().next());
+    number.unwrap().parse().unwrap()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    /// Cubes say what their minterms say: their tree is no larger.
+    #[test]
+    fn cubes_have_no_larger_tree_than_their_minterms(rows in rows()) {
+        let (cubes, minterms) = (csv(&rows), csv(&minterms(&rows)));
+        prop_assert!(nodes(&cubes) <= nodes(&minterms), "{}", cubes);
+    }
+}
+
 fn json(rows: &[(Vec<char>, usize)]) -> String {
     let mut text = String::new();
     for (cells, behavior) in rows {
