@@ -122,6 +122,9 @@ impl<'i> Builder<'i> {
             .label("this begins another one")
             .note(format!("commas part {what}"))
             .fix("put a comma", comma, ",", Applicability::Safe);
+        if self.slice(place) == "not" {
+            diagnostic = diagnostic.help("conditions are joined: `a and not b`");
+        }
         let is_word = |word: &str| {
             let letters = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
             !word.is_empty() && word.chars().all(letters)

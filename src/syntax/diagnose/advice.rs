@@ -1,7 +1,7 @@
 //! Advice on tokens that do not fit.
 
 use super::Place;
-use super::words::is_word;
+use super::words::{FOR_ALL, is_word};
 use crate::diagnostic::{Applicability, Diagnostic};
 use crate::source::Span;
 use crate::spelling::RESERVED;
@@ -250,6 +250,7 @@ impl Place<'_> {
             (Rule::strict_start_line, "if") => {
                 "a start has no branches: `battery = if CONDITION { … } else { … }`"
             }
+            (Rule::strict_aspect, "for") if wants_value => FOR_ALL,
             (Rule::strict_aspect, "[" | "{") if wants_value => {
                 "a list has no brackets: its entries are parted by commas"
             }

@@ -10,6 +10,10 @@ use crate::syntax::grammar::Rule;
 use crate::syntax::tokens::{Kind, Token};
 use crate::syntax::words::{FOREIGN, ITEMS};
 
+/// How an entry of a list goes for all members of a kind.
+pub(super) const FOR_ALL: &str =
+    "an entry of a list goes for all of a kind: `PREDICATE(x in KIND)`";
+
 impl Place<'_> {
     /// The spelling of the token after the one that does not fit.
     pub(super) fn after_found(&self) -> &str {
@@ -226,7 +230,7 @@ impl Place<'_> {
             return Some(
                 Diagnostic::new(code, self.span(), message)
                     .label("nothing is repeated here")
-                    .help("an entry of a list goes for all of a kind: `PREDICATE(x in KIND)`"),
+                    .help(FOR_ALL),
             );
         }
         let near = near.or_else(|| {
