@@ -158,16 +158,16 @@ fn thousands_of_unknown_names() {
 #[test]
 fn thousands_of_broken_items() {
     let n = 5_000;
-    for (item, told) in [
-        ("event eN = s fooN\n", n),
-        ("predicate pN = (1 m\n", 1),
-        ("state sN: lenght = 0 m\npredicate pN = sN > 1 m\n", 1),
-        ("on eN { xN = yN\n", n),
-        ("tree tN = selector { if aN => bN }\n", n),
+    for item in [
+        "event eN = s fooN\n",
+        "predicate pN = (1 m\n",
+        "state sN: lenght = 0 m\npredicate pN = sN > 1 m\n",
+        "on eN { xN = yN\n",
+        "tree tN = selector { if aN => bN }\n",
     ] {
         let text = many(n, |i| item.replace('N', &i.to_string()));
         let loaded = load("mutant.bt", text.into(), &mut NoFiles);
-        assert!(loaded.diagnostics.len() >= told, "{item}");
+        assert!(loaded.has_errors(), "{item}");
         program::shown(&loaded);
     }
 }
