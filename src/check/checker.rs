@@ -15,6 +15,7 @@ use super::merge;
 use super::names::Names;
 use super::tune::Tunes;
 use super::twice;
+use super::types::Type;
 use super::{Checked, Input};
 use crate::diagnostic::{self, Diagnostic};
 use crate::geometry::Point;
@@ -64,7 +65,9 @@ pub struct Checker<'a> {
     /// The parameter that the expression at hand is given to, with what it is a parameter of.
     pub given: Option<(&'a str, &'a str)>,
     /// The enum of which the name at hand is to be a value.
-    pub wanted: Option<String>,
+    pub wanted: Option<Type>,
+    /// The only argument of the call that was met last, and what is called.
+    pub sole_argument: Option<(Span, String)>,
     /// The numbers that may be tuned.
     pub tunes: Tunes,
     /// The names that bodies of the user bind, by where they are bound.
@@ -124,6 +127,7 @@ impl<'a> Checker<'a> {
             positions: Vec::new(),
             given: None,
             wanted: None,
+            sole_argument: None,
             tunes: Tunes::default(),
             bound: BTreeMap::new(),
             predicates: BTreeMap::new(),

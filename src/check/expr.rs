@@ -29,7 +29,8 @@ impl<'a> Checker<'a> {
     pub fn expr(&mut self, expr: &'a Expr) -> Typed {
         self.depth += 1;
         let wanted = self.wanted.take();
-        if plain_ref(expr).is_some() {
+        // What an argument is to be, its parameter says.
+        if plain_ref(expr).is_some_and(|name| name.args.is_none()) {
             self.wanted = wanted;
         }
         let typed = if self.depth > DEEP {
@@ -49,10 +50,7 @@ impl<'a> Checker<'a> {
 
     /// Checks an expression that stands where one of type `like` is meant.
     pub fn expr_like(&mut self, expr: &'a Expr, like: &Type) -> Typed {
-        self.wanted = match like {
-            Type::Enum(of) => Some(of.clone()),
-            _ => None,
-        };
+        self.wanted = Some(like.clone()).filter(|like| *like != Type::Error);
         self.expr(expr)
     }
 

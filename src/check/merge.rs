@@ -17,8 +17,8 @@ pub fn merge(sorted: &mut Vec<Diagnostic>, declared: impl Fn(Span) -> Option<Spa
     let mut further: BTreeMap<usize, Vec<Span>> = BTreeMap::new();
     for found in sorted.drain(..) {
         let about = match found.code {
-            // The sensors that a robot lacks for one use are one mistake.
-            Code::E0406
+            // The sensors that a robot lacks for one use are one mistake, and so are the members of a family that never end.
+            Code::E0406 | Code::E0611
                 if merged
                     .last()
                     .is_some_and(|last| last.code == found.code && last.span() == found.span()) =>

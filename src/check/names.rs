@@ -9,7 +9,6 @@ mod lookup;
 
 use super::builtin;
 use super::meaning::Entity;
-use crate::diagnostic::suggest;
 use crate::source::Span;
 use crate::syntax::ast::{self, Ident};
 use std::collections::{BTreeMap, BTreeSet};
@@ -203,9 +202,9 @@ impl<'a> Names<'a> {
         self.lost.insert(name.to_owned());
     }
 
-    /// Whether a name is nearly that of a declaration that was not understood.
-    pub fn is_nearly_lost(&self, name: &str) -> bool {
-        suggest::nearest(name, self.lost.iter().map(String::as_str)).is_some()
+    /// The names of the declarations that were not understood.
+    pub fn all_lost(&self) -> impl Iterator<Item = &str> {
+        self.lost.iter().map(String::as_str)
     }
 
     /// Whether this is the declaration of its name that counts: the first one.

@@ -84,6 +84,16 @@ impl<'a> Checker<'a> {
             fine: true,
         };
         let mut position = 0;
+        if let [
+            Arg {
+                kind: ArgKind::Positional(value),
+                ..
+            },
+        ] = args
+        {
+            let owner = signature.owner.trim_matches('`').to_owned();
+            self.sole_argument = Some((value.span, owner));
+        }
         for arg in args {
             let slot = self.slot(signature, arg, &mut position, matched.fine);
             match slot.map(|slot| matched.given.get_mut(slot)) {

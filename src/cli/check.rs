@@ -184,11 +184,19 @@ fn found(arguments: &Arguments, path: &str) -> Result<Checked, Failure> {
     };
     let mut reader = Found::of(&name);
     let mut loaded = load::load(&name, bytes, &mut reader);
-    if arguments.fix && path != files::STDIN {
+    if arguments.fix && Path::new(path).is_file() {
+        let mut mended = None;
         for _ in 0..ROUNDS {
-            let Some(text) = fixed(&loaded) else { break };
-            files::write(Path::new(path), &text)?;
-            loaded = load::load(&name, text.into(), &mut reader);
+            let Some(text) = fixed(mended.as_ref().unwrap_or(&loaded)) else {
+                break;
+            };
+            mended = Some(load::load(&name, text.into(), &mut reader));
+        }
+        if let Some(mended) = mended {
+            let text = mended.sources.get(mended.main);
+            let text = text.map(|source| source.text.clone()).unwrap_or_default();
+            files::rewrite(&loaded, &[(name.clone(), text)])?;
+            loaded = mended;
         }
     }
     loaded.diagnostics.extend(check::worlds(&loaded));

@@ -11,7 +11,7 @@ use crate::facade::disk::{TABLE, bounded};
 use crate::source::Sources;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The name that stands for standard input.
 pub(super) const STDIN: &str = "-";
@@ -140,11 +140,24 @@ pub(super) fn rewrite(loaded: &Loaded, texts: &[(String, String)]) -> Result<(),
                 "{name}: it has changed since this command read it, and is left as it is: run the command again"
             )));
         }
-        texts.iter().try_for_each(|(name, text)| {
-            file::write(&System, Path::new(name), text.as_bytes())
-                .map_err(|error| complain(&format!("{name}: {error}")))
-        })
+        let files = texts
+            .iter()
+            .map(|(name, text)| (Path::new(name), text.as_bytes()));
+        put_all(&files.collect::<Vec<_>>())
     })
+}
+
+/// Writes files, all of them or none, without a stop between them.
+pub(super) fn write_each(files: &[(PathBuf, Vec<u8>)]) -> Result<(), Failure> {
+    let files = files
+        .iter()
+        .map(|(path, bytes)| (path.as_path(), bytes.as_slice()));
+    interrupt::uninterrupted(|| put_all(&files.collect::<Vec<_>>()))
+}
+
+fn put_all(files: &[(&Path, &[u8])]) -> Result<(), Failure> {
+    file::write_all(&System, files)
+        .map_err(|(path, error)| complain(&format!("{}: {error}", path.display())))
 }
 
 /// Writes a whole file or nothing. A device or a pipe is written to directly.

@@ -15,17 +15,17 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments, btc: Command) -> Result<(), Failure> {
     let folder = &arguments.output;
     let failed = |error| files::complain(&format!("{}: {error}", folder.display()));
-    std::fs::create_dir_all(folder).map_err(failed)?;
     let mut btc = btc.disable_help_subcommand(true);
     // Names the pages of the commands: `btc-learn`.
     btc.build();
     let commands = btc.get_subcommands().cloned();
     let pages: Vec<Man> = commands.chain([btc.clone()]).map(Man::new).collect();
+    let mut written = Vec::new();
     for page in pages {
         let mut text = Vec::new();
         page.render(&mut text).map_err(failed)?;
-        let path = folder.join(page.get_filename());
-        files::write(&path, &String::from_utf8_lossy(&text))?;
+        written.push((folder.join(page.get_filename()), text));
     }
-    Ok(())
+    std::fs::create_dir_all(folder).map_err(failed)?;
+    files::write_each(&written)
 }

@@ -205,7 +205,7 @@ const FOREIGN: [(&str, &str); 192] = [
     ("radius", "within"),
 ];
 
-/// The candidate that `name` is called elsewhere, or else the nearest one, if it is near enough to be what was meant; the
+/// The candidate that `name` is in the singular or the plural or is called elsewhere, or else the nearest one, if it is near enough to be what was meant; the
 /// first one of several. Where none is near, the one that `name` is the beginning of, or is but for a prefix or an ending.
 ///
 /// Nearness is the number of letters inserted, dropped, replaced or exchanged with their neighbour (optimal string
@@ -221,9 +221,15 @@ where
     if let Some(word) = cased.find(|word| **word != name) {
         return Some(word);
     }
+    let mut numbered = candidates.iter().filter(|word| {
+        name.strip_suffix('s') == Some(**word) || word.strip_suffix('s') == Some(name)
+    });
+    let numbered = numbered.next().filter(|_| name.len() >= 3);
     let foreign = FOREIGN.iter().filter(|(foreign, _)| *foreign == name);
+    // `turn` may be the `max_turn` of a drive; where there are `turns`, it is rather one of these.
+    let foreign = foreign.filter(|(foreign, meant)| numbered.is_none() || !meant.contains(foreign));
     let mut meant = foreign.filter_map(|(_, meant)| candidates.iter().find(|word| *word == meant));
-    if let Some(meant) = meant.next() {
+    if let Some(meant) = meant.next().or(numbered) {
         return Some(meant);
     }
     let own = name.chars().count();
@@ -295,6 +301,7 @@ mod tests {
         assert_eq!(nearest("wal", ["wall_at", "wall_of"]), None);
         assert_eq!(nearest("is_full", ["full", "low"]), Some("full"));
         assert_eq!(nearest("hauling", ["haul"]), Some("haul"));
+        assert_eq!(nearest("turn", ["max_turn", "turns"]), Some("turns"));
         assert_eq!(nearest("chanse", ["chase", "chance"]), Some("chance"));
     }
 

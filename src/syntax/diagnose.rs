@@ -5,6 +5,7 @@ mod characters;
 mod ends;
 mod foreign;
 mod forms;
+mod marks;
 mod pieces;
 mod places;
 mod respelled;
@@ -69,10 +70,11 @@ pub(super) fn failure(
     if let Some(diagnostic) = place.comment() {
         return (failure.at, diagnostic);
     }
-    if let Some(diagnostic) = place.rewritten() {
+    if let Some(diagnostic) = place.rewritten().or_else(|| place.misplaced_mark()) {
         return (failure.at, diagnostic);
     }
-    if let Some((last, diagnostic)) = place.cut_line().or_else(|| place.cut_value()) {
+    let cut = place.cut_line().or_else(|| place.cut_value());
+    if let Some((last, diagnostic)) = cut.or_else(|| place.cut_before_entry()) {
         return (last.end, diagnostic);
     }
     let diagnostic = place

@@ -81,6 +81,11 @@ pub fn expr(expr: &ast::Expr) -> String {
     Printer::default().expr(expr).on_one_line()
 }
 
+/// An argument as text, on one line.
+pub fn argument(arg: &ast::Arg) -> String {
+    Printer::default().arg(arg).on_one_line()
+}
+
 /// Turns syntax into documents.
 #[derive(Clone, Copy, Default)]
 struct Printer<'s> {

@@ -266,6 +266,16 @@ fn completions_and_manual_pages_have_every_command() {
 }
 
 #[test]
+fn manual_pages_are_written_all_or_not_at_all() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path().join("man1");
+    fs::create_dir_all(at.join("btc.1")).unwrap();
+    let output = btc(&["man", "-o", at.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(fs::read_dir(&at).unwrap().count(), 1);
+}
+
+#[test]
 fn nobody_need_read_standard_error() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("wrong.bt");

@@ -154,6 +154,24 @@ fn thousands_of_unknown_names() {
     program::shown(&loaded);
 }
 
+/// Thousands of lines that are not understood, and what asks for them, cost no more each than a few do.
+#[test]
+fn thousands_of_broken_items() {
+    let n = 5_000;
+    for item in [
+        "event eN = s fooN\n",
+        "predicate pN = (1 m\n",
+        "state sN: lenght = 0 m\npredicate pN = sN > 1 m\n",
+        "on eN { xN = yN\n",
+        "tree tN = selector { if aN => bN }\n",
+    ] {
+        let text = many(n, |i| item.replace('N', &i.to_string()));
+        let loaded = load("mutant.bt", text.into(), &mut NoFiles);
+        assert!(loaded.has_errors(), "{item}");
+        program::shown(&loaded);
+    }
+}
+
 #[test]
 fn long_ways_through_definitions() {
     // Each uses the one before, in either order of declaration.

@@ -8,7 +8,7 @@ use crate::check::signature::{Signature, Takes};
 use crate::check::types::Type;
 use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::source::Span;
-use crate::syntax::ast::{Arg, ArgKind, Expr, Param, Params, Ref};
+use crate::syntax::ast::{Arg, ArgKind, Expr, ExprKind, Param, Params, Ref};
 use crate::syntax::print;
 use std::collections::BTreeSet;
 
@@ -78,6 +78,9 @@ impl<'a> Checker<'a> {
             {
                 self.stands_for(given, param.name.span);
             }
+        }
+        if self.point_in_two(params, library, args, name) {
+            return None;
         }
         let told = self.diagnostics.len();
         let matched = self.matched(&signature, args);
@@ -152,6 +155,55 @@ impl<'a> Checker<'a> {
         fine.then_some(bindings)
     }
 
+    /// Reports `turn_to(4 m, 2 m)`: the coordinates of a point as two arguments.
+    fn point_in_two(
+        &mut self,
+        params: &'a [Param],
+        library: bool,
+        args: &'a [Arg],
+        owner: &str,
+    ) -> bool {
+        let number = |arg: &'a Arg| match &arg.kind {
+            ArgKind::Positional(value) if is_number(value) => Some(value),
+            _ => None,
+        };
+        let mut pairs = params.iter().zip(args.iter().zip(args.iter().skip(1)));
+        let pair = pairs.find_map(|(param, (x, y))| {
+            let ty = self.in_library(library, |checker| checker.type_expr(&param.ty));
+            let (x, y) = (number(x)?, number(y)?);
+            matches!(ty, Type::Target | Type::Point | Type::Place(_)).then_some((param, ty, x, y))
+        });
+        let Some((param, ty, x, y)) = pair else {
+            return false;
+        };
+        let span = x.span.to(y.span);
+        let message = format!(
+            "`{}` of `{owner}` is {ty}, not two numbers",
+            param.name.name
+        );
+        let draft = self.error(Code::E0302, span, message);
+        match ty {
+            Type::Place(_) => draft
+                .label("a place has a name")
+                .help(format!(
+                    "give it one in the world: `place NAME = disc(({}, {}), 20 cm)`",
+                    print::expr(x),
+                    print::expr(y)
+                ))
+                .emit(),
+            _ => draft
+                .label("a point is written `(x, y)`")
+                .fix(
+                    format!("write `({}, {})`", print::expr(x), print::expr(y)),
+                    span,
+                    format!("({}, {})", print::expr(x), print::expr(y)),
+                    Applicability::Unsafe,
+                )
+                .emit(),
+        }
+        true
+    }
+
     /// How one member of a family is named, and all of them, for who has named the family alone.
     fn one_or_all(
         &mut self,
@@ -180,7 +232,12 @@ impl<'a> Checker<'a> {
         let ([first, second], [one, other]) = (params, args) else {
             return;
         };
-        let (ArgKind::Positional(a), ArgKind::Positional(b)) = (&one.kind, &other.kind) else {
+        let value = |arg: &'a Arg| match &arg.kind {
+            ArgKind::Positional(value) => Some(value),
+            ArgKind::Binder { member, .. } => Some(&**member),
+            _ => None,
+        };
+        let (Some(a), Some(b)) = (value(one), value(other)) else {
             return;
         };
         let of_both = self.diagnostics.get(told..).is_some_and(|found| {
@@ -197,14 +254,18 @@ impl<'a> Checker<'a> {
         };
         if fits(a, second) && fits(b, first) {
             self.diagnostics.truncate(told);
-            self.the_other_way_around(a, b);
+            let right = format!("{}, {}", print::argument(other), print::argument(one));
+            self.stand_around(one.span.to(other.span), right);
         }
     }
 
     /// Reports two arguments that stand in each other's place.
     pub fn the_other_way_around(&mut self, first: &Expr, second: &Expr) {
         let right = format!("{}, {}", print::expr(second), print::expr(first));
-        let span = first.span.to(second.span);
+        self.stand_around(first.span.to(second.span), right);
+    }
+
+    fn stand_around(&mut self, span: Span, right: String) {
         self.error(
             Code::E0305,
             span,
@@ -218,6 +279,15 @@ impl<'a> Checker<'a> {
         let result = pass(self);
         self.context.library = outer;
         result
+    }
+}
+
+/// Whether an expression is a number, perhaps signed.
+fn is_number(expr: &Expr) -> bool {
+    match &expr.kind {
+        ExprKind::Number(_) => true,
+        ExprKind::Unary { operand, .. } => is_number(operand),
+        _ => false,
     }
 }
 

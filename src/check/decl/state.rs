@@ -177,6 +177,10 @@ impl<'a> Checker<'a> {
         let Some(codes) = codes else {
             return Some(Typed::unknown(slot.ty, span));
         };
+        // Its kind has no members that are known: what was not understood is told.
+        if slot.members.is_empty() && state.params.is_some() {
+            return Some(Typed::unknown(slot.ty, span));
+        }
         let count = slot.members.first().map_or(1, |member| member.is.len());
         let none = self.nothing(&slot.ty, count);
         let leaf = |checker: &mut Self, ids: &[Id<State>]| {

@@ -1,6 +1,7 @@
 //! Functions of numbers.
 
 use crate::check::Checker;
+use crate::check::expr::expect::is_literal;
 use crate::check::types::{Type, Typed};
 use crate::diagnostic::Code;
 use crate::ir::Pool;
@@ -109,16 +110,28 @@ impl<'a> Checker<'a> {
     /// Numbers, all of the unit of the first.
     fn numbers(&mut self, values: &[&'a Expr], role: &str) -> Option<Vec<Typed>> {
         let (first, rest) = values.split_first()?;
-        let first = self.number_of(first)?;
-        self.alike(first, rest, role)
+        let typed = self.number_of(first)?;
+        self.alike((first, typed), rest, role)
     }
 
     /// The first of some values with the rest, which have to be of one type with it.
-    pub fn alike(&mut self, first: Typed, rest: &[&'a Expr], role: &str) -> Option<Vec<Typed>> {
+    pub fn alike(
+        &mut self,
+        (lead, first): (&'a Expr, Typed),
+        rest: &[&'a Expr],
+        role: &str,
+    ) -> Option<Vec<Typed>> {
         let mut all = vec![first.clone()];
         let mut like = first;
         for value in rest {
-            let next = self.expect_like(value, &like, role);
+            let next = self.expr_like(value, &like.ty);
+            // A number without a unit says least of what is meant: it lacks the unit of the others.
+            let unlike = next.ty.dim().is_some() && next.ty.join(&like.ty).is_none();
+            if unlike && like.ty == Type::NUMBER && is_literal(lead) {
+                self.lacks_the_unit_of(&next, (lead, &like), role);
+                return None;
+            }
+            let next = self.like(next, value, &like, role);
             if next.ty == Type::Error {
                 return None;
             }
@@ -126,6 +139,18 @@ impl<'a> Checker<'a> {
             all.push(next);
         }
         Some(all)
+    }
+
+    /// Reports a plain number that stands beside a number with a unit.
+    fn lacks_the_unit_of(&mut self, other: &Typed, (value, typed): (&Expr, &Typed), role: &str) {
+        let message = match role.strip_prefix("the second ") {
+            Some(role) => format!("the first {role} is {}, not {}", other.ty, typed.ty),
+            None => format!("{role} is {}, not {}", other.ty, typed.ty),
+        };
+        self.unlike(typed, &other.ty, message)
+            .this_is(&typed.ty)
+            .unit_for(value, other.ty.dim())
+            .also(other.span, format!("this is {}", other.ty));
     }
 
     fn number_of(&mut self, value: &'a Expr) -> Option<Typed> {

@@ -3,7 +3,7 @@
 use crate::check::Checker;
 use crate::check::builtin::Function;
 use crate::check::types::{Type, Typed, Value};
-use crate::diagnostic::Code;
+use crate::diagnostic::{Applicability, Code};
 use crate::ir::expr::{Binary, Draw};
 use crate::syntax::ast::Ref;
 
@@ -55,14 +55,23 @@ impl<'a> Checker<'a> {
         let low = a.scalar().and_then(|id| self.program.pool.constant(id));
         let high = b.scalar().and_then(|id| self.program.pool.constant(id));
         match (function, low, high) {
-            (Function::Uniform, Some(low), Some(high)) if low > high => self
-                .out_of_range(
+            (Function::Uniform, Some(low), Some(high)) if low > high => {
+                // `uniform(50, 100%)`
+                let percent = b.ty == Type::Ratio && a.ty == Type::NUMBER && low <= high * 100.0;
+                let draft = self.out_of_range(
                     a.span.to(b.span),
                     "`uniform` draws from less to more",
                     "this goes from more to less",
-                )
-                .help("exchange the two")
-                .none(),
+                );
+                match percent {
+                    true => {
+                        let after = a.span.after();
+                        draft.fix("write `%`", after, "%", Applicability::Unsafe)
+                    }
+                    false => draft.help("exchange the two"),
+                }
+                .none()
+            }
             (Function::Normal, _, Some(deviation)) if deviation < 0.0 => self
                 .out_of_range(
                     b.span,
@@ -78,11 +87,11 @@ impl<'a> Checker<'a> {
         let span = reference.span;
         let values = self.positional(reference, 1, usize::MAX)?;
         let (first, rest) = values.split_first()?;
-        let first = self.expr(first);
-        if first.ty == Type::Error {
+        let typed = self.expr(first);
+        if typed.ty == Type::Error {
             return None;
         }
-        let choices = self.alike(first, rest, "every choice of `one_of`")?;
+        let choices = self.alike((first, typed), rest, "every choice of `one_of`")?;
         let count = u32::try_from(choices.len()).unwrap_or(u32::MAX);
         let index = self.program.pool.draw(Draw::Pick(count));
         let mut choices = choices.into_iter().enumerate().rev();

@@ -1,6 +1,7 @@
 //! Expressions of an expected type, constants and numbers.
 
 use crate::check::Checker;
+use crate::check::context::Region;
 use crate::check::expr::plain_ref;
 use crate::check::names::Decl;
 use crate::check::report::{Draft, listed};
@@ -23,7 +24,9 @@ impl<'a> Checker<'a> {
     /// Reports an expression that is not of the wanted type; what comes back is of that type or an error.
     pub fn coerce(&mut self, typed: Typed, expr: &Expr, wanted: &Type, role: &str) -> Typed {
         if typed.ty.fits(wanted) {
-            self.warn_plain_ratio(expr, wanted);
+            if typed.ty != Type::Error {
+                self.warn_plain_ratio(expr, wanted);
+            }
             return typed;
         }
         let found = self.mismatch(&typed, expr, wanted, role).typed();
@@ -34,6 +37,11 @@ impl<'a> Checker<'a> {
     /// Checks an expression that has to be of the type of another one.
     pub fn expect_like(&mut self, expr: &'a Expr, first: &Typed, role: &str) -> Typed {
         let typed = self.expr_like(expr, &first.ty);
+        self.like(typed, expr, first, role)
+    }
+
+    /// Reports an expression that is not of the type of another one; what comes back is of that type or an error.
+    pub fn like(&mut self, typed: Typed, expr: &'a Expr, first: &Typed, role: &str) -> Typed {
         if first.ty.join(&typed.ty).is_some() {
             self.warn_plain_ratio(expr, &first.ty);
             return typed;
@@ -48,7 +56,14 @@ impl<'a> Checker<'a> {
         let named = plain_ref(expr)
             .and_then(|name| self.names.value(&name.name.name, self.context.library));
         let is_variant = matches!(named, Some((Decl::Variant(..), _)));
-        let help = conversion(typed, expr, wanted, is_variant).or_else(|| self.values_of(wanted));
+        let help = self
+            .of_no_kind(typed, expr, wanted)
+            .or_else(|| {
+                let ticks = self.context.region != Region::Schedule;
+                conversion(typed, expr, wanted, is_variant)
+                    .filter(|help| ticks || !help.contains("every tick"))
+            })
+            .or_else(|| self.values_of(wanted));
         let kind = self.misspelt_kind(expr, &typed.ty, wanted);
         let place = (&typed.ty, wanted) == (&Type::Robot, &Type::Point);
         let draft = self
@@ -72,6 +87,23 @@ impl<'a> Checker<'a> {
             return draft.fix(title, typed.span, right, Applicability::Unsafe);
         }
         draft
+    }
+
+    /// How a place gets the kind that is wanted: where it is declared, or where the parameter is that it stands for.
+    fn of_no_kind(&self, typed: &Typed, expr: &Expr, wanted: &Type) -> Option<String> {
+        let (Type::Place(None), Type::Place(Some(kind))) = (&typed.ty, wanted) else {
+            return None;
+        };
+        let place = spelled(&plain_ref(expr).filter(|it| it.args.is_none())?.name.name);
+        if self.context.lookup(&place).is_some() {
+            return Some(format!("let it be of that kind: `{place}: {kind}`"));
+        }
+        match self.names.value(&place, self.context.library) {
+            Some((Decl::Place(..), _)) => Some(format!(
+                "a kind stands behind the name: `place {place}: {kind} = …`"
+            )),
+            _ => None,
+        }
     }
 
     /// The values of an enum, as advice.
@@ -222,12 +254,6 @@ pub const PLACE_FOR_WALL: &str =
 
 /// How a number of one unit becomes one of another that people take for it, and a place one of a kind.
 fn conversion(typed: &Typed, expr: &Expr, wanted: &Type, is_variant: bool) -> Option<String> {
-    if let (Type::Place(None), Type::Place(Some(kind))) = (&typed.ty, wanted) {
-        let place = print::expr(expr);
-        return Some(format!(
-            "a kind stands behind the name: `place {place}: {kind} = …`"
-        ));
-    }
     let is_target = typed.ty.is_named_target() || typed.ty == Type::Target;
     if is_target && matches!(expr.kind, ExprKind::Ref(_)) {
         let target = print::expr(expr);

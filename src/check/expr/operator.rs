@@ -84,9 +84,11 @@ impl<'a> Checker<'a> {
         span: Span,
     ) -> Option<Typed> {
         let word = sign.node.spelling();
+        // What is called within the operands comes after.
+        let call = self.sole_argument.take();
         let (a, b) = (self.expr(left), self.expr(right));
         if !a.ty.fits(&Type::Bool) && !b.ty.fits(&Type::Bool) {
-            return self.joins_no_truths(sign, [(left, &a), (right, &b)]);
+            return self.joins_no_truths(sign, [(left, &a), (right, &b)], call);
         }
         if let Type::Enum(of) = &b.ty
             && let Some(asked) = self.asked_before(left, of)
@@ -138,9 +140,30 @@ impl<'a> Checker<'a> {
         &mut self,
         sign: ast::Spanned<BinaryOp>,
         [(left, a), (right, b)]: [(&Expr, &Typed); 2],
+        call: Option<(Span, String)>,
     ) -> Option<T> {
         let word = sign.node.spelling();
         let alike = a.ty == b.ty;
+        // `has(bolt or plate)`
+        let (from, until) = (left.span, right.span);
+        let call = call.filter(|(span, _)| span.start == from.start && span.end == until.end);
+        if let Some((span, call)) = call {
+            let (one, other) = (print::expr(left), print::expr(right));
+            let right = format!("{one}) {word} {call}({other}");
+            let message = format!("`{word}` joins conditions, and neither side is one");
+            return self
+                .error(Code::E0302, sign.span, message)
+                .label(format!(
+                    "each side is a call of its own: `{call}({one}) {word} {call}({other})`"
+                ))
+                .fix(
+                    format!("write `{call}({right})`"),
+                    span,
+                    right,
+                    Applicability::Unsafe,
+                )
+                .none();
+        }
         let help = match alike && sign.node == BinaryOp::Or && self.context.region.draws() {
             true => {
                 let (left, right) = (print::expr(left), print::expr(right));
@@ -383,6 +406,10 @@ impl<'a> Checker<'a> {
                     let names: Vec<&str> = names.iter().map(String::as_str).collect();
                     Some(format!("`{of}` has {}", listed(&names, "and")))
                 }
+                (Type::Target, Type::Nowhere) | (Type::Nowhere, Type::Target) => Some(
+                    "what is nowhere is infinitely far: `distance(…) < 100 m` does not hold of it"
+                        .to_owned(),
+                ),
                 (Type::Point, _) | (_, Type::Point) => Some(
                     "of a point the coordinates are compared, `p.x` and `p.y`, or how far it is: `distance(p)`"
                         .to_owned(),

@@ -21,7 +21,8 @@ impl<'a> Checker<'a> {
                         }),
                     ..
                 }) if matches!(reference.name.name.as_str(), "nearest" | "count")
-                    && self.names.types.contains_key(name.name.as_str()) =>
+                    && (self.names.types.contains_key(name.name.as_str())
+                        || matches!(name.name.as_str(), "robot" | "place" | "wall")) =>
                 {
                     let right = format!("x in {}", name.name);
                     Some((format!("write `{right}`"), arg.span, right))

@@ -167,8 +167,7 @@ impl<'a> Checker<'a> {
         if reference.args.is_none() && others.any(|(_, other)| other.name == name.name) {
             return self.sensor_of_another(reference);
         }
-        let is_lost = self.names.is_lost(&name.name) || self.names.is_nearly_lost(&name.name);
-        if is_lost || self.names.lost_values && reference.args.is_none() {
+        if self.may_be_lost(&name.name) || self.names.lost_values && reference.args.is_none() {
             return None;
         }
         // Only a sensor of the acting robot can be missing from a body of the library.
@@ -184,7 +183,11 @@ impl<'a> Checker<'a> {
                 ))
                 .none();
         }
-        if reference.args.is_none() && self.no_value_of(name, wanted) {
+        let of = match &wanted {
+            Some(Type::Enum(of)) => Some(of.clone()),
+            _ => None,
+        };
+        if reference.args.is_none() && self.no_value_of(name, of) {
             return None;
         }
         if reference.args.is_none() && name.name.len() == 1 {
@@ -192,10 +195,13 @@ impl<'a> Checker<'a> {
         }
         let scope = self.context.scope.iter();
         let scope = scope.map(|bound| bound.name.name.as_str());
-        let declared = self.names.values(|decl| !matches!(decl, Decl::Tree(_)));
         let called = reference.args.is_some();
+        let declared = self.names.values(|decl| match called {
+            true => !matches!(decl, Decl::Tree(_)),
+            false => may_be(decl, wanted.as_ref()),
+        });
         let built_in = builtin::names().map(|name| -> &'a str { name });
-        let built_in = built_in.filter(|name| !called || builtin::Constant::named(name).is_none());
+        let built_in = built_in.filter(|name| called != builtin::Constant::named(name).is_some());
         let known = scope.chain(declared).chain(built_in);
         let likely = self.likely(&name.name, known);
         let what = match reference.args {
@@ -300,5 +306,22 @@ impl<'a> Checker<'a> {
     pub fn leaf(&mut self, expr: Expr, ty: Type, span: Span) -> Typed {
         let id = self.program.pool.leaf(expr);
         Typed::new(ty, Value::Scalar(id), span)
+    }
+}
+
+/// Whether what is declared so may be a value of a type.
+fn may_be(decl: Decl, wanted: Option<&Type>) -> bool {
+    let Some(wanted) = wanted else {
+        return !matches!(decl, Decl::Tree(_));
+    };
+    let named = matches!(wanted, Type::Target | Type::Nowhere) || wanted.is_named_target();
+    match decl {
+        Decl::State(_) | Decl::Let(_) => true,
+        Decl::Tree(_) => false,
+        Decl::Input(_) => !named,
+        Decl::Predicate(_) | Decl::Event(_) => *wanted == Type::Bool,
+        Decl::Variant(..) => matches!(wanted, Type::Enum(_)),
+        Decl::Behavior(_) => *wanted == Type::Behavior,
+        Decl::Place(..) | Decl::Wall(..) | Decl::Robot(_) | Decl::Sensor(_) => named,
     }
 }

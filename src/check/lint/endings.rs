@@ -2,6 +2,7 @@
 
 use crate::check::Checker;
 use crate::diagnostic::Code;
+use crate::ir::Name;
 use crate::ir::law::Behavior;
 use crate::ir::tree::Status;
 use crate::ir::{Id, Program};
@@ -55,9 +56,13 @@ impl Checker<'_> {
                     .iter()
                     .flatten()
                     .map(|id| &self.program.behaviors[*id].name);
-                let mut relatives = relatives
+                let relatives = relatives
                     .filter(|run| run.family == name.family && run.robot() == name.robot());
-                let help = match (relatives.next(), name.robot()) {
+                let relatives: Vec<&Name> = relatives.collect();
+                // Of the same place, or else any.
+                let alike = |run: &&&Name| run.arguments.first() == name.arguments.first();
+                let relative = relatives.iter().find(alike).or(relatives.first());
+                let help = match (relative, name.robot()) {
                     (Some(relative), _) => {
                         format!(
                             "`{relative}` is run, which is another behaviour: ask that, or add `{name}`"

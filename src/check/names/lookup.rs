@@ -110,7 +110,7 @@ impl<'a> Checker<'a> {
 
     /// Reports an undeclared name where a `what` is expected, unless its declaration was not understood; `likely` is the name that was probably meant.
     pub fn undeclared(&mut self, name: &Ident, what: &str, likely: Option<&str>) -> Draft<'_> {
-        if self.names.is_lost(&name.name) || self.names.is_nearly_lost(&name.name) {
+        if self.may_be_lost(&name.name) {
             return Draft::silent(&mut self.diagnostics);
         }
         if self.lacks_library(&name.name) {
@@ -251,6 +251,11 @@ impl<'a> Checker<'a> {
             Some(top) => draft.fix("use the library", top, "use std\n\n", Applicability::Safe),
             None => draft,
         }
+    }
+
+    /// Whether a name is that of a declaration that was not understood, or nearly.
+    pub fn may_be_lost(&self, name: &str) -> bool {
+        self.names.is_lost(name) || self.likely(name, self.names.all_lost()).is_some()
     }
 
     /// The name that was likely meant. A program has so many guesses: to look for the names of thousands among

@@ -348,6 +348,24 @@ impl<'a> Checker<'a> {
 
     /// `d per decision`, `d per 1 s`
     fn discount(&mut self, value: &'a ast::Expr, tail: Option<&'a ast::Expr>) -> Option<Discount> {
+        // `0.8 / 5 s`
+        if let (ExprKind::Binary { op, left, right }, None) = (&value.kind, tail)
+            && op.node == ast::BinaryOp::Div
+            && matches!(right.kind, ExprKind::Number(_))
+        {
+            let (time, _) = self.captured(|checker| checker.expr(right));
+            if time.ty == Type::TIME {
+                let right = format!("{} per {}", print::expr(left), print::expr(right));
+                return self
+                    .error(
+                        Code::E0501,
+                        value.span,
+                        "the time of a discount follows `per`",
+                    )
+                    .write(value.span, right, Applicability::Unsafe)
+                    .none();
+            }
+        }
         let factor = self.constant(value, &Type::NUMBER, "`discount`")?;
         if !(0.0..=1.0).contains(&factor) {
             let label = if factor > 1.0 {

@@ -293,7 +293,8 @@ impl<'i> Builder<'i> {
     /// The name behind a colon, if places or walls are of a kind that is called so.
     fn kind_after(&self, colon: Option<&Node<'i>>) -> Option<String> {
         let kind = self.token_at(self.ends(colon?))?.of(self.text);
-        self.glance().is_kind(kind).then(|| kind.to_owned())
+        let is_kind = matches!(kind, "robot" | "place" | "wall") || self.glance().is_kind(kind);
+        is_kind.then(|| kind.to_owned())
     }
 
     fn named(&mut self, node: Node<'i>) -> ArgKind {

@@ -102,10 +102,29 @@ impl<'i> Builder<'i> {
             self.report(diagnostic);
             return;
         }
+        // `given(w of ward)`
+        if let Some((name, _)) = last
+            && what == "arguments"
+            && matches!(self.slice(place), "of" | "from" | "at")
+        {
+            let word = self.slice(place);
+            let diagnostic = Diagnostic::new(
+                Code::E0127,
+                place,
+                format!("all of a kind are meant by `in`, not by `{word}`"),
+            )
+            .label(format!("write `{name} in …`"))
+            .fix("write `in`", place, "in", Applicability::Unsafe);
+            self.report(diagnostic);
+            return;
+        }
         let mut diagnostic = Diagnostic::new(Code::E0112, place, message)
             .label("this begins another one")
             .note(format!("commas part {what}"))
             .fix("put a comma", comma, ",", Applicability::Safe);
+        if self.slice(place) == "not" {
+            diagnostic = diagnostic.help("conditions are joined: `a and not b`");
+        }
         let is_word = |word: &str| {
             let letters = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
             !word.is_empty() && word.chars().all(letters)
@@ -113,6 +132,7 @@ impl<'i> Builder<'i> {
         let gap = before.and_then(|before| self.text.get(before.range().end..place.range().start));
         if let Some(name) = name.filter(|name| is_word(name) && is_word(self.slice(place)))
             && gap.is_some_and(|gap| !gap.contains('\n'))
+            && self.slice(place) != "not"
             && what != HISTORY
             && what != "variants"
         {

@@ -155,7 +155,8 @@ impl<'i> Builder<'i> {
         if one_of(&READS) || one_of(&ENDS) || self.glance().declares_called(&FAMILIES, name) {
             return Ok(format!("{name}({owner})"));
         }
-        if one_of(&["position", "heading", "pose"]) && !matches!(owner, "robot" | "self" | "this") {
+        let oneself = ["robot", "self", "this", "pose"];
+        if one_of(&["position", "heading", "pose"]) && !oneself.contains(&owner) {
             if is_set {
                 return Ok(format!("{name}({owner})"));
             }

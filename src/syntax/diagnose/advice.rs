@@ -1,13 +1,13 @@
 //! Advice on tokens that do not fit.
 
 use super::Place;
-use super::words::is_word;
+use super::words::{FOR_ALL, is_word};
 use crate::diagnostic::{Applicability, Diagnostic};
 use crate::source::Span;
 use crate::spelling::RESERVED;
 use crate::syntax::grammar::Rule;
 use crate::syntax::tokens::{Kind, Token};
-use crate::syntax::words::{CALLED, NODES, RANGING};
+use crate::syntax::words::{CALLED, FUNCTIONS, NODES, RANGING};
 
 /// Whether a word comes next.
 fn is_word_next(next: Option<Token>) -> bool {
@@ -79,9 +79,6 @@ impl Place<'_> {
         }
         let begins_value = matches!(self.found.kind, Kind::Word | Kind::Number | Kind::Name)
             && !RESERVED.contains(&found);
-        if found == ";" && self.expects(Rule::comma) && self.open_is_paren() {
-            return diagnostic.fix("write `,`", self.span(), ",", Applicability::Unsafe);
-        }
         let begins_value = begins_value || found == "(" && self.before() == ")";
         if let Some(before) = self.before
             && begins_value
@@ -253,6 +250,7 @@ impl Place<'_> {
             (Rule::strict_start_line, "if") => {
                 "a start has no branches: `battery = if CONDITION { … } else { … }`"
             }
+            (Rule::strict_aspect, "for") if wants_value => FOR_ALL,
             (Rule::strict_aspect, "[" | "{") if wants_value => {
                 "a list has no brackets: its entries are parted by commas"
             }
@@ -359,6 +357,9 @@ impl Place<'_> {
             (_, "selector" | "sequence") if self.before() == "reactive" => {
                 "without `memory` a node asks all its children again in every tick: drop `reactive`"
             }
+            (_, "(") if self.before() == ")" && self.expects(Rule::term_op) => {
+                "a product is written with `*`"
+            }
             _ => return self.advised_on_names(diagnostic),
         };
         diagnostic.help(help)
@@ -394,7 +395,13 @@ impl Place<'_> {
         }
     }
 
-    fn open_is_paren(&self) -> bool {
+    /// Whether what stands before is `x in KIND`.
+    pub(super) fn follows_a_range(&self) -> bool {
+        self.second_before
+            .is_some_and(|word| word.of(self.text) == "in")
+    }
+
+    pub(super) fn open_is_paren(&self) -> bool {
         self.open().is_some_and(|open| open.of(self.text) == "(")
     }
 
@@ -448,7 +455,7 @@ impl Place<'_> {
         }
         let is_argument = matches!(self.found.kind, Kind::Word | Kind::Name)
             && !RESERVED.contains(&found)
-            && CALLED.contains(&self.before())
+            && (CALLED.contains(&self.before()) || FUNCTIONS.contains(&self.before()))
             && self.same_line_as_before();
         match is_argument {
             true => diagnostic.help(format!(

@@ -60,7 +60,7 @@ impl Place<'_> {
     }
 
     /// What was to come after a token, and the line or the file ends.
-    fn after(&self, token: Token, wanted: &str, ends: &str) -> Diagnostic {
+    pub(super) fn after(&self, token: Token, wanted: &str, ends: &str) -> Diagnostic {
         let message = format!(
             "expected {wanted} after `{}`, found the end of the {ends}",
             token.of(self.text)

@@ -89,8 +89,17 @@ impl Place<'_> {
             (Rule::strict_item, ";") if self.begins_with("enum") => {
                 Some(("the values of an enum are parted by commas", ","))
             }
+            (_, ";") if self.open_is_paren() && self.follows_a_range() => {
+                Some(("what is asked of each member follows a `:`", ":"))
+            }
+            (_, ";") if self.open_is_paren() && self.expects(Rule::comma) => {
+                Some(("write `,`", ","))
+            }
             (Rule::strict_child | Rule::strict_item, ";") if self.expects(Rule::comma) => {
                 Some(("the children of a node are parted by commas", ","))
+            }
+            (Rule::strict_item, "is") if self.expects(Rule::is) => {
+                Some(("a value is given with `=`", "="))
             }
             _ => None,
         }

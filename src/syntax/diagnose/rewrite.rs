@@ -35,10 +35,27 @@ impl Place<'_> {
             .or_else(|| self.unparted_price())
             .or_else(|| self.other_length())
             .or_else(|| self.ended_by_time())
+            .or_else(|| self.other_probability())
             .or_else(|| self.bare_point())
             .or_else(|| self.typed_predicate())
             .or_else(|| self.listed_condition())
             .or_else(|| self.in_pieces())
+    }
+
+    /// `with prob >= 90%`
+    fn other_probability(&self) -> Option<Diagnostic> {
+        let word = self.next()?;
+        let claim = self.found() == "with" && self.line_begins_with("claim");
+        let said = matches!(word.of(self.text), "prob" | "p" | "P" | "chance");
+        (claim && said)
+            .then(|| {
+                self.told(
+                    self.span_of(word),
+                    "a claim says a probability",
+                    "probability",
+                )
+            })
+            .flatten()
     }
 
     /// `position = 1 m, 3 m`
@@ -81,6 +98,31 @@ impl Place<'_> {
             }
         }
         let plain = depth == 0 && commas == 1 && !value.contains(['{', '}', '<', '>']);
+        // `pose = roof, 90 deg`
+        if let Some((place, way)) = value.split_once(',')
+            && plain
+            && place.starts_with(|letter: char| letter.is_ascii_alphabetic())
+            && ["deg", "rad"]
+                .iter()
+                .any(|unit| way.trim_end().ends_with(unit))
+        {
+            let mark = from + place.len();
+            let comma = Span::new(self.file, mark, mark + 1);
+            return Some(
+                Diagnostic::new(
+                    Code::E0101,
+                    comma,
+                    "the heading is set by a line of its own",
+                )
+                .label("nothing follows the place")
+                .fix(
+                    "write `heading =`",
+                    comma,
+                    " heading =",
+                    Applicability::Unsafe,
+                ),
+            );
+        }
         plain
             .then(|| self.told(span, "a point stands in parentheses", format!("({value})")))
             .flatten()

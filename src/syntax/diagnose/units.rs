@@ -12,7 +12,8 @@ use crate::syntax::words::UNITS;
 impl Place<'_> {
     pub(super) fn unit(&self) -> Option<Diagnostic> {
         let after_number = self.before.is_some_and(|token| token.kind == Kind::Number);
-        let after_unit = UNITS.contains(&self.before());
+        let counts = |token: Token| token.kind == Kind::Number || token.of(self.text) == "/";
+        let after_unit = UNITS.contains(&self.before()) && self.second_before.is_some_and(counts);
         let word = self.found();
         if !(after_number || after_unit)
             || self.found.kind != Kind::Word
@@ -131,6 +132,7 @@ pub(in crate::syntax) fn no_such_unit(span: Span, word: &str, others: &[&str]) -
     let foreign = match word {
         "step" | "steps" | "frame" | "frames" | "iterations" => Some("ticks"),
         "secs" | "second" | "seconds" => Some("s"),
+        "millis" | "msecs" => Some("ms"),
         "kmh" | "kph" | "kmph" => Some("km/h"),
         "mps" => Some("m/s"),
         "dps" => Some("deg/s"),
@@ -143,6 +145,17 @@ pub(in crate::syntax) fn no_such_unit(span: Span, word: &str, others: &[&str]) -
         return diagnostic
             .label("this follows a number")
             .help("there are lengths, times and angles, and what is made of them: no masses, no forces, no currents")
+            .note(units_note());
+    }
+    if matches!(word, "rpm" | "RPM" | "rps") {
+        let turns = if word == "rps" {
+            "1 rps is `360 deg/s`"
+        } else {
+            "1 rpm is `6 deg/s`"
+        };
+        return diagnostic
+            .label("this follows a number")
+            .help(turns)
             .note(units_note());
     }
     let near = foreign

@@ -10,6 +10,10 @@ use crate::syntax::grammar::Rule;
 use crate::syntax::tokens::{Kind, Token};
 use crate::syntax::words::{FOREIGN, ITEMS};
 
+/// How an entry of a list goes for all members of a kind.
+pub(super) const FOR_ALL: &str =
+    "an entry of a list goes for all of a kind: `PREDICATE(x in KIND)`";
+
 impl Place<'_> {
     /// The spelling of the token after the one that does not fit.
     pub(super) fn after_found(&self) -> &str {
@@ -221,6 +225,14 @@ impl Place<'_> {
                 .note("a line of `reward` begins with `on`, `while`, `per` or `otherwise`"),
             );
         }
+        if self.failure.strict == Rule::strict_aspect && word == "for" {
+            let message = format!("`for` does not begin {begins}");
+            return Some(
+                Diagnostic::new(code, self.span(), message)
+                    .label("nothing is repeated here")
+                    .help(FOR_ALL),
+            );
+        }
         let near = near.or_else(|| {
             (self.failure.strict == Rule::strict_clause && matches!(after, "=" | ":"))
                 .then_some("local")
@@ -292,7 +304,11 @@ impl Place<'_> {
             None => diagnostic.label("not known here"),
         };
         // Who has another word for it may write it otherwise, too.
-        let diagnostic = match foreign.and_then(|meant| self.form_of(meant)) {
+        let form = foreign.and_then(|meant| {
+            let full = self.form_of(self.in_full(meant).0);
+            full.or_else(|| self.form_of(meant))
+        });
+        let diagnostic = match form {
             Some(form) => diagnostic.help(format!("its form is `{form}`")),
             None => diagnostic,
         };
@@ -310,6 +326,9 @@ impl Place<'_> {
         let line = self.text.get(self.found.end..).unwrap_or_default();
         let line = line.lines().next().unwrap_or_default();
         match meant {
+            "let" if self.failure.strict == Rule::strict_item && opens_a_body(line) => {
+                ("behavior", self.span())
+            }
             "end" if is_number(&next) => ("end after", self.span()),
             "each" if self.after_found() == "{" => ("each tick", self.span()),
             "end" if matches!(self.after_found(), "=" | ":") && is_number(&second) => {
@@ -329,6 +348,11 @@ impl Place<'_> {
             meant => (meant, self.span()),
         }
     }
+}
+
+/// Whether what follows on a line opens a block and gives no value before it.
+fn opens_a_body(line: &str) -> bool {
+    line.trim_end().ends_with('{') && !line.contains('=')
 }
 
 /// How a place or a wall is made one of a kind.

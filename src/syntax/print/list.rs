@@ -41,7 +41,7 @@ impl Printer<'_> {
         in_parens(entries, call)
     }
 
-    fn arg<'a>(&self, arg: &'a Arg) -> Doc<'a> {
+    pub(super) fn arg<'a>(&self, arg: &'a Arg) -> Doc<'a> {
         match &arg.kind {
             ArgKind::Positional(value) => self.expr(value),
             ArgKind::Named(name, value) => row![ident(name), " = ", self.expr(value)],

@@ -240,6 +240,40 @@ fn a_file_is_the_old_or_the_new() {
 }
 
 #[test]
+fn files_are_all_old_or_all_new() {
+    let mut faults = 0;
+    for how in [Failing::Once, Failing::Forever] {
+        for at in 0.. {
+            let folder = tempfile::tempdir().unwrap();
+            let paths = ["a", "b", "c"].map(|name| folder.path().join(name));
+            fs::write(&paths[0], "old").unwrap();
+            fs::write(&paths[1], "old").unwrap();
+            let disk = Faulty::new(at, how, true);
+            let files: Vec<(&Path, &[u8])> =
+                paths.iter().map(|it| (it.as_path(), &b"new"[..])).collect();
+            let done = file::write_all(&disk, &files);
+            let found = paths.each_ref().map(|path| fs::read_to_string(path).ok());
+            let found = found.each_ref().map(Option::as_deref);
+            match done {
+                Ok(()) => assert_eq!(found, [Some("new"); 3], "{how:?}, call {at}"),
+                Err(_) if how == Failing::Once => {
+                    assert_eq!(found, [Some("old"), Some("old"), None], "call {at}");
+                }
+                Err(_) => {
+                    let whole = |text: &Option<&str>| matches!(text, None | Some("old" | "new"));
+                    assert!(found.iter().all(whole), "call {at}: {found:?}");
+                }
+            }
+            if !disk.was_met() {
+                break;
+            }
+            faults += 1;
+        }
+    }
+    assert!(faults > 20, "{faults}");
+}
+
+#[test]
 fn a_project_is_there_as_a_whole_or_not_at_all() {
     let texts = [("a.bt", "a"), ("deep/down/b.yml", "b"), (".hidden", "c")];
     let is_whole = |place: &Path| {
