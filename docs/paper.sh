@@ -134,7 +134,7 @@ for seed in $SEEDS; do
         $1 == "tree" { nodes = $2 }
         $1 == "dropoff" { rate = $2; sub(/,/, "", rate) }
         $1 == "ended" { deaths = $2 " of " $4 }
-        /`learned` and `expert`/ { verdict = $0; gsub(/: .*behaviour on/, " on", verdict) }
+        /`learned` and `expert`/ { verdict = $0; sub(/^.*behaviour on/, "equal on", verdict) }
         END { printf "| '"$seed | $same"' | %s | %s | %s | %s |\n", nodes, verdict ? verdict : "no verdict", rate, deaths }'
 done
 
