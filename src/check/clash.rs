@@ -2,11 +2,13 @@
 
 use super::Checker;
 use super::expr::plain_ref;
+use super::meaning::Meaning;
 use super::names::Decl;
 use super::types::{Type, Typed};
 use crate::diagnostic::{Applicability, Code, Diagnostic, Fix, Label};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, Ident, State};
+use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
 
 /// A use of a state that does not agree with its type, as it was reported.
@@ -57,38 +59,46 @@ impl<'a> Checker<'a> {
     /// Makes one mistake of the uses of a state that all disagree with its type in the same way: of the declaration,
     /// where most uses do.
     pub fn settle_clashes(&mut self) {
-        let mut states: BTreeMap<Span, Vec<Clash<'a>>> = BTreeMap::new();
+        let mut states: BTreeMap<Span, BTreeMap<Span, Clash<'a>>> = BTreeMap::new();
         for clash in std::mem::take(&mut self.clashes) {
             let of_state = states.entry(clash.state.name.span).or_default();
-            if of_state.iter().all(|other| other.at != clash.at) {
-                of_state.push(clash);
-            }
+            of_state.entry(clash.at).or_insert(clash);
         }
         let mut states: Vec<_> = states.into_values().collect();
         states.sort_by_key(|clashes| std::cmp::Reverse(clashes.len()));
-        for mut clashes in states {
-            let told = |at: Span, found: &Diagnostic| {
-                found.span() == at && matches!(found.code, Code::E0301 | Code::E0302)
-            };
-            clashes.retain(|clash| self.diagnostics.iter().any(|found| told(clash.at, found)));
-            clashes.sort_by_key(|clash| clash.at);
+        let is_told = |found: &&Diagnostic| matches!(found.code, Code::E0301 | Code::E0302);
+        let told = self.diagnostics.iter().filter(is_told);
+        let mut told: FxHashSet<Span> = told.map(Diagnostic::span).collect();
+        let mut uses: FxHashMap<Span, usize> = FxHashMap::default();
+        for (_, meaning) in self.meanings.uses() {
+            if let Meaning::Declared(at) = meaning {
+                *uses.entry(at).or_default() += 1;
+            }
+        }
+        let (mut follow, mut misdeclared) = (FxHashSet::default(), Vec::new());
+        for clashes in states {
+            let clashes = clashes.into_values();
+            let clashes: Vec<_> = clashes.filter(|clash| told.contains(&clash.at)).collect();
             let [first, .., _] = clashes.as_slice() else {
                 continue;
             };
             if clashes.iter().any(|other| other.used_as != first.used_as) {
                 continue;
             }
-            let uses = self.meanings.uses_of(first.state.name.span).count();
-            if 2 * clashes.len() < uses {
+            let uses = uses.get(&first.state.name.span).copied();
+            if 2 * clashes.len() < uses.unwrap_or_default() {
                 continue;
             }
-            let one = self.misdeclared(first, &clashes);
-            let follows = |found: &Diagnostic| clashes.iter().any(|it| told(it.at, found));
+            misdeclared.push(self.misdeclared(first, &clashes));
             let value = first.state.value.span;
-            self.diagnostics
-                .retain(|found| !follows(found) && !told(value, found));
-            self.diagnostics.push(one);
+            for at in clashes.iter().map(|clash| clash.at).chain([value]) {
+                told.remove(&at);
+                follow.insert(at);
+            }
         }
+        self.diagnostics
+            .retain(|found| !is_told(&found) || !follow.contains(&found.span()));
+        self.diagnostics.extend(misdeclared);
     }
 
     /// The message for a state whose uses disagree with its declaration.

@@ -114,7 +114,7 @@ fn a_checkpoint_of_another_run_is_not_taken() {
 fn signals_leave_nothing_half_done() {
     for (signal, number) in [("TERM", 15), ("HUP", 1), ("INT", 2)] {
         // What this test was started without, as by `nohup`, its runs are without.
-        if is_ignored(number) {
+        if crate::command::is_ignored(number) {
             continue;
         }
         let folder = project();
@@ -132,15 +132,6 @@ fn signals_leave_nothing_half_done() {
         assert!(!at.join("out").exists());
         assert!(leftovers(at).is_empty());
     }
-}
-
-/// Whether this process began with a signal ignored.
-#[cfg(unix)]
-fn is_ignored(number: i32) -> bool {
-    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
-    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
-    mask.is_some_and(|mask| mask >> (number - 1) & 1 == 1)
 }
 
 /// `nohup` has the process begin with the signal ignored.
