@@ -15,7 +15,7 @@ pub fn write(disk: &dyn Disk, path: &Path, bytes: &[u8]) -> io::Result<()> {
     Draft::new(disk, path, bytes)?.publish()
 }
 
-/// Writes several files, each as [`write`] does. All are on the disk before the first of them gets its name.
+/// Writes several files, each as [`write()`] does. All are on the disk before the first of them gets its name.
 ///
 /// # Errors
 /// The system refuses one of them, whose path is given; all are then what they were. A process that is killed between two
