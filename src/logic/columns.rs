@@ -103,6 +103,15 @@ impl Columns {
         })
     }
 
+    /// A row as a cube over so many atoms, of which the table may have the first alone.
+    pub fn packed(&self, row: usize, atoms: usize) -> Packed {
+        let mut cube = Packed::universe(atoms);
+        for literal in self.literals_of(row) {
+            cube.set(literal.atom, Some(literal.positive));
+        }
+        cube
+    }
+
     /// The column, with the bit that it has where the literal holds on all of the row.
     pub(super) fn inside(&self, literal: Literal) -> (Option<&Bits>, bool) {
         match &self.zeros {

@@ -6,7 +6,7 @@
 
 use crate::logic::bits::Bits;
 use crate::logic::columns::Columns;
-use crate::logic::cube::{Cover, Cube};
+use crate::logic::cube::Cover;
 use crate::logic::packed::Packed;
 use std::collections::BTreeSet;
 
@@ -36,7 +36,10 @@ pub(super) fn finer(columns: &Columns, on: &Bits, off: &Bits, cover: &Cover) -> 
 
 fn minterms(columns: &Columns, on: &Bits, off: &Bits, most: usize) -> Option<Split> {
     let atoms = columns.atoms();
-    let mut ons: Vec<Packed> = on.iter().map(|row| cube(columns, row)).collect();
+    let mut ons: Vec<Packed> = on
+        .iter()
+        .map(|row| columns.packed(row, columns.atoms()))
+        .collect();
     // Overlapping cubes have minterms in common, which count once. With the larger cubes first, too many are noticed early.
     ons.sort_by_cached_key(Packed::literals);
     if ons
@@ -62,7 +65,10 @@ fn minterms(columns: &Columns, on: &Bits, off: &Bits, most: usize) -> Option<Spl
 /// Each ON cube in disjoint parts, of which each lies wholly in a prime of the cover or does not meet it.
 fn cut(columns: &Columns, on: &Bits, off: &Bits, cover: &Cover) -> Option<Split> {
     let atoms = columns.atoms();
-    let mut parts: Vec<Packed> = on.iter().map(|row| cube(columns, row)).collect();
+    let mut parts: Vec<Packed> = on
+        .iter()
+        .map(|row| columns.packed(row, columns.atoms()))
+        .collect();
     let before = parts.len();
     for prime in cover.cubes() {
         let prime = Packed::of(atoms, prime);
@@ -86,7 +92,7 @@ fn cut(columns: &Columns, on: &Bits, off: &Bits, cover: &Cover) -> Option<Split>
 /// A table of these ON rows and of the OFF rows as they are.
 fn with_parts(columns: &Columns, parts: BTreeSet<Packed>, off: &Bits) -> Split {
     let ones = parts.len();
-    let offs = off.iter().map(|row| cube(columns, row));
+    let offs = off.iter().map(|row| columns.packed(row, columns.atoms()));
     let rows: Vec<Packed> = parts.into_iter().chain(offs).collect();
     let set = |range| Bits::collect(rows.len(), range);
     (
@@ -94,11 +100,6 @@ fn with_parts(columns: &Columns, parts: BTreeSet<Packed>, off: &Bits) -> Split {
         set(0..ones),
         set(ones..rows.len()),
     )
-}
-
-/// A row as a cube.
-fn cube(columns: &Columns, row: usize) -> Packed {
-    Packed::of(columns.atoms(), &Cube::new(columns.literals_of(row)))
 }
 
 #[cfg(test)]

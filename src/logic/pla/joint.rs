@@ -77,10 +77,7 @@ fn problem(inputs: usize, functions: &[Function]) -> Option<(Columns, Bits, Bits
         return None;
     }
     let of = |output: usize, columns: &Columns, row: usize| {
-        let mut cube = Packed::universe(atoms);
-        for literal in columns.literals_of(row) {
-            cube.set(literal.atom, Some(literal.positive));
-        }
+        let mut cube = columns.packed(row, atoms);
         for other in 0..functions.len() {
             cube.set(inputs + other, Some(other == output));
         }
@@ -184,7 +181,7 @@ fn is_covered(inputs: usize, lines: &[Line], output: usize, function: &Function)
     let open = function.on.minus(&columns.cover_rows(&cover, &function.on));
     let packed: Vec<&Packed> = packed.iter().collect();
     open.iter().all(|row| {
-        let row = Packed::of(inputs, &Cube::new(columns.literals_of(row)));
+        let row = columns.packed(row, inputs);
         !is_left(&row, &[&row], &packed, &mut { CHECK })
     })
 }

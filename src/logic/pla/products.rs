@@ -7,7 +7,7 @@
 use super::rest::{is_left, rest};
 use super::{Function, Line};
 use crate::logic::packed::Packed;
-use crate::logic::{Columns, Cube, Literal};
+use crate::logic::{Cube, Literal};
 use std::cmp::Reverse;
 
 /// Products that are looked at as what a product is expanded to, those at the least distance first.
@@ -62,7 +62,7 @@ impl<'a> Problem<'a> {
     pub(super) fn new(inputs: usize, functions: &'a [Function<'a>], work: u64) -> Self {
         let on = |function: &Function| {
             let rows = function.on.iter();
-            rows.map(|row| cube(inputs, &function.columns, row))
+            rows.map(|row| function.columns.packed(row, inputs))
                 .collect()
         };
         Self {
@@ -311,11 +311,6 @@ impl<'a> Problem<'a> {
         }
         known.map(|cube| Product { cube, outputs })
     }
-}
-
-/// A row as a cube.
-fn cube(inputs: usize, columns: &Columns, row: usize) -> Packed {
-    Packed::of(inputs, &Cube::new(columns.literals_of(row)))
 }
 
 fn unpacked(cube: &Packed) -> Cube {
