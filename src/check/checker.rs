@@ -64,7 +64,7 @@ pub struct Checker<'a> {
     pub positions: Vec<(Span, Point)>,
     /// The parameter that the expression at hand is given to, with what it is a parameter of.
     pub given: Option<(&'a str, &'a str)>,
-    /// The enum of which the name at hand is to be a value.
+    /// The type of which the name at hand is to be a value.
     pub wanted: Option<Type>,
     /// The only argument of the call that was met last, and what is called.
     pub sole_argument: Option<(Span, String)>,

@@ -184,7 +184,7 @@ fn found(arguments: &Arguments, path: &str) -> Result<Checked, Failure> {
     };
     let mut reader = Found::of(&name);
     let mut loaded = load::load(&name, bytes, &mut reader);
-    if arguments.fix && Path::new(path).is_file() {
+    if arguments.fix && path != files::STDIN && Path::new(path).is_file() {
         let mut mended = None;
         for _ in 0..ROUNDS {
             let Some(text) = fixed(mended.as_ref().unwrap_or(&loaded)) else {
@@ -193,9 +193,9 @@ fn found(arguments: &Arguments, path: &str) -> Result<Checked, Failure> {
             mended = Some(load::load(&name, text.into(), &mut reader));
         }
         if let Some(mended) = mended {
-            let text = mended.sources.get(mended.main);
-            let text = text.map(|source| source.text.clone()).unwrap_or_default();
-            files::rewrite(&loaded, &[(name.clone(), text)])?;
+            if let Some(source) = mended.sources.get(mended.main) {
+                files::rewrite(&loaded, &[(name.clone(), source.text.clone())])?;
+            }
             loaded = mended;
         }
     }

@@ -58,11 +58,8 @@ impl<'a> Checker<'a> {
         let is_variant = matches!(named, Some((Decl::Variant(..), _)));
         let help = self
             .of_no_kind(typed, expr, wanted)
-            .or_else(|| {
-                let ticks = self.context.region != Region::Schedule;
-                conversion(typed, expr, wanted, is_variant)
-                    .filter(|help| ticks || !help.contains("every tick"))
-            })
+            .or_else(|| self.in_each_tick(typed, expr, wanted))
+            .or_else(|| conversion(typed, expr, wanted, is_variant))
             .or_else(|| self.values_of(wanted));
         let kind = self.misspelt_kind(expr, &typed.ty, wanted);
         let place = (&typed.ty, wanted) == (&Type::Robot, &Type::Point);
@@ -104,6 +101,13 @@ impl<'a> Checker<'a> {
             )),
             _ => None,
         }
+    }
+
+    /// What a rate comes to in a tick, where ticks go by.
+    fn in_each_tick(&self, typed: &Typed, expr: &Expr, wanted: &Type) -> Option<String> {
+        let ticks = self.context.region != Region::Schedule;
+        let sought = is_rate(typed.ty.dim()?) && wanted.dim()? == Dim::NONE;
+        (ticks && sought).then(|| format!("so much in every tick: `{} * tick`", print::expr(expr)))
     }
 
     /// The values of an enum, as advice.
@@ -328,17 +332,19 @@ fn conversion(typed: &Typed, expr: &Expr, wanted: &Type, is_variant: bool) -> Op
         let unit = &literal.unit.as_ref()?.text;
         return Some(format!("per second: `{} {unit}/s`", literal.digits));
     }
-    if wanted == Dim::NONE && is.times(Dim::TIME, 1) == Dim::NONE {
-        let rate = print::expr(expr);
-        return Some(format!("so much in every tick: `{rate} * tick`"));
-    }
-    if wanted == Dim::NONE {
+    // What a rate comes to is said by `in_each_tick`.
+    if wanted == Dim::NONE && !is_rate(is) {
         let unit = is.unit()?;
         return Some(format!(
             "divided by a unit it is a plain number: `… / (1 {unit})`"
         ));
     }
     None
+}
+
+/// Whether it is so much in a time.
+fn is_rate(dim: Dim) -> bool {
+    dim.times(Dim::TIME, 1) == Dim::NONE
 }
 
 /// What asks whether something holds of a value that is no truth value.
