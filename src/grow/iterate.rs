@@ -5,23 +5,26 @@
 //! policy is doubted in several degrees, a part of its changes is taken at a time, and it is played. What looked good and
 //! was not is counted, and the next round knows it.
 
-use super::evidence::{Cell, Evidence, Sight};
+mod candidate;
+mod plan;
+
+use super::evidence::{Cell, Evidence, Sight, Visits};
 use super::ground::{Ground, does_more_harm};
 use crate::checkpoint::Part;
 use crate::ir::Id;
 use crate::ir::law::Behavior;
-use crate::learn::episode::{Episode, play, play_all};
+use crate::learn::episode::{Episode, play_all};
 use crate::learn::extract::{Decided, Decisions};
 use crate::learn::greedy::Greedy;
 use crate::learn::improve::is_worth_it;
 use crate::learn::process::{Key, World};
 use crate::learn::q_table::QTable;
 use crate::learn::simulated::Purpose;
-use crate::learn::statistics::Mean;
 use crate::random::Random;
-use crate::trial::decisions::{Taken, Watched};
 use crate::trial::paired::error;
 use crate::world::Start;
+use candidate::{Candidate, gain};
+use plan::Plan;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 use serde::{Deserialize, Serialize};
@@ -136,16 +139,12 @@ pub struct Iteration<'g, 'w, W> {
 struct Halted {
     choices: Choices,
     evidence: Evidence,
+    /// Where the policy goes.
+    visits: Visits,
     random: Random,
     ticks: u64,
     failures: usize,
     round: u64,
-}
-
-/// A policy with the episodes that it has played.
-struct Candidate {
-    choices: Choices,
-    played: Vec<Episode>,
 }
 
 impl<W: World> Iteration<'_, '_, W> {
@@ -155,6 +154,7 @@ impl<W: World> Iteration<'_, '_, W> {
         let halted = part.resume().unwrap_or_else(|| Halted {
             choices: choices.map(|(key, it)| (*key, it.choice)).collect(),
             evidence: Evidence::new(self.ground),
+            visits: Visits::default(),
             random: Random::new(self.ground.seed, 1 << 42, 0),
             ticks: 0,
             failures: 0,
@@ -162,29 +162,32 @@ impl<W: World> Iteration<'_, '_, W> {
         });
         let Halted {
             mut evidence,
+            mut visits,
             mut random,
             mut ticks,
             mut failures,
             mut round,
             choices,
         } = halted;
-        let mut base = Candidate {
-            choices,
-            played: Vec::new(),
-        };
+        let mut base = Candidate::new(choices);
         while ticks < self.effort && failures < FAILURES {
             round += 1;
             if failures % STALE == 0 {
                 for (at, explore) in EXPLORING.into_iter().enumerate() {
                     let number = round * 8 + at as u64;
-                    ticks += self.collect(&mut evidence, &base.choices, explore, number);
+                    let (visited, used) =
+                        self.collect(&mut evidence, &base.choices, explore, number);
+                    ticks += used;
+                    if at == 0 {
+                        visits = visited;
+                    }
                 }
             }
             if round == 1 {
                 ticks += self.act(&mut evidence, &mut base);
             }
             base.played.clear();
-            let candidates = self.candidates(&evidence, &base.choices, &mut random);
+            let candidates = self.candidates(&evidence, &base.choices, &visits, &mut random);
             let (found, used) = self.race(&mut evidence, &mut base, candidates, round);
             ticks += used;
             match found {
@@ -197,6 +200,7 @@ impl<W: World> Iteration<'_, '_, W> {
             part.keep(|| Halted {
                 choices: base.choices.clone(),
                 evidence: evidence.clone(),
+                visits: visits.clone(),
                 random: random.clone(),
                 ticks,
                 failures,
@@ -218,8 +222,14 @@ impl<W: World> Iteration<'_, '_, W> {
         })
     }
 
-    /// Counts under a policy.
-    fn collect(&self, evidence: &mut Evidence, choices: &Choices, part: f64, number: u64) -> u64 {
+    /// Counts under a policy; gives where it went, and the ticks.
+    fn collect(
+        &self,
+        evidence: &mut Evidence,
+        choices: &Choices,
+        part: f64,
+        number: u64,
+    ) -> (Visits, u64) {
         let from = match part >= 0.5 {
             true => self.ground.exploring,
             false => self.ground.start,
@@ -232,27 +242,24 @@ impl<W: World> Iteration<'_, '_, W> {
         };
         let greedy = self.greedy(choices);
         let ticks = self.effort / self.pace.collections;
-        evidence
-            .collect(self.ground, &greedy, (part, start), ticks)
-            .1
+        evidence.collect(self.ground, &greedy, (part, start), ticks)
     }
 
     /// Takes decisions that do not fail at once, unless they are surely worse: a tree would not wait there, but go on to
     /// something else. Gives the ticks that it took to find out.
     fn act(&self, evidence: &mut Evidence, base: &mut Candidate) -> u64 {
-        let mut acting = Candidate {
-            choices: self.acting(evidence, base.choices.clone()),
-            played: Vec::new(),
-        };
+        let mut acting = Candidate::new(self.acting(evidence, base.choices.clone()));
         if acting.choices == base.choices {
             return 0;
         }
         let start = self.ground.episodes(Purpose::Improve, 1 << 12);
-        let used = self.play(
+        let mut used = self.play(evidence, std::slice::from_mut(base), start, TELLING, None);
+        used += self.play(
             evidence,
-            [&mut *base, &mut acting].into_iter(),
+            std::slice::from_mut(&mut acting),
             start,
             TELLING,
+            Some(base),
         );
         let gain = gain(&acting, base);
         if gain.mean >= -error(&gain) {
@@ -285,51 +292,41 @@ impl<W: World> Iteration<'_, '_, W> {
         &self,
         evidence: &Evidence,
         now: &Choices,
+        visits: &Visits,
         random: &mut Random,
     ) -> Vec<Candidate> {
         let mut found: Vec<Choices> = Vec::new();
-        for changes in self.changes(evidence, now) {
-            // All of them, or a few.
-            let all = f64::from(u8::from(random.chance(0.25)));
-            let few = |random: &mut Random| 0.03 + 0.6 * random.unit() * random.unit();
-            for part in [all, few(random), few(random)] {
+        for plan in self.plans(evidence, now) {
+            for changes in plan.parts(visits, random) {
                 let mut mixed = now.clone();
-                let taken = changes.iter().filter(|_| random.chance(part));
-                mixed.extend(taken.copied());
+                mixed.extend(changes);
                 if mixed != *now && !found.contains(&mixed) {
                     found.push(mixed);
                 }
             }
         }
-        let candidates = found.into_iter().map(|choices| Candidate {
-            choices,
-            played: Vec::new(),
-        });
-        candidates.collect()
+        found.into_iter().map(Candidate::new).collect()
     }
 
     /// What is decided otherwise by the counts, near-sighted and far-sighted, doubted in several degrees, with more care and less.
-    fn changes(&self, evidence: &Evidence, now: &Choices) -> Vec<Vec<(Key, usize)>> {
+    fn plans<'k>(&self, evidence: &'k Evidence, now: &Choices) -> Vec<Plan<'k>> {
         let sights = [Sight::Far, Sight::Learner].into_iter();
         let doubted = sights.flat_map(|sight| DOUBTS.map(|doubt| (sight, doubt)));
         let ways = doubted.flat_map(|(sight, doubt)| CARES.map(|care| (sight, doubt, care)));
         let ways: Vec<(Sight, f64, f64)> = ways.collect();
-        let changes = ways.into_par_iter().map(|(sight, doubt, care)| {
+        let plans = ways.into_par_iter().map(|(sight, doubt, care)| {
             let problem = evidence.doubted(sight, doubt);
             let (cautious, solution) = evidence.cautious(&problem, care, sight);
             let rows = evidence.keys().iter().zip(&cautious.states);
-            let mut changes: Vec<(Key, usize)> = rows
-                .zip(&solution.policy)
-                .filter_map(|((key, state), taken)| {
-                    let (choice, _) = state.get((*taken)?)?;
-                    let new = now.get(key) != Some(choice);
-                    (new && self.is_known(evidence, *key)).then_some((*key, *choice))
-                })
-                .collect();
-            changes.sort_unstable();
-            changes
+            let changes = rows.zip(&solution.policy).enumerate();
+            let changes = changes.filter_map(|(row, ((key, state), taken))| {
+                let (choice, _) = state.get((*taken)?)?;
+                let new = now.get(key) != Some(choice);
+                (new && self.is_known(evidence, *key)).then_some((row, *choice))
+            });
+            Plan::new(evidence.keys(), changes.collect(), &cautious, &solution)
         });
-        changes.collect()
+        plans.collect()
     }
 
     fn is_known(&self, evidence: &Evidence, key: Key) -> bool {
@@ -352,8 +349,8 @@ impl<W: World> Iteration<'_, '_, W> {
             if standing.is_empty() {
                 return (None, used);
             }
-            used += self.play(evidence, std::iter::once(&mut *base), start, episodes);
-            used += self.play(evidence, standing.iter_mut(), start, episodes);
+            used += self.play(evidence, std::slice::from_mut(base), start, episodes, None);
+            used += self.play(evidence, &mut standing, start, episodes, Some(base));
             if episodes >= TELLING {
                 standing.retain(|candidate| {
                     let gain = gain(candidate, base);
@@ -366,69 +363,40 @@ impl<W: World> Iteration<'_, '_, W> {
             if stage == 0 {
                 for (at, candidate) in standing.iter().take(COUNTED).enumerate() {
                     let number = round * 8 + (EXPLORING.len() + at) as u64;
-                    used += self.collect(evidence, &candidate.choices, TRYING, number);
+                    used += self.collect(evidence, &candidate.choices, TRYING, number).1;
                 }
             }
         }
         let surely = |candidate: &Candidate| {
-            let totals = |played: &[Episode]| -> Vec<f64> {
-                played.iter().map(|episode| episode.total).collect()
-            };
-            let harms = |played: &[Episode]| -> u64 {
-                let harms = played.iter().map(|episode| self.ground.harm(episode));
+            let harms = |of: &Candidate| -> u64 {
+                let harms = of.episodes().map(|episode| self.ground.harm(episode));
                 harms.sum()
             };
-            let (own, other) = (harms(&candidate.played), harms(&base.played));
-            !does_more_harm([own, other], 1.0)
-                && is_worth_it(&totals(&candidate.played), &totals(&base.played), SURE)
+            !does_more_harm([harms(candidate), harms(base)], 1.0)
+                && is_worth_it(&candidate.totals(), &base.totals(), SURE)
         };
         (standing.into_iter().next().filter(surely), used)
     }
 
-    /// Lets policies play up to a number of episodes, on all threads, and counts what came of it and the ticks.
-    fn play<'c>(
+    /// Lets policies play up to a number of episodes, and counts what came of it and the ticks. An episode in which a policy
+    /// decides as `known` does is not played again.
+    fn play(
         &self,
         evidence: &mut Evidence,
-        candidates: impl Iterator<Item = &'c mut Candidate>,
+        candidates: &mut [Candidate],
         start: Start,
         episodes: usize,
+        known: Option<&Candidate>,
     ) -> u64 {
-        let mut candidates: Vec<(&mut Candidate, Greedy)> = candidates
-            .map(|candidate| {
-                let greedy = self.greedy(&candidate.choices);
-                (candidate, greedy)
-            })
-            .collect();
-        let due: Vec<(usize, usize)> = candidates
-            .iter()
-            .enumerate()
-            .flat_map(|(i, (candidate, _))| (candidate.played.len()..episodes).map(move |n| (i, n)))
-            .collect();
-        let played: Vec<Option<(Episode, Vec<Taken>)>> = due
-            .par_iter()
-            .map_init(
-                || self.ground.world.process(),
-                |process, (i, n)| {
-                    let mut greedy = candidates.get(*i)?.1.clone();
-                    let start = Start {
-                        episode: start.episode + *n as u64,
-                        ..start
-                    };
-                    let mut watched = Watched::new(process, self.ground.watch());
-                    let episode = play(&mut watched, &mut greedy, start, self.ground.patience);
-                    Some((episode, watched.into_taken()))
-                },
-            )
-            .collect();
-        let mut ticks = 0;
-        for ((i, _), episode) in due.into_iter().zip(played) {
-            if let (Some((episode, taken)), Some((candidate, _))) = (episode, candidates.get_mut(i))
-            {
-                evidence.count_all(&taken);
-                ticks += episode.ticks;
-                candidate.played.push(episode);
-            }
-        }
+        let controllers = candidates.iter().map(|it| self.greedy(&it.choices));
+        let controllers: Vec<Greedy> = controllers.collect();
+        let (taken, ticks) = candidate::play(
+            self.ground,
+            (candidates, &controllers),
+            (start, episodes),
+            known,
+        );
+        evidence.count_all(&taken);
         ticks
     }
 
@@ -440,11 +408,4 @@ impl<W: World> Iteration<'_, '_, W> {
         });
         Greedy::of(behaviors.collect(), self.unseen)
     }
-}
-
-/// How much more a policy returns than another, episode by episode.
-fn gain(candidate: &Candidate, base: &Candidate) -> Mean {
-    let pairs = candidate.played.iter().zip(&base.played);
-    let gains: Vec<f64> = pairs.map(|(own, other)| own.total - other.total).collect();
-    Mean::of(&gains)
 }
