@@ -79,12 +79,13 @@ impl<'a> Checker<'a> {
                         let what = "what an episode ends on";
                         checker.expect(event, &Type::Bool, what).scalar()
                     });
+                    let text = print::expr(event);
                     for event in events.into_iter().flatten() {
                         built.end_on.push(event);
                         built.written.end_on.push(ends);
+                        built.written.ends.push(text.clone());
                     }
                     ends += 1;
-                    let text = print::expr(event);
                     match said.get(&text) {
                         Some(first) => {
                             self.said_twice(&format!("end on {text}"), aspect.span, *first)

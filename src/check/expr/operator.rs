@@ -85,7 +85,7 @@ impl<'a> Checker<'a> {
     ) -> Option<Typed> {
         let word = sign.node.spelling();
         // What is called within the operands comes after.
-        let call = self.sole_argument.take();
+        let call = self.context.argument.take();
         let (a, b) = (self.expr(left), self.expr(right));
         if !a.ty.fits(&Type::Bool) && !b.ty.fits(&Type::Bool) {
             return self.joins_no_truths(sign, [(left, &a), (right, &b)], call);

@@ -332,7 +332,7 @@ fn hint(name: &str, what: &str) -> Option<String> {
         {
             "a sensor is read by the name that the robot gives it: `sensor NAME = …`".to_owned()
         }
-        "Vector2" | "Vec2" | "vec2" | "Point" | "Vector" | "vector" | "Vector3" | "Pose2D"
+        "Vector2" | "Vec2" | "vec2" | "vec" | "point" | "Point" | "Vector" | "vector" | "Vector3" | "Pose2D"
         | "Pose" => "a point is written `(1 m, 2 m)`".to_owned(),
         _ if what.starts_with("function") && ranging(name).is_some() => {
             let form = ranging(name).unwrap_or_default();

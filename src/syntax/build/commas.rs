@@ -13,12 +13,13 @@ pub(super) const HISTORY: &str = "the ends of a history";
 const LEAVES: [&str; 2] = ["behavior", "tree"];
 
 /// What other notations put before the nodes of a tree.
-const BEFORE_NODES: [&str; 14] = [
+const BEFORE_NODES: [&str; 15] = [
     "subtree",
     "SubTree",
     "Subtree",
     "SubTreePlus",
     "when",
+    "case",
     "action",
     "condition",
     "do",
@@ -29,6 +30,18 @@ const BEFORE_NODES: [&str; 14] = [
     "call",
     "node",
 ];
+
+/// What to write for a word behind a node that other languages have there.
+fn behind_a_node(word: &str) -> Option<&'static str> {
+    Some(match word {
+        "with" | "after" | "within" => {
+            "what a node is done with goes around it: `timeout(10 s) { … }`, `retry(2) { … }`"
+        }
+        "until" | "unless" => "a condition goes before its node: `not CONDITION => NODE`",
+        "while" | "when" | "provided" => "a condition goes before its node: `CONDITION => NODE`",
+        _ => return None,
+    })
+}
 
 impl<'i> Builder<'i> {
     /// Reports a comma that is missing just before `node`, after what stands at `before`.
@@ -91,6 +104,24 @@ impl<'i> Builder<'i> {
             self.report(diagnostic);
             return;
         }
+        let node = self.slice(place);
+        if last.is_some_and(|(word, _)| word == "memory")
+            && matches!(node, "selector" | "sequence")
+            && let Some(found) = self.token_at(place.range().end)
+        {
+            let message = format!(
+                "expected `{{` after `{node}`, found `{}`",
+                found.of(self.text)
+            );
+            let span = Span::new(self.file, found.start, found.end);
+            let diagnostic = Diagnostic::new(Code::E0101, span, message)
+                .label("expected `{`")
+                .help(format!(
+                    "the children of a node stand in braces: `memory {node} {{ …, … }}`"
+                ));
+            self.report(diagnostic);
+            return;
+        }
         if let Some((word, before)) = last.filter(|(word, _)| *word == "memory") {
             let diagnostic = Diagnostic::new(
                 Code::E0604,
@@ -115,6 +146,20 @@ impl<'i> Builder<'i> {
             )
             .label(format!("write `{name} in …`"))
             .fix("write `in`", place, "in", Applicability::Unsafe);
+            self.report(diagnostic);
+            return;
+        }
+        if what == "the children of a node"
+            && let Some(help) = behind_a_node(self.slice(place))
+            && before.is_some_and(|before| {
+                let gap = self.text.get(before.range().end..place.range().start);
+                gap.is_some_and(|gap| !gap.contains('\n'))
+            })
+        {
+            let message = format!("`{}` does not go on with a node", self.slice(place));
+            let diagnostic = Diagnostic::new(Code::E0101, place, message)
+                .label("this is not said here")
+                .help(help);
             self.report(diagnostic);
             return;
         }
