@@ -22,7 +22,8 @@ pub(super) fn unclosed(
         // The layout shows which it is.
         Some((inner, further)) => Diagnostic::new(Code::E0102, place(inner), message)
             .label("no `}` at its depth belongs to it")
-            .also(place(further), "this `}` stands further left"),
+            .also(place(further), "this `}` stands further left")
+            .also(open, "which leaves this one open"),
         None => {
             let label = format!("no `{close}` belongs to it");
             Diagnostic::new(Code::E0102, open, message).label(label)

@@ -4,6 +4,7 @@ use super::Builder;
 use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::grammar::Node;
+use crate::syntax::tokens::is_blank;
 use crate::syntax::words::{CALLED, NODES, UNITS};
 
 /// What the commas of a history part.
@@ -104,22 +105,13 @@ impl<'i> Builder<'i> {
             self.report(diagnostic);
             return;
         }
-        let node = self.slice(place);
+        // Of `memory sequence [ … ]` the bracket is told.
+        let rest = self.text.get(place.range().end..).unwrap_or_default();
+        let in_brackets = rest.trim_start_matches(is_blank).starts_with('[');
         if last.is_some_and(|(word, _)| word == "memory")
-            && matches!(node, "selector" | "sequence")
-            && let Some(found) = self.token_at(place.range().end)
+            && matches!(self.slice(place), "selector" | "sequence")
+            && in_brackets
         {
-            let message = format!(
-                "expected `{{` after `{node}`, found `{}`",
-                found.of(self.text)
-            );
-            let span = Span::new(self.file, found.start, found.end);
-            let diagnostic = Diagnostic::new(Code::E0101, span, message)
-                .label("expected `{`")
-                .help(format!(
-                    "the children of a node stand in braces: `memory {node} {{ …, … }}`"
-                ));
-            self.report(diagnostic);
             return;
         }
         if let Some((word, before)) = last.filter(|(word, _)| *word == "memory") {

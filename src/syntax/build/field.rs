@@ -223,11 +223,12 @@ impl<'i> Builder<'i> {
         };
         let span = self.span(sign);
         let signs = span.to(op.span);
-        if span.end != op.span.start || op.node == UnaryOp::Not || sign.as_str() == "not" {
+        let is_sign = |op: UnaryOp| matches!(op, UnaryOp::Neg | UnaryOp::Pos);
+        if !is_sign(op.node) || sign.as_rule() != Rule::sign {
             return;
         }
-        let right = match self.slice(signs) {
-            "+-" | "-+" => "-",
+        let right = match (sign.as_str(), op.node) {
+            ("+", UnaryOp::Neg) | ("-", UnaryOp::Pos) => "-",
             _ => "",
         };
         let value = format!("{right}{}", self.slice(inner.span));
