@@ -17,7 +17,7 @@ use crate::ir::program::Predicate;
 use crate::ir::task::{History, Price, RewardLine, Task, Written};
 use crate::ir::{Id, Name};
 use crate::source::Span;
-use crate::syntax::ast::{self, AspectKind, Expr, Paid};
+use crate::syntax::ast::{self, AspectKind, BinaryOp, Expr, ExprKind, Paid};
 use crate::syntax::print;
 use std::collections::BTreeMap;
 
@@ -184,6 +184,23 @@ impl<'a> Checker<'a> {
 
     /// A time as a whole number of ticks, at least one.
     pub fn ticks(&mut self, expr: &'a Expr, role: &str) -> Option<u64> {
+        // `end after 5 min or ruined`
+        if let ExprKind::Binary { op, right, .. } = &expr.kind
+            && matches!(op.node, BinaryOp::And | BinaryOp::Or)
+        {
+            let other = print::expr(right);
+            let draft = self
+                .error(Code::E0302, op.span, format!("{role} takes a time alone"))
+                .label("joins conditions");
+            return match role {
+                "`end after`" => draft
+                    .help(format!(
+                        "what else ends an episode has a line of its own: `end on {other}`"
+                    ))
+                    .none(),
+                _ => draft.none(),
+            };
+        }
         let seconds = self.constant(expr, &Type::TIME, role)?;
         let ticks = (seconds / self.tick?).round();
         if (1.0..=1e15).contains(&ticks) {

@@ -267,6 +267,9 @@ impl Place<'_> {
             (_, "if") if self.expects(Rule::or_op) || self.expects(Rule::sum_op) => {
                 "a value is chosen by `if CONDITION { … } else { … }`"
             }
+            (Rule::strict_item, "and" | "or") if self.begins_with("on") => {
+                "what else must hold is asked within: `on EVENT(x: KIND) { if CONDITION { … } }`"
+            }
             (Rule::strict_item, "when" | "if") if self.begins_with("on") => {
                 "what else must hold is joined by `and`: `on EVENT and CONDITION { … }`"
             }
