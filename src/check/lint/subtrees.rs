@@ -109,7 +109,7 @@ impl<'a> Checker<'a> {
             ) => {
                 let arg = args.as_deref().and_then(<[ast::Arg]>::first);
                 if episode > 0
-                    && u64::from(*ticks) >= episode
+                    && *ticks >= episode
                     && let Some(ArgKind::Positional(time)) = arg.map(|arg| &arg.kind)
                 {
                     self.warning(Code::W0512, time.span, "no episode lasts so long")
