@@ -5,7 +5,7 @@ pub(super) const KEYS: &str = "reward";
 
 /// The widest cell that moves the column after it; a wider one stands alone, or else all the others would stand far off
 /// from what belongs to them.
-const WIDEST: usize = 32;
+const WIDEST: usize = 40;
 
 /// How a line is aligned with those next to it: adjacent lines of one kind share their columns.
 #[derive(Clone, Debug, PartialEq, Eq)]
