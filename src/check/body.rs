@@ -87,6 +87,7 @@ impl<'a> Checker<'a> {
             library: false,
             scope,
             ended: BTreeSet::new(),
+            argument: None,
         };
         let open = Open {
             at: body.span,
@@ -137,6 +138,7 @@ impl<'a> Checker<'a> {
             library,
             scope,
             ended: BTreeSet::new(),
+            argument: None,
         };
         let open = Open {
             at: body,

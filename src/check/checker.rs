@@ -66,8 +66,6 @@ pub struct Checker<'a> {
     pub given: Option<(&'a str, &'a str)>,
     /// The type of which the name at hand is to be a value.
     pub wanted: Option<Type>,
-    /// The only argument of the call that was met last, and what is called.
-    pub sole_argument: Option<(Span, String)>,
     /// The numbers that may be tuned.
     pub tunes: Tunes,
     /// The names that bodies of the user bind, by where they are bound.
@@ -127,7 +125,6 @@ impl<'a> Checker<'a> {
             positions: Vec::new(),
             given: None,
             wanted: None,
-            sole_argument: None,
             tunes: Tunes::default(),
             bound: BTreeMap::new(),
             predicates: BTreeMap::new(),

@@ -8,6 +8,7 @@ use super::types::{Type, Typed};
 use crate::diagnostic::{Applicability, Code, Diagnostic, Fix, Label};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, Ident, State};
+use crate::syntax::print;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
 
@@ -129,7 +130,10 @@ impl<'a> Checker<'a> {
         let (Some(ty), Some(value)) = (used_as.written(), initial(used_as, &state.value)) else {
             return found;
         };
-        let mut edits = vec![(state.value.span, value)];
+        let mut edits = Vec::new();
+        if value != print::expr(&state.value) {
+            edits.push((state.value.span, value));
+        }
         edits.extend(state.ty.as_ref().map(|written| (written.span, ty.clone())));
         edits.sort_by_key(|(span, _)| *span);
         found.fixes.push(Fix {
@@ -149,6 +153,10 @@ fn initial(ty: &Type, value: &Expr) -> Option<String> {
     };
     match ty {
         Type::Bool => Some("false".to_owned()),
+        Type::Ratio => match &value.kind {
+            ExprKind::Number(literal) if literal.unit.is_some() => Some(print::expr(value)),
+            _ => Some(digits.to_owned()),
+        },
         _ => {
             let dim = ty.dim()?;
             Some(match dim.unit() {

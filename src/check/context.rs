@@ -133,6 +133,8 @@ pub struct Context<'a> {
     pub scope: Vec<Binding<'a>>,
     /// The names of blocks that have ended.
     pub ended: BTreeSet<&'a str>,
+    /// What is called, where the expression is its only argument, and where that stands.
+    pub argument: Option<(Span, String)>,
 }
 
 impl<'a> Context<'a> {
@@ -143,6 +145,7 @@ impl<'a> Context<'a> {
             library: false,
             scope: Vec::new(),
             ended: BTreeSet::new(),
+            argument: None,
         }
     }
 

@@ -19,6 +19,7 @@ mod regions;
 mod repaid;
 mod rewards;
 mod same;
+mod subtrees;
 mod tree;
 mod unused;
 mod view;
@@ -53,6 +54,7 @@ impl<'a> Checker<'a> {
         self.predicates_without_effect(items());
         self.rewards_without_effect(items());
         self.nodes_without_effect(items());
+        self.subtrees_without_effect(items());
         self.claims_beyond_episodes(items());
         self.world_without_effect(items());
     }

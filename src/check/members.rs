@@ -107,6 +107,16 @@ impl<'a> Checker<'a> {
             return None;
         }
         let members = self.members(ty);
+        let of_a_world = matches!(
+            ty,
+            Type::Place(_) | Type::Wall(_) | Type::Robot | Type::Sensor
+        );
+        if of_a_world && self.program.world.is_none() {
+            let what = format!("what ranges over `{called}`");
+            return self
+                .no_world(span, &what, "there is no world to have any")
+                .none();
+        }
         if members.is_none() {
             self.error(
                 Code::E0302,

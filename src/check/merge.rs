@@ -59,6 +59,10 @@ pub fn merge(sorted: &mut Vec<Diagnostic>, declared: impl Fn(Span) -> Option<Spa
                 }
                 continue;
             }
+            // The kind of one place, which many uses show.
+            Code::E0302 if found.labels.len() == 2 && found.message.contains(" of the kind ") => {
+                format!("{:?}", found.span())
+            }
             // One name, taken again and again for what it is not.
             Code::E0601 if declared(found.span()).is_some() => {
                 format!("{:?}", declared(found.span()))
@@ -93,7 +97,13 @@ pub fn merge(sorted: &mut Vec<Diagnostic>, declared: impl Fn(Span) -> Option<Spa
                 {
                     join_fixes(first, &found);
                 }
-                further.entry(*at).or_default().push(found.span());
+                // Where the reason is told, the uses are what shows it.
+                let use_of = |found: &Diagnostic| found.labels.get(1).map(|label| label.span);
+                let said = merged
+                    .get(*at)
+                    .is_some_and(|first| first.span() == found.span());
+                let place = use_of(&found).filter(|_| said).unwrap_or(found.span());
+                further.entry(*at).or_default().push(place);
             }
             None => {
                 first.insert((found.code, about), merged.len());

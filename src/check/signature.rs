@@ -92,9 +92,17 @@ impl<'a> Checker<'a> {
         ] = args
         {
             let owner = signature.owner.trim_matches('`').to_owned();
-            self.sole_argument = Some((value.span, owner));
+            self.context.argument = Some((value.span, owner));
         }
+        let mut named: Option<&Ident> = None;
         for arg in args {
+            match (name(arg), named) {
+                (Some(name), _) => named = Some(name),
+                (None, Some(named)) if matched.fine => {
+                    self.after_a_name(signature, named, arg, position);
+                }
+                (None, _) => {}
+            }
             let slot = self.slot(signature, arg, &mut position, matched.fine);
             match slot.map(|slot| matched.given.get_mut(slot)) {
                 Some(Some(free @ None)) => {
@@ -118,6 +126,23 @@ impl<'a> Checker<'a> {
             matched.fine = false;
         }
         matched
+    }
+
+    /// Reports an argument by position behind one by name, where arguments are given in either way.
+    fn after_a_name(&mut self, signature: &Signature, named: &Ident, arg: &Arg, position: usize) {
+        let Takes::Parameters { names, .. } = signature.takes else {
+            return;
+        };
+        let message = "arguments by position stand before those by name";
+        let draft = self
+            .error(Code::E0305, arg.span, message)
+            .label("by position")
+            .also(named.span, "by name");
+        if let Some(meant) = names.get(position) {
+            let title = format!("say which it is: `{meant} = …`");
+            let name = format!("{meant} = ");
+            draft.fix(title, arg.span.before(), name, Applicability::Unsafe);
+        }
     }
 
     /// The place of an argument among the parameters. One that has none is reported, but a lack of names or a name too

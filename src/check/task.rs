@@ -17,7 +17,7 @@ use crate::ir::program::Predicate;
 use crate::ir::task::{History, Price, RewardLine, Task, Written};
 use crate::ir::{Id, Name};
 use crate::source::Span;
-use crate::syntax::ast::{self, AspectKind, Expr, Paid};
+use crate::syntax::ast::{self, AspectKind, BinaryOp, Expr, ExprKind, Paid};
 use crate::syntax::print;
 use std::collections::BTreeMap;
 
@@ -79,12 +79,13 @@ impl<'a> Checker<'a> {
                         let what = "what an episode ends on";
                         checker.expect(event, &Type::Bool, what).scalar()
                     });
+                    let text = print::expr(event);
                     for event in events.into_iter().flatten() {
                         built.end_on.push(event);
                         built.written.end_on.push(ends);
+                        built.written.ends.push(text.clone());
                     }
                     ends += 1;
-                    let text = print::expr(event);
                     match said.get(&text) {
                         Some(first) => {
                             self.said_twice(&format!("end on {text}"), aspect.span, *first)
@@ -183,6 +184,23 @@ impl<'a> Checker<'a> {
 
     /// A time as a whole number of ticks, at least one.
     pub fn ticks(&mut self, expr: &'a Expr, role: &str) -> Option<u64> {
+        // `end after 5 min or ruined`
+        if let ExprKind::Binary { op, right, .. } = &expr.kind
+            && matches!(op.node, BinaryOp::And | BinaryOp::Or)
+        {
+            let other = print::expr(right);
+            let draft = self
+                .error(Code::E0302, op.span, format!("{role} takes a time alone"))
+                .label("joins conditions");
+            return match role {
+                "`end after`" => draft
+                    .help(format!(
+                        "what else ends an episode has a line of its own: `end on {other}`"
+                    ))
+                    .none(),
+                _ => draft.none(),
+            };
+        }
         let seconds = self.constant(expr, &Type::TIME, role)?;
         let ticks = (seconds / self.tick?).round();
         if (1.0..=1e15).contains(&ticks) {

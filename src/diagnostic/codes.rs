@@ -192,6 +192,7 @@ codes! {
     W0517 "a rate of 0",
     W0518 "two choices that do the same",
     W0519 "a reward that is paid in every tick",
+    W0520 "a claim that allows most of what it denies",
 
     W0601 "a condition that always or never holds",
     W0602 "a node that is never reached",

@@ -100,8 +100,8 @@ fn one(loaded: &Loaded, due: Due, learned: &[Learned], results: &mut Results) {
     let history = test.task.map(|task| program.tasks[task].history);
     let history = history.unwrap_or_else(|| assumed(&[root]));
     let outcome = play(root, history, &test.lines);
-    let spans = match &test.subject {
-        Subject::Learned(_) => Vec::new(),
+    let places::Found { spans, calls } = match &test.subject {
+        Subject::Learned(_) => places::Found::default(),
         Subject::Tree(_) | Subject::Subtree(_) => places::of(loaded, written, root),
     };
     let failure = (outcome.failed.as_ref())
@@ -109,8 +109,14 @@ fn one(loaded: &Loaded, due: Due, learned: &[Learned], results: &mut Results) {
     let told = failure.as_ref().map(|failure| told(loaded, failure));
     results.tested.test(test, outcome.ticks, told);
     results.failures.extend(failure);
-    let place = |at: usize| spans.get(at).and_then(|span| place(loaded, *span));
-    let covered = Coverage::of(program, &test.tree, root, &outcome.nodes, place);
+    let written = |at: usize| {
+        let called = calls.get(&at).map(|(span, text)| (*span, text.clone()));
+        let span = called.as_ref().map(|(span, _)| *span);
+        let span = span.or_else(|| spans.get(at).copied());
+        let place = span.and_then(|span| place(loaded, span));
+        (place, called.map(|(_, text)| text))
+    };
+    let covered = Coverage::of(program, &test.tree, root, &outcome.nodes, written);
     results.tested.cover(covered);
 }
 

@@ -59,6 +59,8 @@ pub struct Written {
     pub choose: Vec<usize>,
     /// Of each line of `end on`.
     pub end_on: Vec<usize>,
+    /// The conditions of `end on`, as they are written.
+    pub ends: Vec<String>,
     /// Of each line of `reward`.
     pub reward: Vec<usize>,
 }

@@ -70,18 +70,21 @@ pub struct Place {
 }
 
 impl Coverage {
-    /// What one test has ticked of a tree; `place` gives the place of a node by its place in pre-order.
+    /// What one test has ticked of a tree; `written` gives the place of a node by its place in pre-order, and what is called
+    /// there if it is a subtree.
     pub fn of(
         program: &Program,
         tree: &str,
         root: &Node,
         answers: &[Answers],
-        place: impl Fn(usize) -> Option<Place>,
+        written: impl Fn(usize) -> (Option<Place>, Option<String>),
     ) -> Self {
         let mut nodes = Vec::new();
         walk(program, root, None, &mut nodes);
         for (at, node) in nodes.iter_mut().enumerate() {
-            node.place = place(at);
+            let (place, called) = written(at);
+            node.place = place;
+            node.node = called.unwrap_or_else(|| std::mem::take(&mut node.node));
             node.answers = answers.get(at).copied().unwrap_or_default();
         }
         Self {
@@ -152,8 +155,11 @@ pub fn word(program: &Program, node: &Node) -> String {
             }
             _ => kind.word(*memory).to_owned(),
         },
-        Node::Parallel { successes, .. } => format!("parallel {successes}"),
-        Node::Decorator { kind, .. } => kind.to_string(),
+        Node::Parallel { successes, .. } => format!("parallel({successes})"),
+        Node::Decorator { kind, .. } => match kind.to_string().split_once(' ') {
+            Some((word, much)) => format!("{word}({much})"),
+            None => kind.to_string(),
+        },
     }
 }
 

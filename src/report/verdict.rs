@@ -162,6 +162,15 @@ fn window(program: &Program, history: History) -> String {
     "the history window".to_owned()
 }
 
+/// What a side is called, in backquotes where it has none.
+fn quoted(side: &impl Display) -> String {
+    let side = side.to_string();
+    match side.contains('`') {
+        true => side,
+        false => format!("`{side}`"),
+    }
+}
+
 /// The ticks in which two sides agree, and the one in which they part.
 pub fn difference(
     program: &Program,
@@ -170,13 +179,14 @@ pub fn difference(
     trace: &Trace,
 ) -> String {
     let name = name(program);
+    let (left, right) = (quoted(&left), quoted(&right));
     let mut lines = vec![format!(
-        "different: `{left}` and `{right}` part after {} ticks {along}",
+        "different: {left} and {right} part after {} ticks {along}",
         trace.steps.len()
     )];
     lines.extend(steps(program, trace));
     lines.push(format!(
-        "  tick {:<3} {}: `{left}` selects {}, `{right}` selects {}",
+        "  tick {:<3} {}: {left} selects {}, {right} selects {}",
         trace.steps.len() + 1,
         words::minterm(program, &trace.atoms, &trace.valuation),
         name(&trace.left),

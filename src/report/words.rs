@@ -93,11 +93,20 @@ pub fn failing(program: &Program, policy: &Policy, failing: &Failing) -> String 
     )
 }
 
-/// The names of what ends the episodes of a task: of the event, or `end N` for any other condition.
+/// The longest condition that stands for the name of an end, in characters.
+const LONGEST: usize = 40;
+
+/// The names of what ends the episodes of a task: of the event, or else the condition, `end N` where that is long.
 pub fn end_names(program: &Program, task: &Task) -> Vec<String> {
     let name = |(i, id): (usize, &ExprId)| {
-        let events = events_of(program, *id);
-        events.map_or_else(|| format!("end {}", i + 1), |events| events.join(" or "))
+        let events = events_of(program, *id).map(|events| events.join(" or "));
+        let written = || {
+            let text = task.written.ends.get(i)?;
+            (text.chars().count() <= LONGEST).then(|| text.clone())
+        };
+        events
+            .or_else(written)
+            .unwrap_or_else(|| format!("end {}", i + 1))
     };
     task.end_on.iter().enumerate().map(name).collect()
 }

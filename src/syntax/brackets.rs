@@ -15,31 +15,28 @@ pub(super) fn unclosed(
     let bracket = text.get(open.range()).unwrap_or("{");
     let close = if bracket == "(" { ")" } else { "}" };
     let index = tokens.partition_point(|token| token.start < at);
-    let mut diagnostic = Diagnostic::new(
-        Code::E0102,
-        open,
-        format!("this `{bracket}` is never closed"),
-    )
-    .label(format!("no `{close}` belongs to it"));
+    let pair = suspicious_pair(text, tokens, open);
+    let place = |token: Token| Span::new(file, token.start, token.end);
+    let message = format!("this `{bracket}` is never closed");
+    let mut diagnostic = match pair {
+        // The layout shows which it is.
+        Some((inner, further)) => Diagnostic::new(Code::E0102, place(inner), message)
+            .label("no `}` at its depth belongs to it")
+            .also(place(further), "this `}` stands further left")
+            .also(open, "which leaves this one open"),
+        None => {
+            let label = format!("no `{close}` belongs to it");
+            Diagnostic::new(Code::E0102, open, message).label(label)
+        }
+    };
     let next = tokens
         .get(index..)
         .unwrap_or_default()
         .iter()
         .find(|token| token.kind != Kind::Comment);
     if let Some(next) = next {
-        let place = Span::new(file, next.start, next.end);
-        diagnostic = diagnostic.also(place, format!("`{close}` was expected before this"));
-    }
-    if let Some((open, close)) = suspicious_pair(text, tokens, open) {
-        diagnostic = diagnostic
-            .also(
-                Span::new(file, open.start, open.end),
-                "perhaps it is this one that is not closed:",
-            )
-            .also(
-                Span::new(file, close.start, close.end),
-                "its `}` stands further left",
-            );
+        let expected = format!("`{close}` was expected before this");
+        diagnostic = diagnostic.also(place(*next), expected);
     }
     diagnostic
 }

@@ -13,7 +13,7 @@ mod rewrite;
 mod units;
 mod words;
 
-pub(super) use characters::unclosed_quote;
+pub(super) use characters::{no_remainder, unclosed_quote};
 use ends::OPEN_ENDS;
 pub(super) use units::{no_such_unit, units_note};
 

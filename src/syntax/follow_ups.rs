@@ -1,9 +1,10 @@
 //! Mistakes that follow from others: of those that one slip brings about, one is told.
 
 use super::ast::{File, Item, ItemKind};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::source::Span;
 use std::cmp::Ordering;
+use std::collections::BTreeMap;
 
 /// What is advised where a child of a tree stands behind the `}` of its tree.
 pub(super) const CLOSED_ABOVE: &str = "the `}` of its tree stands above: is there one too many?";
@@ -64,7 +65,82 @@ pub(super) fn left_out(text: &str, tree: &mut File, sorted: Vec<Diagnostic>) -> 
         .collect();
     let mut follows = follows.into_iter();
     told.retain(|_| !follows.next().unwrap_or(false));
-    told
+    let told = told.into_iter().map(|found| match closed(&found) {
+        true => too_early(text, found),
+        false => found,
+    });
+    one_of_a_habit(text, told.collect())
+}
+
+fn lacks_its_type(found: &Diagnostic) -> bool {
+    found.code == Code::E0128 && found.message.ends_with(" has no type")
+}
+
+/// A `}` that closes a tree of which more children follow, told at that `}`, where it stands right before them.
+fn too_early(text: &str, found: Diagnostic) -> Diagnostic {
+    let child = found.span();
+    let before = text.get(..child.range().start).unwrap_or_default();
+    let marks = |letter: char| letter.is_whitespace() || letter == ',';
+    let before = before.trim_end_matches(marks);
+    if !before.ends_with('}') {
+        return found;
+    }
+    let close = Span::new(child.file, before.len() - 1, before.len());
+    let message = "this `}` closes the tree, and more of its children follow";
+    Diagnostic::new(Code::E0103, close, message)
+        .label("one too many?")
+        .also(child, "this stands in a tree")
+        .fix("drop the `}`", close, "", Applicability::Unsafe)
+}
+
+/// How many places of a habit are shown.
+const SHOWN: usize = 3;
+
+/// One message for all the marks of one sign that nothing needs: who ends one line by it ends them all so.
+fn one_of_a_habit(text: &str, told: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    let mut kept: Vec<Diagnostic> = Vec::new();
+    let mut first: BTreeMap<&str, (usize, usize)> = BTreeMap::new();
+    for found in told {
+        if let Some(last) = kept.last_mut()
+            && lacks_its_type(last)
+            && lacks_its_type(&found)
+            && lines(text, last.span()) == lines(text, found.span())
+        {
+            *last = last.clone().also(found.span(), "and this");
+            continue;
+        }
+        if found.code != Code::E0118 {
+            kept.push(found);
+            continue;
+        }
+        let mark = slice(text, &found);
+        let Some((at, further)) = first.get_mut(mark) else {
+            first.insert(mark, (kept.len(), 0));
+            kept.push(found);
+            continue;
+        };
+        let Some(habit) = kept.get_mut(*at) else {
+            continue;
+        };
+        *further += 1;
+        if *further <= SHOWN {
+            *habit = habit.clone().also(found.span(), "and here");
+        }
+        if let (Some(all), Some(one)) = (habit.fixes.first_mut(), found.fixes.into_iter().next()) {
+            all.title = format!("drop every `{mark}` that nothing needs");
+            all.edits.extend(one.edits);
+        }
+    }
+    for (at, further) in first.into_values() {
+        if let Some(habit) = kept.get_mut(at)
+            && further > SHOWN
+        {
+            let more = further - SHOWN;
+            let places = if more == 1 { "place" } else { "places" };
+            habit.notes.push(format!("and in {more} more {places}"));
+        }
+    }
+    kept
 }
 
 /// Whether the rest of the text is missing: it ends within a line, in what was not understood.

@@ -138,8 +138,13 @@ impl Read {
         let items = tree.items.clone();
         let understood = items.iter().map(|item| item.kind != ItemKind::Error);
         let mut clean: Vec<bool> = std::iter::once(true).chain(understood).collect();
-        for found in found {
-            let at = found.span();
+        // One message may stand for several places.
+        let places = found.iter().flat_map(|found| {
+            let labels = found.labels.iter().map(|label| label.span);
+            let edits = found.fixes.iter().flat_map(|fix| &fix.edits);
+            labels.chain(edits.map(|(span, _)| *span))
+        });
+        for at in places {
             let first = items.partition_point(|item| item.span.start < at.start);
             let last = items.partition_point(|item| item.span.start <= at.end);
             let touched = clean.get_mut(first..=last);

@@ -30,6 +30,9 @@ pub const ASPECTS: [&str; 7] = [
     "observe", "choose", "history", "patience", "start", "end", "reward",
 ];
 
+/// The shared expressions of the library.
+pub const SHARED: [&str; 3] = ["turning", "pace", "clear_of_walls"];
+
 /// The behaviours of the library.
 pub const DRIVING: [&str; 12] = [
     "goto",

@@ -70,7 +70,7 @@ fn cases_are_laid_out() {
     });
 }
 
-/// An end on several events is called after them; one on anything else, by its number.
+/// An end on several events is called after them; one on anything else, by its condition.
 #[test]
 fn ends_are_called_after_their_events() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/delivery_small.bt");
@@ -80,5 +80,5 @@ fn ends_are_called_after_their_events() {
     assert!(!loaded.has_errors(), "{}", program::shown(&loaded));
     let task = loaded.program.tasks.values().next().unwrap();
     let names = btc::report::words::end_names(&loaded.program, task);
-    assert_eq!(names, ["dead or docked", "dropoff", "end 3"]);
+    assert_eq!(names, ["dead or docked", "dropoff", "battery < 1%"]);
 }

@@ -166,6 +166,19 @@ impl<'a> Checker<'a> {
         self.coerce(typed, event, &Type::Bool, role)
     }
 
+    /// Whether a name that stands for a member may be meant to bind it: nothing is called so, nor nearly so.
+    fn may_bind(&self, name: &str) -> bool {
+        let members = |decl: Decl<'_>| {
+            matches!(
+                decl,
+                Decl::Place(..) | Decl::Wall(..) | Decl::Robot(_) | Decl::Variant(..)
+            )
+        };
+        self.names.value(name, false).is_none()
+            && !self.may_be_lost(name)
+            && self.likely(name, self.names.values(members)).is_none()
+    }
+
     /// Reports `on picked` and `on picked(b)` where `picked` is a family and nothing is called `b`: what binds a member
     /// says its type, behind `binds`.
     pub fn unbound_members(&mut self, waited_for: &'a ast::Expr, binds: &str) -> Option<()> {
@@ -181,8 +194,7 @@ impl<'a> Checker<'a> {
         let unbound = |arg: &Arg| match &arg.kind {
             ArgKind::Positional(value) => {
                 let name = plain_ref(value).filter(|name| name.args.is_none());
-                name.filter(|name| self.names.value(&name.name.name, false).is_none())
-                    .is_some()
+                name.is_some_and(|name| self.may_bind(&name.name.name))
             }
             _ => false,
         };

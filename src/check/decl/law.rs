@@ -27,6 +27,7 @@ impl<'a> Checker<'a> {
         let (yes, no) = (pool.bool(true), pool.bool(false));
         let (mut requires, mut succeed, mut fail) = (yes, no, no);
         let mut control: Option<(Span, Option<Block>)> = None;
+        self.same_clauses(clauses);
         for clause in clauses {
             self.context.region = Region::Clause;
             let mut region =

@@ -118,6 +118,7 @@ impl<'a> Checker<'a> {
                         library,
                         scope: bindings.clone(),
                         ended: BTreeSet::new(),
+                        argument: None,
                     };
                     let outer = std::mem::replace(&mut self.context, context);
                     let (value, _) = self.captured(|checker| checker.expect(default, &ty, &role));

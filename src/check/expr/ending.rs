@@ -98,9 +98,8 @@ impl<'a> Checker<'a> {
     }
 
     /// What is meant by a second argument that is no robot: `success(dock, tap)`, `inside(sheep, fold)`.
-    fn another_by(&mut self, of: &'a Expr, by: &'a Expr) -> Option<(String, String)> {
-        let (typed, _) = self.captured(|checker| checker.expr(by));
-        if !matches!(typed.ty, Type::Place(_)) {
+    fn another_by(&mut self, of: &'a Expr, by: &'a Expr, is: &Type) -> Option<(String, String)> {
+        if !matches!(is, Type::Place(_)) {
             return None;
         }
         let ExprKind::Ref(reference) = &of.kind else {
@@ -151,7 +150,8 @@ impl<'a> Checker<'a> {
         let Some(by) = by else {
             return Some((of, None));
         };
-        let robot = match self.another_by(of, by) {
+        let typed = self.expr(by);
+        let robot = match self.another_by(of, by, &typed.ty) {
             Some((message, right)) => {
                 let span = of.span.to(by.span);
                 return self
@@ -165,7 +165,7 @@ impl<'a> Checker<'a> {
                     )
                     .none();
             }
-            None => self.expect(by, &Type::Robot, "`by`"),
+            None => self.coerce(typed, by, &Type::Robot, "`by`"),
         };
         match robot.value {
             Value::Robot(id) => Some((of, Some(id))),

@@ -63,21 +63,22 @@ impl<'a> Checker<'a> {
             .or_else(|| self.values_of(wanted));
         let kind = self.misspelt_kind(expr, &typed.ty, wanted);
         let place = (&typed.ty, wanted) == (&Type::Robot, &Type::Point);
+        if let Some((kind, meant)) = kind {
+            let name = print::expr(expr);
+            let message = format!("`{name}` is used as one of the kind `{meant}`, and is none");
+            let question = format!("did you mean the kind `{meant}`?");
+            return self
+                .error(Code::E0302, kind, message)
+                .label(question.clone())
+                .also(typed.span, format!("used as {wanted}"))
+                .fix(question, kind, spelled(&meant), Applicability::Unsafe);
+        }
         let draft = self
             .unlike(typed, wanted, message)
             .this_is(&typed.ty)
             .help_if(help)
             .unit_for(expr, wanted.dim().filter(|_| typed.ty.dim().is_some()))
             .units_within(expr, wanted.dim().filter(|_| typed.ty == Type::NUMBER));
-        if let Some((kind, meant)) = kind {
-            let title = format!("did you mean the kind `{meant}`?");
-            return draft.also(kind, "its kind is said here").fix(
-                title,
-                kind,
-                spelled(&meant),
-                Applicability::Unsafe,
-            );
-        }
         if place {
             let right = format!("pose({})", print::expr(expr));
             let title = format!("where it is: write `{right}`");
@@ -228,8 +229,13 @@ impl<'a> Checker<'a> {
             && PASSING.contains(&name.name.as_str())
         {
             for arg in args {
-                if let ArgKind::Positional(value) = &arg.kind {
-                    self.warn_plain_ratio(value, wanted);
+                match &arg.kind {
+                    ArgKind::Positional(value) => self.warn_plain_ratio(value, wanted),
+                    ArgKind::Range(low, high) => {
+                        self.warn_plain_ratio(low, wanted);
+                        self.warn_plain_ratio(high, wanted);
+                    }
+                    ArgKind::Named(..) | ArgKind::Binder { .. } => {}
                 }
             }
         }
@@ -365,7 +371,7 @@ fn as_condition(typed: &Typed, expr: &Expr, is_variant: bool) -> Option<String> 
 }
 
 /// The functions whose value is of the type of their arguments.
-const PASSING: [&str; 6] = ["uniform", "normal", "one_of", "min", "max", "clamp"];
+const PASSING: [&str; 7] = ["uniform", "normal", "one_of", "min", "max", "clamp", "tune"];
 
 /// Whether an expression is a literal without a unit, perhaps signed.
 pub fn is_literal(expr: &Expr) -> bool {

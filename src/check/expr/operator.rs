@@ -85,7 +85,7 @@ impl<'a> Checker<'a> {
     ) -> Option<Typed> {
         let word = sign.node.spelling();
         // What is called within the operands comes after.
-        let call = self.sole_argument.take();
+        let call = self.context.argument.take();
         let (a, b) = (self.expr(left), self.expr(right));
         if !a.ty.fits(&Type::Bool) && !b.ty.fits(&Type::Bool) {
             return self.joins_no_truths(sign, [(left, &a), (right, &b)], call);
@@ -232,6 +232,12 @@ impl<'a> Checker<'a> {
         span: Span,
     ) -> Option<Typed> {
         let b = self.expr(right);
+        // What is no number may be a state that should be one.
+        match (a.ty.dim(), b.ty.dim()) {
+            (None, Some(_)) if a.ty != Type::Error => self.clashes(left, a.span, &b.ty),
+            (Some(_), None) if b.ty != Type::Error => self.clashes(right, b.span, &a.ty),
+            _ => {}
+        }
         let (a, b) = self.same_dimension(op, (left, a), (right, b))?;
         let ty = match (&a.ty, &b.ty) {
             (Type::Ratio, _) | (_, Type::Ratio) => Type::Ratio,

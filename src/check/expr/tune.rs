@@ -5,7 +5,7 @@ use crate::check::context::Region;
 use crate::check::tune::Key;
 use crate::check::types::units::{Dim, Scale, meaning};
 use crate::check::types::{Type, Typed};
-use crate::diagnostic::Code;
+use crate::diagnostic::{Applicability, Code};
 use crate::ir::tunable::{Tunable, Unit};
 use crate::source::Span;
 use crate::syntax::ast::{ArgKind, Expr, ExprKind, Literal, Ref};
@@ -84,15 +84,24 @@ impl<'a> Checker<'a> {
             [ArgKind::Positional(value), ArgKind::Range(low, high)] => {
                 Some((value, Some((low, high))))
             }
-            _ => self
-                .error(
-                    Code::E0305,
-                    reference.span,
-                    "`tune` takes a value and a range",
-                )
-                .label("these are other arguments")
-                .help("for example: `tune(25%, 5% .. 60%)`")
-                .none(),
+            kinds => {
+                let message = "`tune` takes a value and a range";
+                let draft = self
+                    .error(Code::E0305, reference.span, message)
+                    .label("these are other arguments");
+                match kinds {
+                    [_, ArgKind::Positional(low), ArgKind::Positional(high)] => {
+                        let gap = Span {
+                            start: low.span.end,
+                            end: high.span.start,
+                            ..low.span
+                        };
+                        let title = "put `..` between the ends of the range";
+                        draft.fix(title, gap, " .. ", Applicability::Unsafe).none()
+                    }
+                    _ => draft.help("for example: `tune(25%, 5% .. 60%)`").none(),
+                }
+            }
         }
     }
 

@@ -3,7 +3,9 @@
 use crate::check::Checker;
 use crate::diagnostic::Code;
 use crate::source::Span;
-use crate::syntax::ast::{Arg, ArgKind, BinaryOp, Expr, ExprKind, Literal, Ref, Spanned};
+use crate::syntax::ast::{
+    Arg, ArgKind, BinaryOp, Clause, ClauseKind, Expr, ExprKind, Literal, Ref, Spanned,
+};
 
 /// The functions whose value is another one each time.
 const DRAWS: [&str; 4] = ["uniform", "normal", "chance", "one_of"];
@@ -53,6 +55,26 @@ impl<'a> Checker<'a> {
         {
             let message = format!("`{}` is set to itself", target.name.name);
             self.again(value.span, target.span, message, "it is this already");
+        }
+    }
+
+    /// Notes it where a behaviour says one clause twice.
+    pub fn same_clauses(&mut self, clauses: &'a [Clause]) {
+        let mut before: Vec<(&str, &'a Expr)> = Vec::new();
+        for clause in clauses {
+            let (word, test) = match &clause.kind {
+                ClauseKind::Requires(test) => ("requires", test),
+                ClauseKind::Succeed(test) => ("succeed when", test),
+                ClauseKind::Fail(test) => ("fail when", test),
+                _ => continue,
+            };
+            let same =
+                |(other, earlier): &&(&str, &'a Expr)| *other == word && is_like(earlier, test);
+            if let Some((_, first)) = before.iter().find(same).filter(|_| !self.context.library) {
+                let message = format!("this `{word}` is there already");
+                self.again(test.span, first.span, message, "asked a second time");
+            }
+            before.push((word, test));
         }
     }
 

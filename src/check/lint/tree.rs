@@ -30,7 +30,7 @@ impl<'a> Checker<'a> {
     }
 
     /// `reached` says when the node may be reached, `held` what has been asked by then.
-    fn nodes_of(&mut self, written: &'a ast::Node, node: &Node, reached: &Cases, held: &Cases) {
+    pub fn nodes_of(&mut self, written: &'a ast::Node, node: &Node, reached: &Cases, held: &Cases) {
         match (&written.kind, node) {
             (NodeKind::Guarded { guard, node: inner }, Node::Composite { children, .. }) => {
                 let [Node::Condition(asked), node] = children.as_slice() else {

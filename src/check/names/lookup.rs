@@ -11,7 +11,7 @@ use crate::ir::task::Task;
 use crate::ir::{Id, Name};
 use crate::spelling::spelled;
 use crate::syntax::ast::{self, Expr, ExprKind, Ident, Ref};
-use crate::syntax::words::DRIVING;
+use crate::syntax::words::{DRIVING, SHARED};
 
 impl<'a> Checker<'a> {
     /// The declaration of a value's name as seen from the text at hand, with whether it is of the library.
@@ -229,7 +229,7 @@ impl<'a> Checker<'a> {
     fn lacks_library(&self, name: &str) -> bool {
         let idle = self.names.value("idle", true);
         let used = idle.is_some_and(|(_, library)| library);
-        !used && DRIVING.contains(&name)
+        !used && (DRIVING.contains(&name) || SHARED.contains(&name))
     }
 
     /// Reports, once, that the program does not use the library.
@@ -245,7 +245,10 @@ impl<'a> Checker<'a> {
                 name.span,
                 format!("`{called}` is not declared"),
             )
-            .label("a behaviour of the library, which this program does not use")
+            .label(match DRIVING.contains(&called.as_str()) {
+                true => "a behaviour of the library, which this program does not use",
+                false => "of the library, which this program does not use",
+            })
             .help(format!("`use std` brings `{called}`"));
         match top {
             Some(top) => draft.fix("use the library", top, "use std\n\n", Applicability::Safe),
@@ -332,7 +335,7 @@ fn hint(name: &str, what: &str) -> Option<String> {
         {
             "a sensor is read by the name that the robot gives it: `sensor NAME = …`".to_owned()
         }
-        "Vector2" | "Vec2" | "vec2" | "Point" | "Vector" | "vector" | "Vector3" | "Pose2D"
+        "Vector2" | "Vec2" | "vec2" | "vec" | "point" | "Point" | "Vector" | "vector" | "Vector3" | "Pose2D"
         | "Pose" => "a point is written `(1 m, 2 m)`".to_owned(),
         _ if what.starts_with("function") && ranging(name).is_some() => {
             let form = ranging(name).unwrap_or_default();
@@ -407,7 +410,7 @@ fn hint(name: &str, what: &str) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::DRIVING;
+    use super::{DRIVING, SHARED};
     use crate::source::FileId;
     use crate::syntax::ast::ItemKind;
     use crate::syntax::parse;
@@ -420,5 +423,10 @@ mod tests {
             _ => None,
         });
         assert_eq!(behaviors.collect::<Vec<_>>(), DRIVING);
+        let shared = file.items.iter().filter_map(|item| match &item.kind {
+            ItemKind::Let(shared) => Some(shared.name.name.as_str()),
+            _ => None,
+        });
+        assert_eq!(shared.collect::<Vec<_>>(), SHARED);
     }
 }

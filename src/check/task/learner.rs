@@ -23,6 +23,17 @@ const METHODS: [(&str, Method); 3] = [
     ("model", Method::Model),
 ];
 
+/// The method that a value names.
+fn method_of(value: &ast::Expr) -> Option<&'static (&'static str, Method)> {
+    let ExprKind::Ref(Ref {
+        name, args: None, ..
+    }) = &value.kind
+    else {
+        return None;
+    };
+    METHODS.iter().find(|(known, _)| *known == name.name)
+}
+
 impl<'a> Checker<'a> {
     /// `learn name for task { … }`
     pub fn learn(&mut self, learn: &'a ast::Learn) {
@@ -85,7 +96,13 @@ impl<'a> Checker<'a> {
         }
         if let (Objective::Average(_), Some(at)) = (built.objective, seen.get("objective")) {
             // A line that was not understood may be the one that names the method.
-            let lost = |entry: &LearnEntry| matches!(entry, LearnEntry::Error(_));
+            let lost = |entry: &LearnEntry| match entry {
+                LearnEntry::Error(_) => true,
+                LearnEntry::Setting(setting) => {
+                    setting.name.name == "method" && method_of(&setting.value).is_none()
+                }
+                _ => false,
+            };
             if built.method != Method::Model && !learn.entries.iter().any(lost) {
                 let help = "say `method = model`, or give a `discount`";
                 self.error(
@@ -245,14 +262,10 @@ impl<'a> Checker<'a> {
     }
 
     fn method(&mut self, value: &'a ast::Expr) -> Option<Method> {
-        let word = match &value.kind {
-            ExprKind::Ref(Ref {
-                name, args: None, ..
-            }) => name.name.as_str(),
-            ExprKind::Error => return None,
-            _ => "",
-        };
-        let found = METHODS.iter().find(|(name, _)| *name == word);
+        if value.kind == ExprKind::Error {
+            return None;
+        }
+        let found = method_of(value);
         if found.is_none() {
             // `q-learning` is a difference.
             let written = print::expr(value).replace(" - ", "-").replace('-', "_");

@@ -4,12 +4,15 @@ use crate::check::Checker;
 use crate::check::context::{Context, Region};
 use crate::check::names::Decl;
 use crate::check::types::Type;
-use crate::diagnostic::Code;
+use crate::diagnostic::{Applicability, Code};
 use crate::ir::program::Event;
 use crate::ir::task::{Claim, ClaimKind, Occurrence, TreeRef};
 use crate::ir::{Id, Name};
 use crate::syntax::ast::{self, ClaimWhat, Expr, ExprKind, Ident, Item, ItemKind};
 use crate::syntax::print;
+
+/// Below this, the probability of `never` is likely meant as that of the event.
+const SELDOM: f64 = 0.2;
 
 impl<'a> Checker<'a> {
     /// `claim tree equals tree`, `claim tree never event …`
@@ -100,10 +103,18 @@ impl<'a> Checker<'a> {
             .within
             .as_ref()
             .map(|time| self.ticks(time, "`within`"));
-        let probability = claim.probability.as_ref().map(|(_, p)| {
+        let probability = claim.probability.as_ref().map(|(more, p)| {
             let typed = self.expect(p, &Type::Ratio, "a probability");
             self.probability(&typed, "a probability")?;
-            self.constant_part(typed.scalar()?, p.span, "a probability")
+            let least = self.constant_part(typed.scalar()?, p.span, "a probability")?;
+            if *more && least >= 1.0 {
+                let why = "no probability is more than 100%";
+                return self.out_of_range(p.span, why, "more than this").none();
+            }
+            if matches!(claim.what, ClaimWhat::Never(_)) && least < SELDOM {
+                self.mostly(claim, p, least);
+            }
+            Some(least)
         });
         Some(Occurrence {
             event: event?,
@@ -116,6 +127,25 @@ impl<'a> Checker<'a> {
                 None => 1.0,
             },
         })
+    }
+
+    /// Warns of `never` that is to hold in few of the episodes: the probability is that of what is claimed, not
+    /// that of the event.
+    fn mostly(&mut self, claim: &ast::Claim, probability: &Expr, least: f64) {
+        let percent = |part: f64| format!("{}%", (part * 1e10).round() / 1e8);
+        let (least, most) = (percent(least), percent(1.0 - least));
+        let tree = &claim.tree.name;
+        let message = format!("this allows the event in up to {most} of the episodes");
+        self.warning(Code::W0520, probability.span, message)
+            .label("how probable it is that it never happens")
+            .fix(
+                format!(
+                    "if at most {least} of the episodes of `{tree}` may have it, write `{most}`"
+                ),
+                probability.span,
+                most,
+                Applicability::Unsafe,
+            );
     }
 
     fn claimed_event(&mut self, event: &'a Expr) -> Option<Id<Event>> {

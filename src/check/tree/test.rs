@@ -5,7 +5,7 @@ mod lines;
 use crate::check::Checker;
 use crate::check::context::{Context, Region};
 use crate::check::names::Decl;
-use crate::diagnostic::Code;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::task::Task;
 use crate::ir::test::{Subject, Test};
 use crate::ir::tree::Node;
@@ -32,7 +32,14 @@ impl<'a> Checker<'a> {
         let tested = self.tested(test);
         let robot = tested.as_ref().map_or(World::acting(), |it| it.robot);
         let root = tested.as_ref().and_then(|tested| tested.root.as_ref());
-        let lines = self.as_robot(robot, |checker| checker.test_lines(test, root));
+        let (lines, told) = self
+            .captured(|checker| checker.as_robot(robot, |checker| checker.test_lines(test, root)));
+        // Where the tree was not understood, nobody knows which robot runs it.
+        let of_a_robot =
+            |found: &Diagnostic| matches!(found.code, Code::E0406 | Code::E0411 | Code::E0613);
+        let follows = |found: &Diagnostic| tested.is_none() && of_a_robot(found);
+        let told = told.into_iter().filter(|found| !follows(found));
+        self.diagnostics.extend(told);
         if let (Some(tested), Some(lines)) = (tested, lines) {
             self.program.tests.push(Test {
                 title: test.title.name.clone(),

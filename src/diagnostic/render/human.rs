@@ -103,6 +103,9 @@ fn reported(sources: &Sources, diagnostic: &Diagnostic) -> report::Diagnostic<us
         )
 }
 
+/// How many changes of one fix are told.
+const MOST: usize = 6;
+
 /// A fix in words, such as "help: compare twice: insert `and e ` before `< 3`"; without its title if it is `said`
 /// already, or says no more than the edit.
 fn offered(sources: &Sources, fix: &Fix, said: &str) -> Option<String> {
@@ -110,9 +113,8 @@ fn offered(sources: &Sources, fix: &Fix, said: &str) -> Option<String> {
     if said.ends_with('?') && fix.edits.iter().all(|(_, new)| said.contains(new.trim())) {
         return None;
     }
-    let edits: Vec<String> = fix
-        .edits
-        .iter()
+    let edits = fix.edits.iter();
+    let mut edits: Vec<String> = edits
         .map(|(span, new)| {
             let old = sources.text(*span);
             let next = sources
@@ -131,6 +133,11 @@ fn offered(sources: &Sources, fix: &Fix, said: &str) -> Option<String> {
             }
         })
         .collect();
+    let more = edits.len().saturating_sub(MOST);
+    if more > 0 {
+        edits.truncate(MOST);
+        edits.push(format!("and {more} more like these"));
+    }
     let edits = edits.join(", ");
     if fix.title.ends_with('?') {
         return Some(format!("help: {}", fix.title));

@@ -4,23 +4,39 @@ use crate::driver::load::Loaded;
 use crate::ir::tree::Node;
 use crate::source::Span;
 use crate::syntax::ast::{self, Expr, ExprKind, ItemKind, NodeKind};
+use crate::syntax::print;
+use std::collections::BTreeMap;
 
-/// The places of the nodes of a tree, in pre-order; those of a subtree stand in its own text.
-pub(super) fn of(loaded: &Loaded, test: &ast::Test, root: &Node) -> Vec<Span> {
+/// Where the nodes of a tree are written, by their places in pre-order.
+#[derive(Default)]
+pub(super) struct Found {
+    /// Of each node; those of a subtree stand in its own text.
+    pub(super) spans: Vec<Span>,
+    /// Where subtrees are called, and how: of the nodes that they begin with.
+    pub(super) calls: BTreeMap<usize, (Span, String)>,
+}
+
+/// The places of the nodes of a tree.
+pub(super) fn of(loaded: &Loaded, test: &ast::Test, root: &Node) -> Found {
     let mut places = Places {
         loaded,
         found: Vec::new(),
+        calls: BTreeMap::new(),
     };
     match places.tree(&test.tree.name.name) {
         Some(tree) => places.node(&tree.root, root),
         None => places.all(root, test.tree.span),
     }
-    places.found
+    Found {
+        spans: places.found,
+        calls: places.calls,
+    }
 }
 
 struct Places<'l> {
     loaded: &'l Loaded,
     found: Vec<Span>,
+    calls: BTreeMap<usize, (Span, String)>,
 }
 
 impl<'l> Places<'l> {
@@ -40,9 +56,15 @@ impl<'l> Places<'l> {
     fn node(&mut self, written: &'l ast::Node, node: &Node) {
         match (&written.kind, node.children()) {
             (NodeKind::Guarded { guard, node: inner }, [asked, rest]) => {
+                let at = self.found.len();
                 self.found.push(written.span);
                 self.all(asked, guard.span);
+                let below = self.found.len();
                 self.node(inner, rest);
+                if let Some((_, call)) = self.calls.get(&below) {
+                    let text = format!("{} => {call}", print::expr(guard));
+                    self.calls.insert(at, (written.span, text));
+                }
             }
             (
                 NodeKind::Composite {
@@ -60,7 +82,13 @@ impl<'l> Places<'l> {
                 }
             }
             (NodeKind::Leaf(leaf), _) => match called(leaf).and_then(|name| self.tree(name)) {
-                Some(tree) => self.node(&tree.root, node),
+                Some(tree) => {
+                    // What one subtree calls at once is its own matter.
+                    let at = self.found.len();
+                    let call = (written.span, print::expr(leaf));
+                    self.node(&tree.root, node);
+                    self.calls.insert(at, call);
+                }
                 None => self.all(node, written.span),
             },
             _ => self.all(node, written.span),

@@ -283,6 +283,22 @@ impl<'i> Builder<'i> {
             ));
             return;
         }
+        if same_line && matches!(name, "mod" | "rem" | "modulo") {
+            self.report(diagnose::no_remainder(span, name));
+            return;
+        }
+        let after = self.text.get(at.range().end..).unwrap_or_default();
+        let goes_on = after.starts_with([' ', '\t']) && !after.trim_start().starts_with('\n');
+        if same_line && goes_on && matches!(found, "+" | "-" | "*" | "/") {
+            let message = format!("`{name} {found} …` changes nothing");
+            let right = format!("{found}=");
+            self.report(Diagnostic::new(Code::E0101, at, message).write(
+                at,
+                right,
+                Applicability::Unsafe,
+            ));
+            return;
+        }
         let spare = [
             "set", "return", "then", "do", "call", "run", "assign", "begin",
         ];

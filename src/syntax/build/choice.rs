@@ -88,6 +88,9 @@ impl<'i> Builder<'i> {
         let mut bindings = Vec::new();
         while let Some(node) = parts.maybe(Rule::binding) {
             bindings.push(self.binding(node));
+            if let Some(mark) = parts.maybe(Rule::stray_mark) {
+                self.stray_mark(self.span(&mark));
+            }
         }
         let value = Box::new(self.take_expr(&mut parts));
         if let Some(mark) = parts.maybe(Rule::stray_mark) {

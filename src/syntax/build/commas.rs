@@ -4,6 +4,7 @@ use super::Builder;
 use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::grammar::Node;
+use crate::syntax::tokens::is_blank;
 use crate::syntax::words::{CALLED, NODES, UNITS};
 
 /// What the commas of a history part.
@@ -13,12 +14,13 @@ pub(super) const HISTORY: &str = "the ends of a history";
 const LEAVES: [&str; 2] = ["behavior", "tree"];
 
 /// What other notations put before the nodes of a tree.
-const BEFORE_NODES: [&str; 14] = [
+const BEFORE_NODES: [&str; 15] = [
     "subtree",
     "SubTree",
     "Subtree",
     "SubTreePlus",
     "when",
+    "case",
     "action",
     "condition",
     "do",
@@ -29,6 +31,18 @@ const BEFORE_NODES: [&str; 14] = [
     "call",
     "node",
 ];
+
+/// What to write for a word behind a node that other languages have there.
+fn behind_a_node(word: &str) -> Option<&'static str> {
+    Some(match word {
+        "with" | "after" | "within" => {
+            "what a node is done with goes around it: `timeout(10 s) { … }`, `retry(2) { … }`"
+        }
+        "until" | "unless" => "a condition goes before its node: `not CONDITION => NODE`",
+        "while" | "when" | "provided" => "a condition goes before its node: `CONDITION => NODE`",
+        _ => return None,
+    })
+}
 
 impl<'i> Builder<'i> {
     /// Reports a comma that is missing just before `node`, after what stands at `before`.
@@ -91,6 +105,15 @@ impl<'i> Builder<'i> {
             self.report(diagnostic);
             return;
         }
+        // Of `memory sequence [ … ]` the bracket is told.
+        let rest = self.text.get(place.range().end..).unwrap_or_default();
+        let in_brackets = rest.trim_start_matches(is_blank).starts_with('[');
+        if last.is_some_and(|(word, _)| word == "memory")
+            && matches!(self.slice(place), "selector" | "sequence")
+            && in_brackets
+        {
+            return;
+        }
         if let Some((word, before)) = last.filter(|(word, _)| *word == "memory") {
             let diagnostic = Diagnostic::new(
                 Code::E0604,
@@ -115,6 +138,20 @@ impl<'i> Builder<'i> {
             )
             .label(format!("write `{name} in …`"))
             .fix("write `in`", place, "in", Applicability::Unsafe);
+            self.report(diagnostic);
+            return;
+        }
+        if what == "the children of a node"
+            && let Some(help) = behind_a_node(self.slice(place))
+            && before.is_some_and(|before| {
+                let gap = self.text.get(before.range().end..place.range().start);
+                gap.is_some_and(|gap| !gap.contains('\n'))
+            })
+        {
+            let message = format!("`{}` does not go on with a node", self.slice(place));
+            let diagnostic = Diagnostic::new(Code::E0101, place, message)
+                .label("this is not said here")
+                .help(help);
             self.report(diagnostic);
             return;
         }

@@ -267,7 +267,11 @@ impl<'i> Builder<'i> {
             return Some(format!("{word}({amount}) {{ … }}"));
         }
         let waits = line.trim_start().starts_with("on ") && next.of(self.text) == "if";
-        (waits && same_line).then(|| "on EVENT and CONDITION { … }".to_owned())
+        let family = line.contains(':');
+        (waits && same_line).then(|| match family {
+            true => format!("{} {{ if CONDITION {{ … }} }}", line.trim()),
+            false => "on EVENT and CONDITION { … }".to_owned(),
+        })
     }
 
     /// Reports that nothing closes the bracket `open` at byte `at`.

@@ -74,7 +74,14 @@ impl<'i> Builder<'i> {
                 let asked = chain(operands, signs).unwrap_or_else(|| self.error_expr(span));
                 return self.wrong_choice(asked, &sign, parts);
             }
-            signs.push(self.binary(&sign));
+            let joins_nodes = operands
+                .last()
+                .is_some_and(|it| self.joins_nodes(&sign, it));
+            signs.push(match (joins_nodes, sign.as_str()) {
+                (true, "|" | "||") => self.spanned(&sign, BinaryOp::Or),
+                (true, _) => self.spanned(&sign, BinaryOp::And),
+                (false, _) => self.binary(&sign),
+            });
             operands.push(self.take_expr(&mut parts));
         }
         chain(operands, signs).unwrap_or_else(|| self.error_expr(span))
@@ -143,6 +150,11 @@ impl<'i> Builder<'i> {
         self.report(diagnostic.help("join two comparisons with `and`"));
     }
 
+    /// Whether a mark joins what is run: then it is no `or`, in whatever spelling, which is told of its operands.
+    fn joins_nodes(&self, sign: &Node<'i>, left: &Expr) -> bool {
+        self.in_tree && matches!(sign.as_str(), "|" | "||" | "&" | "&&") && self.is_behavior(left)
+    }
+
     fn binary(&mut self, sign: &Node<'i>) -> Spanned<BinaryOp> {
         let written = sign.as_str();
         let (op, right) = match written {
@@ -193,6 +205,7 @@ impl<'i> Builder<'i> {
         let Some(sign) = sign else {
             return operand;
         };
+        self.doubled_sign(&sign, &operand);
         let written = sign.as_str();
         let (op, right) = match written {
             "not" | "!" | "¬" => (UnaryOp::Not, "not"),

@@ -3,7 +3,7 @@
 use super::Builder;
 use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::source::Span;
-use crate::syntax::ast::{Expr, ExprKind};
+use crate::syntax::ast::{Expr, ExprKind, UnaryOp};
 use crate::syntax::grammar::{Node, Parts, Rule};
 use crate::syntax::words::{FUNCTIONS, NODES};
 
@@ -213,6 +213,32 @@ impl<'i> Builder<'i> {
         .help(
             "if it is to be so, put a blank after the sign; a line of its own begins with a word",
         );
+        self.report(diagnostic);
+    }
+
+    /// Warns of `--5`, which is 5 and looks like something else.
+    pub(super) fn doubled_sign(&mut self, sign: &Node<'i>, operand: &Expr) {
+        let ExprKind::Unary { op, operand: inner } = &operand.kind else {
+            return;
+        };
+        let span = self.span(sign);
+        let signs = span.to(op.span);
+        let is_sign = |op: UnaryOp| matches!(op, UnaryOp::Neg | UnaryOp::Pos);
+        if !is_sign(op.node) || sign.as_rule() != Rule::sign {
+            return;
+        }
+        let right = match (sign.as_str(), op.node) {
+            ("+", UnaryOp::Neg) | ("-", UnaryOp::Pos) => "-",
+            _ => "",
+        };
+        let value = format!("{right}{}", self.slice(inner.span));
+        let diagnostic = Diagnostic::new(
+            Code::W0102,
+            signs,
+            format!("`{}` is two signs", self.slice(signs)),
+        )
+        .label(format!("taken as `{value}`"))
+        .fix("keep one", signs, "-", Applicability::Unsafe);
         self.report(diagnostic);
     }
 

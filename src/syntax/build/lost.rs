@@ -177,9 +177,15 @@ impl Builder<'_> {
             || code
                 .iter()
                 .any(|token| word(token).trim_matches('"') == "std");
-        for pair in code.windows(2) {
+        // `p: place`, `r in robot` name a type.
+        let is_type = |at: usize| {
+            let before = at.checked_sub(1).and_then(|before| code.get(before));
+            before.is_some_and(|before| matches!(word(before), ":" | "in"))
+        };
+        for (at, pair) in code.windows(2).enumerate() {
             if let [declares, name] = pair
                 && DECLARING.contains(&word(declares))
+                && !is_type(at)
             {
                 names.push(name);
                 unnamed |= !self.is_name(name);

@@ -99,7 +99,7 @@ impl<'i> Builder<'i> {
     }
 
     /// Whether an expression names what is run, as far as this file shows.
-    fn is_behavior(&self, expr: &Expr) -> bool {
+    pub(super) fn is_behavior(&self, expr: &Expr) -> bool {
         let ExprKind::Ref(reference) = &expr.kind else {
             return false;
         };

@@ -151,6 +151,14 @@ impl Place<'_> {
             (Rule::strict_child, "[") if self.expects(Rule::node) => {
                 "the children of a node stand in braces: `sequence { …, … }`"
             }
+            (Rule::strict_child | Rule::strict_item, "=>" | "->") if self.before() == "}" => {
+                "before `=>` stands a condition; one node after the other is `sequence { NODE, NODE }`"
+            }
+            (_, "retry" | "repeat" | "timeout" | "invert" | "repeated" | "retried")
+                if self.expects(Rule::guards) =>
+            {
+                "a decorator goes around its node: `retry(2) { … }`, `timeout(10 s) { … }`"
+            }
             (Rule::strict_child, "else") => {
                 "what is done else is the last child of a `selector`, without a guard"
             }
@@ -259,6 +267,9 @@ impl Place<'_> {
             (_, "if") if self.expects(Rule::or_op) || self.expects(Rule::sum_op) => {
                 "a value is chosen by `if CONDITION { … } else { … }`"
             }
+            (Rule::strict_item, "and" | "or") if self.begins_with("on") => {
+                "what else must hold is asked within: `on EVENT(x: KIND) { if CONDITION { … } }`"
+            }
             (Rule::strict_item, "when" | "if") if self.begins_with("on") => {
                 "what else must hold is joined by `and`: `on EVENT and CONDITION { … }`"
             }
@@ -353,9 +364,6 @@ impl Place<'_> {
             }
             (_, "{") if self.before() == "memory" => {
                 "`memory` goes before the word of a node: `memory sequence { … }`"
-            }
-            (_, "selector" | "sequence") if self.before() == "reactive" => {
-                "without `memory` a node asks all its children again in every tick: drop `reactive`"
             }
             (_, "(") if self.before() == ")" && self.expects(Rule::term_op) => {
                 "a product is written with `*`"

@@ -5,7 +5,7 @@ use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::source::{FileId, Span};
 use crate::spelling::RESERVED;
 use crate::syntax::grammar::Rule;
-use crate::syntax::tokens::{Kind, is_blank};
+use crate::syntax::tokens::{Kind, Token, is_blank};
 
 /// Characters that look like those of the language, and the ones that they look like.
 const LOOK_ALIKES: [(char, &str); 20] = [
@@ -105,7 +105,31 @@ impl Place<'_> {
         Some(diagnostic)
     }
 
+    /// `a mod b`, as some languages write a remainder.
+    fn modulo_word(&self) -> Option<Diagnostic> {
+        let is_word = |token: &Token| matches!(token.of(self.text), "mod" | "rem" | "modulo");
+        let value = |token: Token| {
+            matches!(token.kind, Kind::Word | Kind::Number | Kind::Name)
+                || token.of(self.text) == "("
+        };
+        let (word, left, right) = match is_word(&self.found) {
+            true => (self.found, self.before?, self.next()?),
+            false => (
+                self.before.filter(is_word)?,
+                self.second_before?,
+                self.found,
+            ),
+        };
+        let line = self.text.get(left.end..right.start)?;
+        let ends_value = value(left) || left.of(self.text) == ")";
+        (ends_value && value(right) && !line.contains('\n'))
+            .then(|| no_remainder(self.span_of(word), word.of(self.text)))
+    }
+
     pub(super) fn modulo(&self) -> Option<Diagnostic> {
+        if let Some(told) = self.modulo_word() {
+            return Some(told);
+        }
         let percent = if self.found() == "%" {
             self.found
         } else {
@@ -127,6 +151,13 @@ impl Place<'_> {
                 .help("the language has no remainder"),
         )
     }
+}
+
+/// The message for `word`, which stands for a remainder elsewhere.
+pub(in crate::syntax) fn no_remainder(word: Span, name: &str) -> Diagnostic {
+    Diagnostic::new(Code::E0125, word, format!("`{name}` is no operator"))
+        .label("the language has no remainder")
+        .help("what comes round: `if x >= N { x - N } else { x }`, or `x - N * floor(x / N)`")
 }
 
 /// The message for the quote at byte `start`, which is not closed on its line.

@@ -39,7 +39,42 @@ impl Place<'_> {
             .or_else(|| self.bare_point())
             .or_else(|| self.typed_predicate())
             .or_else(|| self.listed_condition())
+            .or_else(|| self.reactive())
+            .or_else(|| self.spare_mark())
             .or_else(|| self.in_pieces())
+    }
+
+    /// `goto(A),;`
+    fn spare_mark(&self) -> Option<Diagnostic> {
+        let spare = self.found() == ";" && self.before() == ",";
+        (spare && self.failure.strict == Rule::strict_child).then(|| {
+            Diagnostic::new(Code::E0118, self.span(), "nothing needs a `;` here")
+                .label("drop it")
+                .note("commas part the children of a node")
+                .fix("drop the `;`", self.span(), "", Applicability::Safe)
+        })
+    }
+
+    /// `reactive selector`
+    fn reactive(&self) -> Option<Diagnostic> {
+        let word = self.before?;
+        let is_reactive = matches!(word.of(self.text), "reactive" | "Reactive");
+        let node = matches!(self.found(), "selector" | "sequence");
+        (is_reactive && node).then(|| {
+            let gap = self.span_of(word).start..self.span().start;
+            let message = "without `memory` a node asks all its children anew in every tick";
+            Diagnostic::new(Code::E0101, self.span_of(word), message)
+                .label("every node does so")
+                .fix(
+                    format!("drop `{}`", word.of(self.text)),
+                    Span {
+                        end: gap.end,
+                        ..self.span_of(word)
+                    },
+                    "",
+                    Applicability::Safe,
+                )
+        })
     }
 
     /// `with prob >= 90%`

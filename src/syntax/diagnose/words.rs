@@ -282,7 +282,7 @@ impl Place<'_> {
                 Applicability::Unsafe,
             ),
             None if self.failure.strict == Rule::strict_item
-                && matches!(self.after_found(), "=>" | ",") =>
+                && (matches!(self.after_found(), "=>" | ",") || self.is_child_line()) =>
             {
                 diagnostic.label("this stands in a tree").help(CLOSED_ABOVE)
             }
@@ -317,6 +317,14 @@ impl Place<'_> {
 }
 
 impl Place<'_> {
+    /// Whether the line reads as a child of a tree: a call with a comma behind it, or one that an arrow follows.
+    fn is_child_line(&self) -> bool {
+        let line = self.text.get(self.found.end..).unwrap_or_default();
+        let line = line.lines().next().unwrap_or_default();
+        let line = line.split("//").next().unwrap_or_default().trim_end();
+        line.starts_with('(') && (line.ends_with(',') || line.contains("=>"))
+    }
+
     /// A word that is meant with what has to follow it, and the text in whose place it is written.
     fn in_full(&self, meant: &'static str) -> (&'static str, Span) {
         let next = self.next();

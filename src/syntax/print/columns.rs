@@ -1,5 +1,12 @@
 //! Lines, and the columns into which adjacent ones are brought.
 
+/// The kind of the lines of a reward, whose first cell may be a long condition.
+pub(super) const KEYS: &str = "reward";
+
+/// The widest cell that moves the column after it; a wider one stands alone, or else all the others would stand far off
+/// from what belongs to them.
+const WIDEST: usize = 40;
+
 /// How a line is aligned with those next to it: adjacent lines of one kind share their columns.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Align {
@@ -100,12 +107,14 @@ fn align(lines: &[Line], run: &[usize], code: &mut [String]) {
         .iter()
         .any(|(_, line)| matches!(line.align, Align::Shaped(..)));
     let columns = if shaped && !same_shape { 1 } else { usize::MAX };
+    let keys = run.iter().any(|(_, line)| line.align == Align::Of(KEYS));
     let widths: Vec<usize> = (0..)
         .map_while(|column| {
-            run.iter()
-                .filter_map(|(_, line)| line.cells.get(column))
-                .map(|cell| cell.chars().count())
-                .max()
+            let cells = run.iter().filter_map(|(_, line)| line.cells.get(column));
+            let widths = cells.map(|cell| cell.chars().count());
+            let widest = widths.clone().max()?;
+            let narrow = widths.filter(|width| !keys || *width <= WIDEST).max();
+            Some(narrow.unwrap_or(widest))
         })
         .collect();
     for (index, line) in run {
@@ -115,7 +124,7 @@ fn align(lines: &[Line], run: &[usize], code: &mut [String]) {
             let padded = column < last && column < columns;
             let wanted = if padded { width } else { cell.chars().count() };
             text.push_str(cell);
-            text.push_str(&" ".repeat(wanted - cell.chars().count()));
+            text.push_str(&" ".repeat(wanted.saturating_sub(cell.chars().count())));
             // A column that is empty all the way down takes no room.
             if column < last && (!padded || width > 0) {
                 text.push(' ');

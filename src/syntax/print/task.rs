@@ -1,7 +1,7 @@
 //! Tasks and learners.
 
 use super::Printer;
-use super::columns::Align;
+use super::columns::{Align, KEYS};
 use super::doc::{Brackets, Break, Doc, Entry, row};
 use super::names::ident;
 use crate::source::Span;
@@ -95,7 +95,7 @@ impl Printer<'_> {
     ) -> Doc<'a> {
         let entry = |span, head, value| {
             let doc = row![head, ":", Doc::column(), self.expr(value)];
-            Entry::aligned(span, Align::Of("reward"), doc)
+            Entry::aligned(span, Align::Of(KEYS), doc)
         };
         let mut entries: Vec<Entry<'a>> = lines
             .iter()

@@ -52,8 +52,11 @@ impl Printer<'_> {
                 ]
             }
             NodeKind::Guarded { guard, node: inner } => {
-                let guard = self.expr(guard).room(" => ".len());
-                row![guard, " => ", self.node(inner)]
+                // A guard is broken before the arguments of what it guards.
+                let (guard, guarded) = (self.expr(guard), self.node(inner));
+                let leaf = matches!(inner.kind, NodeKind::Leaf(_));
+                let behind = if leaf { guarded.width + 1 } else { 0 };
+                row![guard.room(" => ".len() + behind), " => ", guarded]
                     .grouped(node.span, Break::always_if(is_several(inner)))
                     .settled(inner.span.range().start)
             }
