@@ -3,7 +3,7 @@
 use super::packed::Packed;
 use std::collections::BTreeSet;
 
-/// Cubes that may be read for each cube that the complement may have.
+/// Words of cubes that may be read for each cube that the complement may have.
 const WORK: usize = 64;
 
 /// Cubes over `atoms` atoms that hold exactly where none of `cubes` does; `None` if there are more than `limit`, or if it
@@ -11,7 +11,7 @@ const WORK: usize = 64;
 ///
 /// By Shannon expansion about the atom that most cubes fix, of those that are fixed to both values. About an atom that is
 /// fixed to one value only, one half of the complement holds whatever the atom is (Brayton, Hachtel, McMullen and
-/// Sangiovanni-Vincentelli 1984, chapter 3).
+/// Sangiovanni-Vincentelli 1984, chapter 3). Atoms that are cubes by themselves are fixed together, without a step for each.
 pub fn complement(atoms: usize, cubes: &[Packed], limit: usize) -> Option<Vec<Packed>> {
     let mut search = Complement {
         atoms,
@@ -29,9 +29,13 @@ struct Complement {
 
 impl Complement {
     fn of(&mut self, cubes: Vec<Packed>) -> Option<Vec<Packed>> {
-        self.work = self.work.checked_sub(1 + cubes.len())?;
+        let words = self.atoms.div_ceil(64).max(1);
+        self.work = self.work.checked_sub((1 + cubes.len()) * words)?;
         if cubes.iter().any(Packed::is_universe) {
             return Some(Vec::new());
+        }
+        if let Some(complement) = self.beside_literals(&cubes) {
+            return complement;
         }
         match cubes.as_slice() {
             [] => return Some(vec![Packed::universe(self.atoms)]),
@@ -58,6 +62,27 @@ impl Complement {
             }
         };
         (complement.len() <= self.limit).then_some(complement)
+    }
+
+    /// The complement where some cubes are single literals, none of which holds in it.
+    #[allow(clippy::option_option, reason = "none of them is, or it is too large")]
+    fn beside_literals(&mut self, cubes: &[Packed]) -> Option<Option<Vec<Packed>>> {
+        let mut left = Packed::universe(self.atoms);
+        for cube in cubes.iter().filter(|cube| cube.literals() == 1) {
+            for (atom, value) in cube.fixed() {
+                if left.get(atom) == Some(value) {
+                    return Some(Some(Vec::new()));
+                }
+                left.set(atom, Some(!value));
+            }
+        }
+        if left.is_universe() {
+            return None;
+        }
+        let others = cubes.iter().filter(|cube| cube.meets(&left));
+        let others = others.map(|cube| cube.without(&left)).collect();
+        let complement = self.of(others);
+        Some(complement.map(|cubes| cubes.iter().map(|cube| cube.and(&left)).collect()))
     }
 
     /// De Morgan.

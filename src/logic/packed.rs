@@ -53,6 +53,11 @@ impl Packed {
         words.map(|(i, (a, b))| !(a | b) & mask(atoms, i)).collect()
     }
 
+    /// The number of machine words that one of its two rows has; at least one.
+    pub fn words(&self) -> usize {
+        self.ones.len().max(1)
+    }
+
     /// The number of atoms that are fixed.
     pub fn literals(&self) -> usize {
         let words = self.ones.iter().chain(&self.zeros);
@@ -140,6 +145,22 @@ impl Packed {
         let theirs = other.ones.iter().zip(&other.zeros);
         let words = mine.zip(theirs).map(|((a, b), (c, d))| (a | b) & !(c | d));
         words.map(|word| word.count_ones() as usize).sum()
+    }
+
+    /// The cube without the literals of atoms that another one fixes.
+    #[must_use]
+    pub fn without(&self, other: &Self) -> Self {
+        let free = |own: &[u64]| {
+            let fixed = other.ones.iter().zip(&other.zeros);
+            own.iter()
+                .zip(fixed)
+                .map(|(own, (a, b))| own & !(a | b))
+                .collect()
+        };
+        Self {
+            ones: free(&self.ones),
+            zeros: free(&self.zeros),
+        }
     }
 
     /// The number of literals that the smallest cube does not have that contains this one and another.

@@ -38,9 +38,8 @@ impl Search<'_> {
         others: &[&Packed],
         known: Option<Packed>,
     ) -> Option<Packed> {
-        *self.work = self
-            .work
-            .saturating_sub((on.len() + others.len()) as u64 + 1);
+        let read = (on.len() + others.len() + 1) * region.words();
+        *self.work = self.work.saturating_sub(read as u64);
         let is_enough = |known: &Packed| self.first || known.contains(region);
         if known.as_ref().is_some_and(is_enough) {
             return known;
@@ -59,6 +58,11 @@ impl Search<'_> {
         let others = meeting(others, region);
         if others.iter().any(|other| other.contains(region)) {
             return known;
+        }
+        match within(region, &others) {
+            Within::All => {}
+            Within::Part(part) => return self.rest(&part, &on, &others, known),
+            Within::Nothing => return known,
         }
         let Some((atom, only)) = split(region, &others) else {
             let all = on.iter().map(|cube| cube.and(region)).chain(known);
@@ -81,6 +85,33 @@ impl Search<'_> {
             return None;
         }
         self.rest(&half(!value), &on, &others, known)
+    }
+}
+
+/// Where in a region that none of some cubes contains something may be left.
+enum Within {
+    All,
+    Part(Packed),
+    Nothing,
+}
+
+/// Where something may be left: a cube that has one literal beside the region leaves only what does not have it.
+fn within(region: &Packed, others: &[&Packed]) -> Within {
+    let mut part = region.clone();
+    for other in others
+        .iter()
+        .filter(|other| other.literals_beside(region) == 1)
+    {
+        for (atom, value) in other.without(region).fixed() {
+            if part.get(atom) == Some(value) {
+                return Within::Nothing;
+            }
+            part.set(atom, Some(!value));
+        }
+    }
+    match part == *region {
+        true => Within::All,
+        false => Within::Part(part),
     }
 }
 
@@ -148,5 +179,10 @@ mod tests {
         assert_eq!(of("1--", &["--1", "00-"], &["-1-"]), Some(cube("101")));
         assert_eq!(of("1--", &["---"], &["-1-", "-0-"]), None);
         assert_eq!(of("1--", &["0--"], &[]), None);
+        assert_eq!(
+            of("----", &["-1--", "0---"], &["1---", "--0-", "0-11"]),
+            Some(cube("0-10"))
+        );
+        assert_eq!(of("----", &["----"], &["1---", "-0--", "0---"]), None);
     }
 }

@@ -138,6 +138,22 @@ fn complements_are_exact() {
     }
 }
 
+/// Cubes of one literal each leave one cube, however many they are.
+#[test]
+fn literals_are_complemented_together() {
+    let atoms = 3_000;
+    let literal = |atom: usize| {
+        let mut cube = Packed::universe(atoms);
+        cube.set(atom, Some(atom % 2 == 0));
+        cube
+    };
+    let literals: Vec<Packed> = (0..atoms).map(literal).collect();
+    let complement = complement(atoms, &literals, 10_000).unwrap();
+    let fixed: Vec<(usize, bool)> = complement.iter().flat_map(Packed::fixed).collect();
+    let opposite: Vec<(usize, bool)> = (0..atoms).map(|atom| (atom, atom % 2 != 0)).collect();
+    assert_eq!((complement.len(), fixed), (1, opposite));
+}
+
 /// The complement of n disjoint pairs has 2ⁿ cubes.
 #[test]
 fn a_complement_that_is_too_large_is_refused() {
