@@ -27,6 +27,9 @@ pub(super) struct Played {
     met: FxHashSet<Key>,
 }
 
+/// An episode, the ticks that it took, and its decisions.
+type Simulated = (Arc<Played>, u64, Vec<Taken>);
+
 impl Candidate {
     /// One that has not played.
     pub(super) fn new(choices: Choices) -> Self {
@@ -75,7 +78,7 @@ pub(super) fn play<W: World>(
     let due: Vec<(usize, usize)> = due
         .flat_map(|(i, candidate)| (candidate.played.len()..episodes).map(move |n| (i, n)))
         .collect();
-    let played: Vec<Option<(Arc<Played>, u64, Vec<Taken>)>> = due
+    let played: Vec<Option<Simulated>> = due
         .par_iter()
         .map_init(
             || ground.world.process(),
