@@ -34,8 +34,10 @@ impl Complement {
         if cubes.iter().any(Packed::is_universe) {
             return Some(Vec::new());
         }
-        if let Some(complement) = self.beside_literals(&cubes) {
-            return complement;
+        match Packed::universe(self.atoms).outside(&cubes) {
+            None => return Some(Vec::new()),
+            Some(left) if !left.is_universe() => return self.within(&left, &cubes),
+            Some(_) => {}
         }
         match cubes.as_slice() {
             [] => return Some(vec![Packed::universe(self.atoms)]),
@@ -64,25 +66,11 @@ impl Complement {
         (complement.len() <= self.limit).then_some(complement)
     }
 
-    /// The complement where some cubes are single literals, none of which holds in it.
-    #[allow(clippy::option_option, reason = "none of them is, or it is too large")]
-    fn beside_literals(&mut self, cubes: &[Packed]) -> Option<Option<Vec<Packed>>> {
-        let mut left = Packed::universe(self.atoms);
-        for cube in cubes.iter().filter(|cube| cube.literals() == 1) {
-            for (atom, value) in cube.fixed() {
-                if left.get(atom) == Some(value) {
-                    return Some(Some(Vec::new()));
-                }
-                left.set(atom, Some(!value));
-            }
-        }
-        if left.is_universe() {
-            return None;
-        }
-        let others = cubes.iter().filter(|cube| cube.meets(&left));
-        let others = others.map(|cube| cube.without(&left)).collect();
-        let complement = self.of(others);
-        Some(complement.map(|cubes| cubes.iter().map(|cube| cube.and(&left)).collect()))
+    /// The complement where it lies in a cube.
+    fn within(&mut self, left: &Packed, cubes: &[Packed]) -> Option<Vec<Packed>> {
+        let others = cubes.iter().filter(|cube| cube.meets(left));
+        let complement = self.of(others.map(|cube| cube.without(left)).collect())?;
+        Some(complement.iter().map(|cube| cube.and(left)).collect())
     }
 
     /// De Morgan.

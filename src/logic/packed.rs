@@ -163,6 +163,21 @@ impl Packed {
         }
     }
 
+    /// The part of the cube in which none of the others holds that have one literal beside it; `None` if they leave nothing.
+    pub fn outside<'a>(&self, others: impl IntoIterator<Item = &'a Self>) -> Option<Self> {
+        let mut part = self.clone();
+        let others = others.into_iter();
+        for other in others.filter(|other| other.literals_beside(self) == 1) {
+            for (atom, value) in other.without(self).fixed() {
+                if part.get(atom) == Some(value) {
+                    return None;
+                }
+                part.set(atom, Some(!value));
+            }
+        }
+        Some(part)
+    }
+
     /// The number of literals that the smallest cube does not have that contains this one and another.
     pub fn lost(&self, other: &Self) -> usize {
         let lost = |a: &[u64], b: &[u64]| -> u32 {

@@ -161,3 +161,36 @@ impl Controller for Noting {
         self.greedy.outside()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Candidate, Played};
+    use crate::learn::episode::Episode;
+    use crate::world::End;
+    use std::sync::Arc;
+
+    /// An episode through minterms 1 and 2, under choices in 1 and 3.
+    #[test]
+    fn an_episode_is_the_same_where_its_minterms_are_decided_alike() {
+        let mut base = Candidate::new([(1, 0), (3, 0)].into_iter().collect());
+        let episode = Episode {
+            ticks: 5,
+            total: 1.0,
+            last: 0.0,
+            events: Vec::new(),
+            end: End::Cut,
+            lost: false,
+            outside: 0,
+        };
+        let met = [1, 2].into_iter().collect();
+        base.played.push(Arc::new(Played { episode, met }));
+        let same = |choices: &[(u128, usize)], episode| {
+            let other = Candidate::new(choices.iter().copied().collect());
+            other.same(&base, episode).is_some()
+        };
+        assert!(same(&[(1, 0), (3, 1)], 0));
+        assert!(!same(&[(1, 1), (3, 0)], 0));
+        assert!(!same(&[(1, 0), (2, 0), (3, 0)], 0));
+        assert!(!same(&[(1, 0), (3, 0)], 1));
+    }
+}

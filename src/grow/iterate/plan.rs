@@ -100,12 +100,42 @@ impl<'k> Plan<'k> {
 }
 
 /// One of these, each with its probability; none with what is missing from their sum.
-fn pick(from: impl Iterator<Item = (usize, f64)>, random: &mut Random) -> Option<usize> {
+fn pick(mut from: impl Iterator<Item = (usize, f64)>, random: &mut Random) -> Option<usize> {
     let mut left = random.unit();
-    let mut from = from;
     let found = from.find(|(_, weight)| {
         left -= weight;
         left < 0.0
     });
     found.map(|(at, _)| at)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Plan;
+    use crate::grow::evidence::Visits;
+    use crate::learn::process::Key;
+    use crate::random::Random;
+
+    /// A way from minterm 10 through 11 to 12; 13 is led to by nothing.
+    #[test]
+    fn parts_follow_the_ways_from_where_the_policy_comes() {
+        let keys: [Key; 4] = [10, 11, 12, 13];
+        let plan = Plan {
+            keys: &keys,
+            changes: vec![(0, 1), (2, 1), (3, 1)],
+            next: vec![vec![(1, 1.0)], vec![(2, 1.0)], Vec::new(), Vec::new()],
+        };
+        let whole = vec![(10, 1), (12, 1), (13, 1)];
+        let way = vec![(10, 1), (12, 1)];
+        let mut random = Random::new(1, 0, 0);
+        let visits = Visits::from_iter([(10, 1.0), (11, 1.0)]);
+        let (mut wholes, mut ways) = (0, 0);
+        for part in (0..40).flat_map(|_| plan.parts(&visits, &mut random)) {
+            wholes += usize::from(part == whole);
+            ways += usize::from(part == way);
+            assert!(part == whole || part.iter().all(|change| way.contains(change)));
+        }
+        assert!(wholes > 0 && ways >= 80);
+        assert!(plan.parts(&Visits::default(), &mut random).is_empty());
+    }
 }

@@ -36,10 +36,7 @@ pub(super) fn finer(columns: &Columns, on: &Bits, off: &Bits, cover: &Cover) -> 
 
 fn minterms(columns: &Columns, on: &Bits, off: &Bits, most: usize) -> Option<Split> {
     let atoms = columns.atoms();
-    let mut ons: Vec<Packed> = on
-        .iter()
-        .map(|row| columns.packed(row, columns.atoms()))
-        .collect();
+    let mut ons: Vec<Packed> = on.iter().map(|row| columns.packed(row, atoms)).collect();
     // Overlapping cubes have minterms in common, which count once. With the larger cubes first, too many are noticed early.
     ons.sort_by_cached_key(Packed::literals);
     if ons
@@ -65,10 +62,7 @@ fn minterms(columns: &Columns, on: &Bits, off: &Bits, most: usize) -> Option<Spl
 /// Each ON cube in disjoint parts, of which each lies wholly in a prime of the cover or does not meet it.
 fn cut(columns: &Columns, on: &Bits, off: &Bits, cover: &Cover) -> Option<Split> {
     let atoms = columns.atoms();
-    let mut parts: Vec<Packed> = on
-        .iter()
-        .map(|row| columns.packed(row, columns.atoms()))
-        .collect();
+    let mut parts: Vec<Packed> = on.iter().map(|row| columns.packed(row, atoms)).collect();
     let before = parts.len();
     for prime in cover.cubes() {
         let prime = Packed::of(atoms, prime);
@@ -91,8 +85,8 @@ fn cut(columns: &Columns, on: &Bits, off: &Bits, cover: &Cover) -> Option<Split>
 
 /// A table of these ON rows and of the OFF rows as they are.
 fn with_parts(columns: &Columns, parts: BTreeSet<Packed>, off: &Bits) -> Split {
-    let ones = parts.len();
-    let offs = off.iter().map(|row| columns.packed(row, columns.atoms()));
+    let (ones, atoms) = (parts.len(), columns.atoms());
+    let offs = off.iter().map(|row| columns.packed(row, atoms));
     let rows: Vec<Packed> = parts.into_iter().chain(offs).collect();
     let set = |range| Bits::collect(rows.len(), range);
     (

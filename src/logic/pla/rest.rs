@@ -59,10 +59,10 @@ impl Search<'_> {
         if others.iter().any(|other| other.contains(region)) {
             return known;
         }
-        match within(region, &others) {
-            Within::All => {}
-            Within::Part(part) => return self.rest(&part, &on, &others, known),
-            Within::Nothing => return known,
+        match region.outside(others.iter().copied()) {
+            None => return known,
+            Some(part) if part != *region => return self.rest(&part, &on, &others, known),
+            Some(_) => {}
         }
         let Some((atom, only)) = split(region, &others) else {
             let all = on.iter().map(|cube| cube.and(region)).chain(known);
@@ -85,33 +85,6 @@ impl Search<'_> {
             return None;
         }
         self.rest(&half(!value), &on, &others, known)
-    }
-}
-
-/// Where in a region that none of some cubes contains something may be left.
-enum Within {
-    All,
-    Part(Packed),
-    Nothing,
-}
-
-/// Where something may be left: a cube that has one literal beside the region leaves only what does not have it.
-fn within(region: &Packed, others: &[&Packed]) -> Within {
-    let mut part = region.clone();
-    for other in others
-        .iter()
-        .filter(|other| other.literals_beside(region) == 1)
-    {
-        for (atom, value) in other.without(region).fixed() {
-            if part.get(atom) == Some(value) {
-                return Within::Nothing;
-            }
-            part.set(atom, Some(!value));
-        }
-    }
-    match part == *region {
-        true => Within::All,
-        false => Within::Part(part),
     }
 }
 

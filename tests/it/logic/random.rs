@@ -150,7 +150,9 @@ fn literals_are_complemented_together() {
     let literals: Vec<Packed> = (0..atoms).map(literal).collect();
     let complement = complement(atoms, &literals, 10_000).unwrap();
     let fixed: Vec<(usize, bool)> = complement.iter().flat_map(Packed::fixed).collect();
-    let opposite: Vec<(usize, bool)> = (0..atoms).map(|atom| (atom, !atom.is_multiple_of(2))).collect();
+    let opposite: Vec<(usize, bool)> = (0..atoms)
+        .map(|atom| (atom, !atom.is_multiple_of(2)))
+        .collect();
     assert_eq!((complement.len(), fixed), (1, opposite));
 }
 
