@@ -99,7 +99,7 @@ pub struct Checker<'a> {
 }
 
 /// How many names are looked at for one that was likely meant, in all.
-const GUESSES: usize = 200_000;
+const GUESSES: usize = 50_000;
 
 impl<'a> Checker<'a> {
     /// Collects the names of the files; nothing is checked yet.

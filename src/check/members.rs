@@ -74,7 +74,7 @@ impl<'a> Checker<'a> {
                 };
                 let world = self.program.world.as_ref()?;
                 let names = self.kinds.places.iter().filter_map(of_kind);
-                let ids = names.filter_map(|name| world.places.find(|place| place.name == name));
+                let ids = names.filter_map(|name| world.places.named(&name));
                 Some(ids.map(Value::Place).collect())
             }
             Type::Wall(kind) => {
@@ -83,7 +83,7 @@ impl<'a> Checker<'a> {
                 };
                 let world = self.program.world.as_ref()?;
                 let names = self.kinds.walls.iter().filter_map(of_kind);
-                let ids = names.filter_map(|name| world.walls.find(|wall| wall.name == name));
+                let ids = names.filter_map(|name| world.walls.named(&name));
                 Some(ids.map(Value::Wall).collect())
             }
             Type::Sensor => {

@@ -183,7 +183,7 @@ impl<'a> Checker<'a> {
                 self.asks(when.span, stands.scalar());
                 let name = Name::word(&name.name);
                 if let (Some(when), Some(world)) = (stands.scalar(), &mut self.program.world)
-                    && let Some(wall) = world.walls.find(|wall| wall.name == name)
+                    && let Some(wall) = world.walls.named(&name)
                 {
                     world.walls[wall].when = Some(when);
                 }

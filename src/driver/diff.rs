@@ -126,7 +126,7 @@ fn read(side: Side, base: Option<&Loaded>, program: &mut Program) -> Result<Read
     }
     let task = tree.task.and_then(|task| {
         let name = &loaded.program.tasks[task].name;
-        program.tasks.find(|task| task.name == *name)
+        program.tasks.named(name)
     });
     Ok(Read::Tree(
         moved(&tree.root, &loaded.program, program),
@@ -181,7 +181,7 @@ fn moved_guard(guard: &Guard, from: &Program, to: &mut Program) -> Guard {
         Guard::Atom(atom) => Guard::Atom(match *atom {
             Atom::Predicate(id) => {
                 let name = &from.predicates[id].name;
-                let known = to.predicates.find(|predicate| predicate.name == *name);
+                let known = to.predicates.named(name);
                 Atom::Predicate(known.unwrap_or_else(|| {
                     to.predicates.push(Predicate {
                         name: name.clone(),
@@ -197,7 +197,7 @@ fn moved_guard(guard: &Guard, from: &Program, to: &mut Program) -> Guard {
 
 fn moved_behavior(id: Id<Behavior>, from: &Program, to: &mut Program) -> Id<Behavior> {
     let name = &from.behaviors[id].name;
-    let known = to.behaviors.find(|behavior| behavior.name == *name);
+    let known = to.behaviors.named(name);
     known.unwrap_or_else(|| {
         to.behaviors.push(Behavior {
             name: name.clone(),

@@ -189,7 +189,7 @@ impl Inputs {
             let Some(comparison) = self.comparisons.get(&name.bare()) else {
                 continue;
             };
-            let asked = read.predicates.find(|asked| asked.name == *name);
+            let asked = read.predicates.named(name);
             let when = asked.and_then(|asked| read.predicates[asked].when);
             let column = self.values.columns.get(comparison.column);
             let (Some(when), Some(column)) = (when, column) else {

@@ -1,5 +1,7 @@
 //! Vectors that are indexed by ids of their own.
 
+use super::name::Name;
+use rustc_hash::FxHashMap;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::hash::{Hash, Hasher};
@@ -56,36 +58,66 @@ impl<T> fmt::Debug for Id<T> {
     }
 }
 
+/// What a table may find by its name.
+pub trait Named {
+    /// What the program calls it; `None` if it has no name of its own.
+    fn name(&self) -> Option<&Name>;
+}
+
 /// A vector indexed by [`Id`]s.
-#[derive(Clone, PartialEq)]
-pub struct Table<T>(Vec<T>);
+#[derive(Clone)]
+pub struct Table<T> {
+    entries: Vec<T>,
+    /// The first entry that was pushed under each name.
+    by_name: FxHashMap<Name, Id<T>>,
+}
 
 impl<T> Default for Table<T> {
     fn default() -> Self {
-        Self(Vec::new())
+        Self {
+            entries: Vec::new(),
+            by_name: FxHashMap::default(),
+        }
+    }
+}
+
+impl<T: PartialEq> PartialEq for Table<T> {
+    fn eq(&self, other: &Self) -> bool {
+        self.entries == other.entries
+    }
+}
+
+impl<T: Named> Table<T> {
+    /// Adds an entry.
+    pub fn push(&mut self, entry: T) -> Id<T> {
+        let id = Id::new(self.entries.len());
+        if let Some(name) = entry.name() {
+            self.by_name.entry(name.clone()).or_insert(id);
+        }
+        self.entries.push(entry);
+        id
+    }
+
+    /// The first entry that was pushed under a name, whatever it is called now.
+    pub fn named(&self, name: &Name) -> Option<Id<T>> {
+        self.by_name.get(name).copied()
     }
 }
 
 impl<T> Table<T> {
-    /// Adds an entry.
-    pub fn push(&mut self, entry: T) -> Id<T> {
-        self.0.push(entry);
-        Id::new(self.0.len() - 1)
-    }
-
     /// The number of entries.
     pub fn len(&self) -> usize {
-        self.0.len()
+        self.entries.len()
     }
 
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
+        self.entries.is_empty()
     }
 
     /// The entries with their ids, in order.
     pub fn iter(&self) -> impl DoubleEndedIterator<Item = (Id<T>, &T)> + ExactSizeIterator {
-        self.0
+        self.entries
             .iter()
             .enumerate()
             .map(|(i, entry)| (Id::new(i), entry))
@@ -93,23 +125,23 @@ impl<T> Table<T> {
 
     /// The ids, in order.
     pub fn ids(&self) -> impl DoubleEndedIterator<Item = Id<T>> + ExactSizeIterator + use<T> {
-        (0..self.0.len()).map(Id::new)
+        (0..self.entries.len()).map(Id::new)
     }
 
     /// The entries, in order.
     pub fn values(&self) -> std::slice::Iter<'_, T> {
-        self.0.iter()
+        self.entries.iter()
     }
 
     /// The first id whose entry passes.
     pub fn find(&self, test: impl FnMut(&T) -> bool) -> Option<Id<T>> {
-        self.0.iter().position(test).map(Id::new)
+        self.entries.iter().position(test).map(Id::new)
     }
 }
 
 impl<T: fmt::Debug> fmt::Debug for Table<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.fmt(f)
+        self.entries.fmt(f)
     }
 }
 
@@ -120,7 +152,7 @@ impl<T: fmt::Debug> fmt::Debug for Table<T> {
 impl<T> Index<Id<T>> for Table<T> {
     type Output = T;
     fn index(&self, id: Id<T>) -> &T {
-        &self.0[id.index()]
+        &self.entries[id.index()]
     }
 }
 
@@ -130,12 +162,56 @@ impl<T> Index<Id<T>> for Table<T> {
 )]
 impl<T> IndexMut<Id<T>> for Table<T> {
     fn index_mut(&mut self, id: Id<T>) -> &mut T {
-        &mut self.0[id.index()]
+        &mut self.entries[id.index()]
     }
 }
 
-impl<T> FromIterator<T> for Table<T> {
+impl<T: Named> FromIterator<T> for Table<T> {
     fn from_iter<I: IntoIterator<Item = T>>(iter: I) -> Self {
-        Self(iter.into_iter().collect())
+        let mut table = Self::default();
+        for entry in iter {
+            table.push(entry);
+        }
+        table
+    }
+}
+
+/// Says of types with a field `name` that it is their name.
+macro_rules! named {
+    ($($type:ty),* $(,)?) => {
+        $(impl Named for $type {
+            fn name(&self) -> Option<&Name> {
+                Some(&self.name)
+            }
+        })*
+    };
+}
+
+named!(
+    super::expr::Local,
+    super::expr::Temp,
+    super::input::Input,
+    super::law::Behavior,
+    super::program::Event,
+    super::program::Predicate,
+    super::program::State,
+    super::task::Learner,
+    super::task::Task,
+    super::tree::Tree,
+    super::world::Place,
+    super::world::Sensor,
+    super::world::Wall,
+);
+
+impl Named for super::world::Scripted {
+    fn name(&self) -> Option<&Name> {
+        Some(&self.robot.name)
+    }
+}
+
+/// Where a number to be tuned stands is not its name alone.
+impl Named for super::tunable::Tunable {
+    fn name(&self) -> Option<&Name> {
+        None
     }
 }

@@ -38,6 +38,7 @@ mod refused;
 mod results;
 mod robust;
 mod run;
+mod scaling;
 mod slips;
 mod snapshot;
 mod suggest;

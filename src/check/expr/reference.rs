@@ -243,12 +243,12 @@ impl<'a> Checker<'a> {
                 (Type::Enum(of.name.name.clone()), Some(Value::Scalar(id)))
             }
             Decl::Place(_, kind) => {
-                let id = world.and_then(|world| world.places.find(|place| place.name == name));
+                let id = world.and_then(|world| world.places.named(&name));
                 let kind = kind.map(|kind| kind.name.clone());
                 (Type::Place(kind), id.map(Value::Place))
             }
             Decl::Wall(_, kind) => {
-                let id = world.and_then(|world| world.walls.find(|wall| wall.name == name));
+                let id = world.and_then(|world| world.walls.named(&name));
                 let kind = kind.map(|kind| kind.name.clone());
                 (Type::Wall(kind), id.map(Value::Wall))
             }
@@ -258,7 +258,7 @@ impl<'a> Checker<'a> {
                     return self.sensor_of_another(reference);
                 }
                 let sensors = world.map(|world| &world.robot.sensors);
-                let id = sensors.and_then(|all| all.find(|sensor| sensor.name == name));
+                let id = sensors.and_then(|all| all.named(&name));
                 (Type::Sensor, id.map(Value::Sensor))
             }
             Decl::Robot(_) => {

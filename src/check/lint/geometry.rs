@@ -3,6 +3,7 @@
 use crate::check::Checker;
 use crate::diagnostic::Code;
 use crate::geometry::{Point, Shape, dot};
+use crate::ir::Name;
 use crate::ir::world::{Wall, World};
 use crate::syntax::ast::{Item, ItemKind, WorldEntryKind};
 
@@ -23,11 +24,9 @@ impl<'a> Checker<'a> {
                 let WorldEntryKind::Place { name, shape, .. } = &entry.kind else {
                     continue;
                 };
-                let place = world
-                    .places
-                    .values()
-                    .find(|place| place.name.is(&name.name));
+                let place = world.places.named(&Name::word(&name.name));
                 let wall = place.and_then(|place| {
+                    let place = &world.places[place];
                     let mut walls = standing(&world);
                     walls.find(|wall| holds(&wall.shape, &place.shape))
                 });

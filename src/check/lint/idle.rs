@@ -8,7 +8,7 @@ use crate::check::Checker;
 use crate::diagnostic::Code;
 use crate::ir::tree::{Composite, Decorator, Guard, Node, Status};
 use crate::source::Span;
-use crate::syntax::ast::{self, BinaryOp, Expr, ExprKind, Item, ItemKind, NodeKind, Tree};
+use crate::syntax::ast::{self, BinaryOp, Expr, ExprKind, NodeKind, Tree};
 use crate::syntax::print;
 
 impl<'a> Checker<'a> {
@@ -66,20 +66,8 @@ impl<'a> Checker<'a> {
     }
 
     /// Warns of a tree that is no part of another and runs no behaviour, or none where a condition holds.
-    pub fn drives_nothing(
-        &mut self,
-        tree: &'a Tree,
-        root: &Node,
-        mut items: impl Iterator<Item = &'a Item>,
-    ) {
-        let uses = |item: &'a Item| {
-            let mut mentions = Mentions::default();
-            if matches!(item.kind, ItemKind::Tree(_)) {
-                mentions.item(item);
-            }
-            mentions.read.contains(tree.name.name.as_str())
-        };
-        if items.any(uses) {
+    pub fn drives_nothing(&mut self, tree: &'a Tree, root: &Node, of_trees: &Mentions) {
+        if of_trees.read.contains(tree.name.name.as_str()) {
             return;
         }
         if runs_something(root) && self.program.tasks.is_empty() {

@@ -67,7 +67,7 @@ impl<'a> Checker<'a> {
     /// The references of a list of the task, each with the predicate that it observes.
     fn observed_by(&self, task: &'a Task) -> Vec<(&'a Ref, Id<Predicate>)> {
         let name = Name::word(&task.name.name);
-        let Some(id) = self.program.tasks.find(|task| task.name == name) else {
+        let Some(id) = self.program.tasks.named(&name) else {
             return Vec::new();
         };
         let list = task.aspects.iter().find_map(|aspect| match &aspect.kind {

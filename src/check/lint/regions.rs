@@ -9,6 +9,7 @@ use crate::ir::Name;
 use crate::ir::law::Law;
 use crate::source::Span;
 use crate::syntax::ast::{AspectKind, BehaviorBody, Clause, ClauseKind, Item, ItemKind};
+use std::collections::BTreeSet;
 
 impl<'a> Checker<'a> {
     /// Warns of regions that no instance of a behaviour gets to.
@@ -93,24 +94,25 @@ impl<'a> Checker<'a> {
 
     /// Warns of behaviours of the library that a task chooses and that never succeed as they are called.
     pub fn choices_that_never_succeed(&mut self, items: impl Iterator<Item = &'a Item> + Clone) {
-        let own = |name: &str| {
-            let mut items = items.clone();
-            items.any(|item| match &item.kind {
+        let own: BTreeSet<&str> = (items.clone())
+            .filter_map(|item| match &item.kind {
                 ItemKind::Behavior(behavior) => {
-                    behavior.name.name == name && matches!(behavior.body, BehaviorBody::Clauses(_))
+                    let has_law = matches!(behavior.body, BehaviorBody::Clauses(_));
+                    has_law.then_some(behavior.name.name.as_str())
                 }
-                _ => false,
+                _ => None,
             })
-        };
+            .collect();
         let mut found = Vec::new();
-        for item in items.clone() {
+        for item in items {
             let ItemKind::Task(task) = &item.kind else {
                 continue;
             };
             let name = Name::word(&task.name.name);
-            let Some(checked) = self.program.tasks.values().find(|task| task.name == name) else {
+            let Some(id) = self.program.tasks.named(&name) else {
                 continue;
             };
+            let checked = &self.program.tasks[id];
             let list = task.aspects.iter().find_map(|aspect| match &aspect.kind {
                 AspectKind::Choose(list) => Some(list),
                 _ => None,
@@ -121,7 +123,9 @@ impl<'a> Checker<'a> {
                 let view = View::from(&self.program);
                 let law = law.filter(|law| succeeds_never(view, law));
                 let at = list.and_then(|list| list.get(*place));
-                if let (Some(law), Some(at), false) = (law, at, own(&behavior.name.family)) {
+                if let (Some(law), Some(at), false) =
+                    (law, at, own.contains(behavior.name.family.as_str()))
+                {
                     let why = because(view, law.succeed);
                     found.push((at.span, behavior.name.bare(), why));
                 }

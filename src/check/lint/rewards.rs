@@ -12,6 +12,10 @@ use crate::syntax::ast::{
     self, AspectKind, BinaryOp, ExprKind, Item, ItemKind, LearnEntry, Paid, RewardLine,
 };
 use crate::syntax::print;
+use std::collections::BTreeMap;
+
+/// How many lines of a task are held against each line; of what comes after them, nothing is said.
+const MOST: usize = 128;
 
 impl<'a> Checker<'a> {
     /// Warns of what a task says about rewards, ends and times without any effect.
@@ -20,7 +24,7 @@ impl<'a> Checker<'a> {
             match &item.kind {
                 ItemKind::Task(task) => {
                     let name = Name::word(&task.name.name);
-                    if let Some(id) = self.program.tasks.find(|task| task.name == name) {
+                    if let Some(id) = self.program.tasks.named(&name) {
                         self.rewards_of(task, id);
                     }
                 }
@@ -37,6 +41,7 @@ impl<'a> Checker<'a> {
     fn rewards_of(&mut self, task: &'a ast::Task, id: Id<Task>) {
         let checked = self.program.tasks[id].clone();
         let mut ends = 0;
+        let paid = self.cases_of(checked.reward.iter().map(|line| &line.event));
         for aspect in &task.aspects {
             match &aspect.kind {
                 AspectKind::Reward { lines, otherwise } => {
@@ -54,7 +59,7 @@ impl<'a> Checker<'a> {
                     }
                 }
                 AspectKind::EndOn(event) => {
-                    self.end_without_value(event, ends, &checked);
+                    self.end_without_value(event, ends, &checked, &paid);
                     ends += 1;
                 }
                 AspectKind::Patience(time)
@@ -74,6 +79,8 @@ impl<'a> Checker<'a> {
     /// The first line whose event happens gives the reward.
     fn lines_without_effect(&mut self, lines: &'a [RewardLine], checked: &Task) {
         let mut before: Vec<(Span, Cases)> = Vec::new();
+        let ends: Vec<Cases> = self.cases_of(&checked.end_on);
+        let ends = ends.get(..MOST).unwrap_or(&ends);
         for (place, line) in lines.iter().enumerate() {
             let here = line.paid.span();
             // A line for the members of a kind is one for each.
@@ -99,44 +106,41 @@ impl<'a> Checker<'a> {
                     .label("whenever this happens, an earlier line pays")
                     .also(earlier, "this line comes first");
             }
-            let ends = cases
-                .iter()
-                .all(|cases| self.ends_an_episode(cases, checked));
+            let ends = (cases.iter()).all(|cases| ends.iter().any(|end| cases.implies(end)));
             if let Paid::On(condition) = &line.paid
                 && !ends
             {
                 self.pays_again_and_again(condition);
                 self.pays_for_standing(condition.span, checked, place);
             }
-            before.extend(cases.into_iter().map(|cases| (here, cases)));
+            if before.len() < MOST {
+                before.extend(cases.into_iter().map(|cases| (here, cases)));
+            }
         }
     }
 
     /// Two lines for the same time are added up: whoever writes the same one twice hardly means that.
     fn prices_twice(&mut self, lines: &'a [RewardLine]) {
-        let written = |line: &RewardLine| match &line.paid {
-            Paid::Per { during, time } => {
-                let during = during.as_ref().map(print::expr);
-                Some((during, print::expr(time), print::expr(&line.value)))
-            }
-            Paid::On(_) => None,
-        };
-        for (place, line) in lines.iter().enumerate() {
-            let same = |earlier: &&RewardLine| written(earlier) == written(line);
-            let earlier = lines.iter().take(place).find(same);
-            if let Some(earlier) = earlier.filter(|_| written(line).is_some()) {
+        let mut first = BTreeMap::new();
+        for line in lines {
+            let Paid::Per { during, time } = &line.paid else {
+                continue;
+            };
+            let during = during.as_ref().map(print::expr);
+            let written = (during, print::expr(time), print::expr(&line.value));
+            let earlier = *first.entry(written).or_insert(line.span);
+            if earlier != line.span {
                 self.warning(Code::W0303, line.span, "this price is given twice")
                     .label("both are paid")
-                    .also(earlier.span, "the first time");
+                    .also(earlier, "the first time");
             }
         }
     }
 
-    /// Whether an episode ends as soon as this is so.
-    fn ends_an_episode(&self, cases: &Cases, checked: &Task) -> bool {
-        let ends = checked.end_on.iter();
-        ends.map(|end| of_expr(&self.program, *end, true))
-            .any(|end| cases.implies(&end))
+    /// When expressions hold.
+    fn cases_of<'e>(&self, asked: impl IntoIterator<Item = &'e ExprId>) -> Vec<Cases> {
+        let cases = |id: &ExprId| of_expr(&self.program, *id, true);
+        asked.into_iter().map(cases).collect()
     }
 
     /// `on battery_low: -1`: what holds for a while is paid in every tick of it.
@@ -171,8 +175,8 @@ impl<'a> Checker<'a> {
                     && self.lasts(right)
             }
             ExprKind::Ref(asked) => {
-                let mut predicates = self.program.predicates.values();
-                predicates.any(|predicate| predicate.name.is(&asked.name.name))
+                let name = Name::word(&asked.name.name);
+                self.program.predicates.named(&name).is_some()
             }
             _ => false,
         }
@@ -193,8 +197,14 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// A line of `end on`, by its place among them.
-    fn end_without_value(&mut self, event: &'a ast::Expr, place: usize, checked: &Task) {
+    /// A line of `end on`, by its place among them; `paid` says when the lines of `reward` pay.
+    fn end_without_value(
+        &mut self,
+        event: &'a ast::Expr,
+        place: usize,
+        checked: &Task,
+        paid: &[Cases],
+    ) {
         let members = checked.written.end_on.iter().zip(&checked.end_on);
         let members = members.filter(|(of, _)| **of == place);
         let ends: Vec<Cases> = members
@@ -213,11 +223,13 @@ impl<'a> Checker<'a> {
                 .label("this never happens");
             return;
         }
-        let rewarded = checked.reward.iter().any(|line| {
-            let paid = of_expr(&self.program, line.event, true);
-            ends.iter()
-                .any(|end| !end.and(&paid).is_never() && (end.implies(&paid) || paid.implies(end)))
-        });
+        if paid.len() > MOST {
+            return;
+        }
+        let tells = |end: &Cases, paid: &Cases| {
+            !end.and(paid).is_never() && (end.implies(paid) || paid.implies(end))
+        };
+        let rewarded = (paid.iter()).any(|paid| ends.iter().any(|end| tells(end, paid)));
         if !rewarded {
             self.warning(Code::W0511, event.span, "this end is neither good nor bad")
                 .label("no line of `reward` says what it is worth")
@@ -226,9 +238,9 @@ impl<'a> Checker<'a> {
     }
 
     fn learner(&self, learn: &ast::Learn) -> Option<&Learner> {
-        let name = crate::check::learned_name(learn);
-        let mut learners = self.program.learners.values();
-        learners.find(|learner| learner.name.is(name))
+        let name = Name::word(crate::check::learned_name(learn));
+        let id = self.program.learners.named(&name)?;
+        Some(&self.program.learners[id])
     }
 
     /// A discount of 1 where nothing ends an episode but its limit: the learner does not know the limit.

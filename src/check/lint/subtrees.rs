@@ -29,8 +29,10 @@ impl<'a> Checker<'a> {
                 continue;
             };
             let name = Name::word(&tree.name.name);
-            let built = self.program.trees.values().find(|tree| tree.name == name);
-            let Some(built) = built else { continue };
+            let Some(id) = self.program.trees.named(&name) else {
+                continue;
+            };
+            let built = &self.program.trees[id];
             let episode = built.task.map(|task| self.program.tasks[task].end_after);
             let root = built.root.clone();
             self.timeouts(&tree.root, &root, episode.unwrap_or(0));

@@ -5,6 +5,7 @@
 
 use super::cases::{Cases, of_guard};
 use super::idle::is_switch;
+use super::mentions::Mentions;
 use crate::check::Checker;
 use crate::diagnostic::Code;
 use crate::ir::tree::{Composite, Decorator, Guard, Node, Status};
@@ -15,15 +16,21 @@ use crate::syntax::ast::{self, ExprKind, Item, ItemKind, NodeKind};
 impl<'a> Checker<'a> {
     /// Warns of nodes that are never reached and of guards that always or never hold.
     pub fn nodes_without_effect(&mut self, items: impl Iterator<Item = &'a Item> + Clone) {
-        for item in items.clone() {
+        let mut of_trees = Mentions::default();
+        let is_tree = |item: &&Item| matches!(item.kind, ItemKind::Tree(_));
+        items
+            .clone()
+            .filter(is_tree)
+            .for_each(|item| of_trees.item(item));
+        for item in items {
             let ItemKind::Tree(tree) = &item.kind else {
                 continue;
             };
             let name = Name::word(&tree.name.name);
-            let built = self.program.trees.values().find(|tree| tree.name == name);
-            if let Some(root) = built.map(|built| built.root.clone()) {
+            if let Some(id) = self.program.trees.named(&name) {
+                let root = self.program.trees[id].root.clone();
                 let always = Cases::constant(true);
-                self.drives_nothing(tree, &root, items.clone());
+                self.drives_nothing(tree, &root, &of_trees);
                 self.nodes_of(&tree.root, &root, &always, &always);
             }
         }

@@ -10,7 +10,7 @@ use crate::ir::task::StartLine;
 use crate::ir::world::{Place, World};
 use crate::source::Span;
 use crate::syntax::ast::{self, Ident, Item, ItemKind, WorldEntryKind};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The most cells of the grid on which ways are looked for, along each axis.
 const CELLS: usize = 120;
@@ -37,10 +37,10 @@ impl<'a> Checker<'a> {
             let WorldEntryKind::Wall { name, shape, .. } = &entry.kind else {
                 continue;
             };
-            let wall = world.walls.values().find(|wall| wall.name.is(&name.name));
-            let Some((from, to)) = wall.map(|wall| wall.shape.bounds()) else {
+            let Some(wall) = world.walls.named(&Name::word(&name.name)) else {
                 continue;
             };
+            let (from, to) = world.walls[wall].shape.bounds();
             let apart = |low: Point, high: Point| low[0] >= high[0] || low[1] >= high[1];
             if apart(low, to) || apart(from, high) {
                 let message = format!("the wall `{}` lies outside the arena", name.name);
@@ -51,18 +51,16 @@ impl<'a> Checker<'a> {
     }
 
     fn places_alike(&mut self, declared: &'a ast::World, world: &World) {
-        let mut seen: Vec<(&'a Ident, Span, &Place)> = Vec::new();
+        let mut seen: BTreeMap<String, (&'a Ident, Span)> = BTreeMap::new();
         for (name, span, place) in places(declared, world) {
-            let same = |other: &&Place| other.shape == place.shape && other.facing == place.facing;
-            let first = seen.iter().find(|(_, _, other)| same(other));
-            if let Some((other, at, _)) = first {
-                let message = format!("the places `{}` and `{}` coincide", other.name, name.name);
-                let at = *at;
+            let what = format!("{:?} {:?}", place.shape, place.facing);
+            let (first, at) = *seen.entry(what).or_insert((name, span));
+            if at != span {
+                let message = format!("the places `{}` and `{}` coincide", first.name, name.name);
                 self.warning(Code::W0401, span, message)
                     .label("the same place under another name")
                     .also(at, "the first");
             }
-            seen.push((name, span, place));
         }
     }
 
@@ -189,9 +187,8 @@ fn places<'a, 'w>(
         let WorldEntryKind::Place { name, shape, .. } = &entry.kind else {
             return None;
         };
-        let mut places = world.places.values();
-        let place = places.find(|place| place.name == Name::word(&name.name))?;
-        Some((name, shape.span, place))
+        let place = world.places.named(&Name::word(&name.name))?;
+        Some((name, shape.span, &world.places[place]))
     })
 }
 

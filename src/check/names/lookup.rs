@@ -105,7 +105,7 @@ impl<'a> Checker<'a> {
             }
         }
         let name = Name::word(&name.name);
-        self.program.tasks.find(|task| task.name == name)
+        self.program.tasks.named(&name)
     }
 
     /// Reports an undeclared name where a `what` is expected, unless its declaration was not understood; `likely` is the name that was probably meant.

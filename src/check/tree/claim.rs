@@ -49,10 +49,10 @@ impl<'a> Checker<'a> {
             self.stands_for(name, learner.span);
         }
         self.value_of(name);
-        if let Some(id) = self.program.trees.find(|tree| tree.name == called) {
+        if let Some(id) = self.program.trees.named(&called) {
             return Some(TreeRef::Tree(id));
         }
-        if let Some(id) = self.program.learners.find(|learner| learner.name == called) {
+        if let Some(id) = self.program.learners.named(&called) {
             return Some(TreeRef::Learned(id));
         }
         let known = self.names.learners.contains_key(name.name.as_str());

@@ -64,7 +64,7 @@ impl<'a> Checker<'a> {
         let whole = decl.params.is_none() && tree.args.is_none() && robot.is_none();
         let (subject, root, task) = if whole {
             let called = Name::word(name);
-            let id = self.program.trees.find(|tree| tree.name == called)?;
+            let id = self.program.trees.named(&called)?;
             let known = &self.program.trees[id];
             (Subject::Tree(id), known.root.clone(), known.task)
         } else {
@@ -89,7 +89,7 @@ impl<'a> Checker<'a> {
     fn task_for(&self, tree: &ast::Tree) -> Option<Id<Task>> {
         let tasks = &self.program.tasks;
         match &tree.task {
-            Some(task) => tasks.find(|known| known.name == Name::word(&task.name)),
+            Some(task) => tasks.named(&Name::word(&task.name)),
             None => tasks.ids().next().filter(|_| tasks.len() == 1),
         }
     }
@@ -119,7 +119,7 @@ impl<'a> Checker<'a> {
             self.stands_for(&tree.name, name.span);
         }
         let called = Name::word(name);
-        let id = self.program.learners.find(|known| known.name == called)?;
+        let id = self.program.learners.named(&called)?;
         Some(Tested {
             subject: Subject::Learned(id),
             task: Some(self.program.learners[id].task),

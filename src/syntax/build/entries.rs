@@ -9,8 +9,11 @@ use crate::syntax::grammar::{self, Node, Parts, Rule};
 use crate::syntax::tokens::{Kind, is_blank};
 use std::ops::Range;
 
-/// The items that the parser sees to fail on one, with that one.
-const ITEMS_SEEN: usize = 3;
+/// How many tokens of a text that fails are enough in most cases.
+const TOKENS_SEEN: usize = 192;
+
+/// How many tokens behind a failure the parser may have looked at.
+const TOKENS_AHEAD: usize = 16;
 
 impl<'i> Builder<'i> {
     /// Hands each entry among `parts` to `push`, with its place; a bad one, which is reported here, without its
@@ -91,12 +94,20 @@ impl<'i> Builder<'i> {
 
     /// How the text at byte `start` fails to parse as `strict` entries, read from byte `from` on.
     pub(super) fn failure(&self, strict: Rule, from: usize, start: usize) -> Failure {
-        let seen = match strict {
-            Rule::strict_item => self.seen_from(from),
-            _ => self.text.len(),
-        };
-        let near = self.failure_within(strict, from..seen, start);
-        let near = near.filter(|near| near.at < seen);
+        self.failure_among(TOKENS_SEEN, strict, from, start)
+    }
+
+    /// The same, with so many tokens of the text in sight at first: pest's time for a failure grows with the text behind
+    /// it, so that it is shown more of it only where it gets to the end of what it sees.
+    fn failure_among(&self, seen: usize, strict: Rule, from: usize, start: usize) -> Failure {
+        let first = self.tokens.partition_point(|token| token.start < from);
+        let begin = |at: usize| self.tokens.get(first + at).map(|token| token.start);
+        let near = std::iter::successors(Some(seen), |seen| Some(seen * 4))
+            .map_while(|seen| Some((begin(seen)?, begin(seen - TOKENS_AHEAD)?)))
+            .find_map(|(end, known)| {
+                let near = self.failure_within(strict, from..end, start)?;
+                (near.at < known).then_some(near)
+            });
         let whole = || self.failure_within(strict, from..self.text.len(), start);
         near.or_else(whole).unwrap_or(Failure {
             start,
@@ -118,34 +129,6 @@ impl<'i> Builder<'i> {
             expected: stop.expected,
             strict,
         })
-    }
-
-    /// How much of the text the parser needs to see to fail on the item at byte `from` as it does in the whole text: some
-    /// items more, if every bracket up to there has its partner; else all. pest's time for a failure grows with the text
-    /// behind it.
-    fn seen_from(&self, from: usize) -> usize {
-        let first = self.tokens.partition_point(|token| token.start < from);
-        let (mut open, mut items) = (0_usize, 0);
-        for token in self.tokens.iter().skip(first) {
-            let before = self.text.get(..token.start).unwrap_or_default();
-            if token.kind == Kind::Word && before.ends_with('\n') {
-                items += 1;
-                match open {
-                    0 if items > ITEMS_SEEN => return token.start,
-                    0 => {}
-                    _ => break,
-                }
-            }
-            match token.of(self.text) {
-                "{" | "(" => open += 1,
-                "}" | ")" => match open.checked_sub(1) {
-                    Some(rest) => open = rest,
-                    None => break,
-                },
-                _ => {}
-            }
-        }
-        self.text.len()
     }
 
     /// A text that fails at once may go on with the previous entry: read together, they fail further on, or they
@@ -307,23 +290,35 @@ mod tests {
         include_str!("../../../examples/grasp.bt"),
     ];
 
-    /// What of a text is enough to fail on an item fails as the whole of it, wherever a word stands at the margin and
+    /// What of a text is enough to fail on an item or an entry fails as the whole of it, wherever a line begins and
     /// whichever token is left out.
     #[test]
-    fn an_item_fails_among_its_neighbours_as_it_does_in_the_whole_text() {
-        let (mut items, mut near) = (0, 0);
+    fn a_text_fails_among_its_neighbours_as_it_does_as_a_whole() {
+        let rules = [
+            Rule::strict_item,
+            Rule::strict_world_entry,
+            Rule::strict_clause,
+            Rule::strict_aspect,
+            Rule::strict_reward,
+            Rule::strict_child,
+            Rule::strict_stmt,
+        ];
+        let (mut failures, mut near) = (0, 0);
         for whole in TEXTS {
-            for dropped in tokens(whole).iter().step_by(5) {
+            for dropped in tokens(whole).iter().step_by(11) {
                 let text = [&whole[..dropped.start], &whole[dropped.end..]].concat();
                 let tokens = tokens(&text);
                 let comments = comments(FileId(0), &text, &tokens);
                 let builder = Builder::new(FileId(0), &text, &tokens, &comments);
-                let margin = |at: &usize| *at == 0 || text[..*at].ends_with('\n');
-                let margins = tokens.iter().map(|token| token.start).filter(margin);
-                for at in margins.step_by(3) {
-                    let seen = builder.failure(Rule::strict_item, at, at);
+                let begins_line = |at: &usize| {
+                    let before = text[..*at].trim_end_matches(' ');
+                    before.is_empty() || before.ends_with('\n')
+                };
+                let begins = tokens.iter().map(|token| token.start).filter(begins_line);
+                for (at, rule) in begins.step_by(3).zip(rules.into_iter().cycle()) {
+                    let seen = builder.failure_among(24, rule, at, at);
                     let all = at..text.len();
-                    let Some(whole) = builder.failure_within(Rule::strict_item, all, at) else {
+                    let Some(whole) = builder.failure_within(rule, all, at) else {
                         continue;
                     };
                     assert_eq!(
@@ -331,11 +326,19 @@ mod tests {
                         (whole.at, whole.expected),
                         "{text}"
                     );
-                    items += 1;
-                    near += usize::from(builder.seen_from(at) < text.len());
+                    failures += 1;
+                    let first = tokens.partition_point(|token| token.start < at);
+                    near += usize::from(
+                        tokens
+                            .get(first + 24)
+                            .is_some_and(|end| whole.at < end.start),
+                    );
                 }
             }
         }
-        assert!(items > 1000 && near > 500, "{items} items, {near} near");
+        assert!(
+            failures > 1000 && near > 500,
+            "{failures} failures, {near} near"
+        );
     }
 }
