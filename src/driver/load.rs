@@ -299,9 +299,7 @@ impl Loader<'_> {
         }
         let roots = self.reader.roots().into_iter();
         let mut below = roots.map(|root| beside(&format!("{root}/"), path));
-        below
-            .find(|path| self.reader.has(path))
-            .unwrap_or(resolved)
+        below.find(|path| self.reader.has(path)).unwrap_or(resolved)
     }
 
     fn used(&mut self, from: &str, path: &str, span: Span, pin: Option<&Spanned<String>>) {

@@ -173,7 +173,10 @@ impl<W> Report<'_, W> {
         let trees = &self.results.trees;
         let found = trees.chosen();
         let alone = found.paper_size.map_or_else(String::new, |paper| {
-            format!(" (Algorithm 1 alone: {})", numbered(paper.nodes as u64, "node"))
+            format!(
+                " (Algorithm 1 alone: {})",
+                numbered(paper.nodes as u64, "node")
+            )
         });
         let text = format!(
             "{}, depth {}{alone}",

@@ -6,9 +6,9 @@
 //! that it is written with, `7.` to a half; `-` is nothing.
 
 use crate::program;
+use btc::driver::Text;
 use btc::driver::load::Loaded;
 use btc::driver::run::Subject;
-use btc::driver::Text;
 use btc::driver::trace::{Step, trace};
 use std::path::{Path, PathBuf};
 

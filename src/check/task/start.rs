@@ -25,12 +25,13 @@ impl<'a> Checker<'a> {
             let built: Vec<StartLine> = built.into_iter().flatten().flatten().collect();
             // What is set for a whole family may be set otherwise for a member of it.
             let undone = |known: &StartLine| built.iter().any(|new| known.undone_by(new));
-            let first = set
-                .iter()
-                .find(|(first, known)| match known.is_empty() || built.is_empty() {
-                    false => known.iter().all(undone),
-                    true => first.name == name.name && line.target.args.is_none(),
-                });
+            let first =
+                set.iter().find(
+                    |(first, known)| match known.is_empty() || built.is_empty() {
+                        false => known.iter().all(undone),
+                        true => first.name == name.name && line.target.args.is_none(),
+                    },
+                );
             match first {
                 Some((first, _)) => {
                     let first = first.span;
