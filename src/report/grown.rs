@@ -41,7 +41,7 @@ pub fn doc(grown: &Grown, program: &Program, task: &Task) -> String {
         "That is the exact tree, of {}. This one, of {}, was grown and selects the same as the exact one in {alike} of \
          {all} minterms. It is tested, not proved: a return of {:.2} for {:.2} on {} fresh episodes, {}{ended}.",
         numbered(before.size.nodes as u64, "node"),
-        numbered(after.size.nodes as u64, "node"),
+        after.size.nodes,
         after.summary.total.mean,
         before.summary.total.mean,
         after.summary.episodes,
