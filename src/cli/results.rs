@@ -135,6 +135,17 @@ impl Found {
 }
 
 impl Reader for Found {
+    fn has(&self, path: &str) -> bool {
+        Path::new(path).exists()
+    }
+
+    fn roots(&self) -> Vec<String> {
+        let roots = ROOTS.get().into_iter().flatten();
+        roots
+            .filter_map(|root| root.to_str().map(str::to_owned))
+            .collect()
+    }
+
     fn read(&mut self, path: &str) -> Result<Vec<u8>, String> {
         if !self.may_read(path) {
             let why = "it lies outside of the program's folder and of the current one: allow its folder with `--root DIR`";

@@ -37,6 +37,16 @@ pub trait Reader {
     /// # Errors
     /// The reason of the system that it cannot be read.
     fn read(&mut self, path: &str) -> Result<Vec<u8>, String>;
+
+    /// Whether there is a file at a path, where others may have it instead, see [`Reader::roots`].
+    fn has(&self, _path: &str) -> bool {
+        true
+    }
+
+    /// Folders in which a file is looked for that is not where its path leads.
+    fn roots(&self) -> Vec<String> {
+        Vec::new()
+    }
 }
 
 /// A loaded and checked program.
@@ -280,8 +290,20 @@ impl Loader<'_> {
         }
     }
 
-    fn used(&mut self, from: &str, path: &str, span: Span, pin: Option<&Spanned<String>>) {
+    /// The path of a file that `from` uses: beside it or else, of a path that leads down, below the first root that has it.
+    fn found(&self, from: &str, path: &str) -> String {
         let resolved = beside(from, path);
+        let leads_down = !path.starts_with('/') && path.split('/').all(|part| part != "..");
+        if !leads_down || self.known.contains(&resolved) || self.reader.has(&resolved) {
+            return resolved;
+        }
+        let roots = self.reader.roots().into_iter();
+        let mut below = roots.map(|root| beside(&format!("{root}/"), path));
+        below.find(|path| self.reader.has(path)).unwrap_or(resolved)
+    }
+
+    fn used(&mut self, from: &str, path: &str, span: Span, pin: Option<&Spanned<String>>) {
+        let resolved = self.found(from, path);
         let table = path.ends_with(".csv");
         if self.open.contains(&resolved) {
             let message = format!("`{path}` uses this file, or is this file");

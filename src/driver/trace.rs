@@ -68,6 +68,7 @@ pub fn trace(
                 let current = line.get_or_insert_with(|| Line::new(episode, before.clone()));
                 current.ticks += 1;
                 current.behavior = done.behavior;
+                current.beside = done.beside;
                 current.reward = reward;
                 current.events.extend(simulation.fired());
                 current.end = tick.end;

@@ -281,14 +281,14 @@ impl Out<'_> {
     fn start(&mut self, lines: &[StartLine]) {
         for line in lines {
             let text = match line {
-                StartLine::Anywhere => "start pose anywhere".to_owned(),
+                StartLine::Anywhere(within) => format!("start {}", self.anywhere(*within)),
                 StartLine::Position(x, y) => {
                     format!("start position ({}, {})", self.expr(*x), self.expr(*y))
                 }
                 StartLine::Heading(a) => format!("start heading {}", self.expr(*a)),
                 StartLine::Other(robot, placing) => {
                     let what = match placing {
-                        Placing::Anywhere => "pose anywhere".to_owned(),
+                        Placing::Anywhere(within) => self.anywhere(*within),
                         Placing::Position(x, y) => {
                             format!("position ({}, {})", self.expr(*x), self.expr(*y))
                         }
@@ -312,6 +312,13 @@ impl Out<'_> {
                 StartLine::History(code) => format!("start history {}", self.expr(*code)),
             };
             self.line(1, text);
+        }
+    }
+
+    fn anywhere(&self, within: Option<ExprId>) -> String {
+        match within {
+            None => "pose anywhere".to_owned(),
+            Some(place) => format!("pose anywhere in place {}", self.expr(place)),
         }
     }
 

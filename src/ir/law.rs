@@ -33,6 +33,17 @@ pub struct Law {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Block(pub Vec<Stmt>);
 
+impl Block {
+    /// Whether it commands the wheels on some path.
+    pub fn may_drive(&self) -> bool {
+        self.0.iter().any(|stmt| match stmt {
+            Stmt::Drive { .. } => true,
+            Stmt::If(_, then, otherwise) => then.may_drive() || otherwise.may_drive(),
+            _ => false,
+        })
+    }
+}
+
 /// A statement of a control law or of an effect.
 ///
 /// A random draw is made once in a block, before the first statement that reads it, whichever branch of an expression does:

@@ -90,8 +90,9 @@ pub struct RewardLine {
 /// One line of a `start`.
 #[derive(Clone, Debug, PartialEq)]
 pub enum StartLine {
-    /// `pose = anywhere`: uniform over the free arena, any heading.
-    Anywhere,
+    /// `pose = anywhere`: uniform over the free arena, any heading; `anywhere(place)`: over the free part of a place, which
+    /// is known by its number.
+    Anywhere(Option<ExprId>),
     /// `position = (x, y)`
     Position(ExprId, ExprId),
     /// `heading = a`
@@ -102,7 +103,7 @@ pub enum StartLine {
     State(Vec<(Id<State>, ExprId)>),
     /// A member of a family that is known only as the episode starts: the left side as it is written, and what sets it.
     Member(String, Block),
-    /// The newest termination in the window, as its [code](StartLine::code); −1 for none. Older places of the window stay
+    /// The newest termination in the window, as its [code](StartLine::code), or [none](StartLine::NO_END). Older places of the window stay
     /// empty.
     History(ExprId),
 }
@@ -111,7 +112,7 @@ pub enum StartLine {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Placing {
     /// As [`StartLine::Anywhere`].
-    Anywhere,
+    Anywhere(Option<ExprId>),
     /// As [`StartLine::Position`].
     Position(ExprId, ExprId),
     /// As [`StartLine::Heading`].
@@ -119,6 +120,9 @@ pub enum Placing {
 }
 
 impl StartLine {
+    /// The code of no termination.
+    pub const NO_END: f64 = -1.0;
+
     /// A termination as a number: twice the behaviour's index, plus one for a failure.
     pub fn code(behavior: Id<Behavior>, status: Status) -> f64 {
         (behavior.index() * 2 + usize::from(status == Status::Failure)) as f64
@@ -151,7 +155,7 @@ impl StartLine {
             (StartLine::Other(a, one), StartLine::Other(b, other)) => {
                 a == b && std::mem::discriminant(one) == std::mem::discriminant(other)
             }
-            (StartLine::Anywhere, StartLine::Anywhere)
+            (StartLine::Anywhere(_), StartLine::Anywhere(_))
             | (StartLine::Position(..), StartLine::Position(..))
             | (StartLine::Heading(_), StartLine::Heading(_))
             | (StartLine::History(_), StartLine::History(_)) => true,

@@ -38,9 +38,9 @@ pub fn doc(grown: &Grown, program: &Program, task: &Task) -> String {
     };
     let [alike, all] = grown.alike;
     format!(
-        "That is the exact tree, of {} nodes. This one, of {}, was grown and selects the same as the exact one in {alike} of \
+        "That is the exact tree, of {}. This one, of {}, was grown and selects the same as the exact one in {alike} of \
          {all} minterms. It is tested, not proved: a return of {:.2} for {:.2} on {} fresh episodes, {}{ended}.",
-        before.size.nodes,
+        numbered(before.size.nodes as u64, "node"),
         after.size.nodes,
         after.summary.total.mean,
         before.summary.total.mean,
@@ -73,8 +73,8 @@ fn change(gain: Mean, over: f64) -> String {
     ends.sort_by(f64::total_cmp);
     let [low, high] = ends;
     let mean = sign * gain.mean;
-    // A part of a return near zero says nothing.
-    if total < 10.0 * (high - low) / 2.0 {
+    // A part of a return near zero, or of one that is left far behind, says nothing.
+    if total < 10.0 * (high - low) / 2.0 || mean > total {
         return format!("a {word} of {mean:.3} (95 %: {low:.3} to {high:.3})");
     }
     let scale = 100.0 / total;
@@ -103,10 +103,10 @@ pub fn lines(grown: &Grown, program: &Program, task: &Task) -> Vec<String> {
         line(
             "grown",
             &format!(
-                "{} nodes for {}, {} literals for {}; tested, not proved; {} ticks of search",
-                after.size.nodes,
+                "{} for {}, {} for {}; tested, not proved; {} ticks of search",
+                numbered(after.size.nodes as u64, "node"),
                 before.size.nodes,
-                after.size.literals,
+                numbered(after.size.literals as u64, "literal"),
                 before.size.literals,
                 grown.ticks
             ),

@@ -3,7 +3,7 @@
 use super::ends::Ended;
 use super::results::Results;
 use super::value::Value;
-use super::words::{self, end_names};
+use super::words::{self, end_names, numbered};
 use crate::learn::binomial::upper95;
 use crate::learn::bootstrap::quantile;
 use crate::learn::curve::pooled;
@@ -173,7 +173,10 @@ impl<W> Report<'_, W> {
         let trees = &self.results.trees;
         let found = trees.chosen();
         let alone = found.paper_size.map_or_else(String::new, |paper| {
-            format!(" (Algorithm 1 alone: {} nodes)", paper.nodes)
+            format!(
+                " (Algorithm 1 alone: {})",
+                numbered(paper.nodes as u64, "node")
+            )
         });
         let text = format!(
             "{}, depth {}{alone}",
@@ -186,7 +189,8 @@ impl<W> Report<'_, W> {
             let alone = found.paper_size.map_or_else(String::new, |paper| {
                 format!(" (Algorithm 1 alone: {})", paper.nodes)
             });
-            format!("{minterms} minterms, {} nodes{alone}", size.nodes)
+            let nodes = numbered(size.nodes as u64, "node");
+            format!("{minterms} minterms, {nodes}{alone}")
         };
         let (own, other) = match trees.care {
             Care::Seen => ("seen", ("reachable", &trees.reachable)),

@@ -36,8 +36,10 @@ pub struct Line {
     pub found: Found,
     /// How many ticks it took.
     pub ticks: u64,
-    /// The behaviour that drove the robot at its end or, where none did, was ticked last, with its answer.
+    /// The behaviour that drove the robot at its end, with its answer; where none did, the first that went on or was ticked last.
     pub behavior: Option<(Id<Behavior>, Status)>,
+    /// The other behaviours that were ticked at its end, in order, with their answers.
+    pub beside: Vec<(Id<Behavior>, Status)>,
     /// The reward of the decision, in the line that it ends with.
     pub reward: Option<f64>,
     /// What happened.
@@ -54,6 +56,7 @@ impl Line {
             found,
             ticks: 0,
             behavior: None,
+            beside: Vec::new(),
             reward: None,
             events: Vec::new(),
             end: None,
@@ -118,7 +121,9 @@ impl Trace {
         }
         header.extend(self.states.iter().map(|(name, _)| name.bare()));
         header.extend(self.atoms.iter().map(Name::bare));
-        let last = ["behavior", "status", "ticks", "reward", "events", "end"];
+        let last = [
+            "behavior", "status", "beside", "ticks", "reward", "events", "end",
+        ];
         header.extend(last.map(str::to_owned));
         push_row(&mut text, &header);
         for line in &self.lines {
@@ -141,8 +146,10 @@ impl Trace {
             let bits = 0..self.atoms.len();
             cells.extend(bits.map(|bit| (found.atoms >> bit & 1).to_string()));
             let (behavior, status) = self.done(line);
+            let beside = self.beside(line).join(";");
             let reward = line.reward.map_or_else(String::new, number);
-            cells.extend([behavior, status.to_owned(), line.ticks.to_string(), reward]);
+            cells.extend([behavior, status.to_owned(), beside]);
+            cells.extend([line.ticks.to_string(), reward]);
             cells.push(self.happened(line).join(";"));
             cells.push(self.end(line).unwrap_or_default());
             push_row(&mut text, &cells);
@@ -190,6 +197,7 @@ impl Trace {
                 "predicates": atoms.collect::<Map<_, _>>(),
                 "behavior": behavior,
                 "status": status,
+                "beside": self.beside(line),
                 "ticks": line.ticks,
                 "reward": line.reward.map(rounded),
                 "events": self.happened(line),
@@ -210,6 +218,10 @@ impl Trace {
             let held: Vec<String> = held.map(|(_, name)| name.to_string()).collect();
             let (behavior, status) = self.done(line);
             let mut text = format!("{{{}}}: {behavior} {status}", held.join(", "));
+            let beside = self.beside(line);
+            if !beside.is_empty() {
+                text.push_str(&format!(" beside {}", beside.join(", ")));
+            }
             let happened = self.happened(line);
             if !happened.is_empty() {
                 text.push_str(&format!("; {}", happened.join(", ")));
@@ -228,9 +240,19 @@ impl Trace {
     }
 
     fn done(&self, line: &Line) -> (String, &'static str) {
-        let Some((behavior, status)) = line.behavior else {
-            return (String::new(), "");
-        };
+        line.behavior
+            .map_or_else(|| (String::new(), ""), |answered| self.answered(answered))
+    }
+
+    /// `wait(1 s) running`, for each behaviour that was ticked beside.
+    fn beside(&self, line: &Line) -> Vec<String> {
+        let answered = line.beside.iter().map(|answered| self.answered(*answered));
+        answered
+            .map(|(behavior, status)| format!("{behavior} {status}"))
+            .collect()
+    }
+
+    fn answered(&self, (behavior, status): (Id<Behavior>, Status)) -> (String, &'static str) {
         let name = self.behaviors.get(behavior.index());
         (name.map_or_else(String::new, Name::bare), status.name())
     }

@@ -7,6 +7,7 @@ use super::door::Door;
 use super::error::BuildError;
 use super::heat::Heat;
 use super::motion::Motion;
+use super::pose::Pose;
 use super::scene::Scene;
 use super::script::Script;
 use super::sensing::Probe;
@@ -48,6 +49,9 @@ pub struct Simulator {
 
 /// How many random positions are tried before the arena counts as full.
 const TRIES: u32 = 20_000;
+
+/// How many random positions in a place are tried before the start line is run again.
+const WITHIN: u32 = 1_000;
 
 impl Simulator {
     /// Compiles the world of a program for a task.
@@ -146,6 +150,21 @@ impl Simulator {
         self.atoms.observed
     }
 
+    /// A free pose in a place, by its number: uniform over where a robot of this radius fits in it. Where it fits nowhere, or
+    /// the place has no area, its middle; in no place at all, a pose that is nowhere.
+    pub(super) fn within(&self, place: Option<usize>, radius: f64, random: &mut Random) -> Pose {
+        let shape = place.and_then(|place| self.around.places.get(place));
+        let position = shape.map_or([f64::INFINITY; 2], |shape| {
+            let is_free = |p: Point| shape.contains(p) && self.around.scene.is_free(p, radius);
+            let found = match shape {
+                Shape::Polyline(_) => None,
+                _ => draw(shape.bounds(), random, WITHIN, is_free),
+            };
+            found.unwrap_or_else(|| shape.center())
+        });
+        Pose::new(position, any_heading(random))
+    }
+
     /// A position that is free for a robot of this radius, every wall standing; uniformly drawn.
     pub(super) fn anywhere(&self, radius: f64, random: &mut Random) -> Point {
         find_free(&self.around.scene, radius, random, 100 * TRIES).unwrap_or(self.free)
@@ -154,7 +173,16 @@ impl Simulator {
 
 /// A free position, uniform over the free part of the arena, by rejection.
 fn find_free(scene: &Scene, radius: f64, random: &mut Random, tries: u32) -> Option<Point> {
-    let (min, max) = scene.bounds();
+    draw(scene.bounds(), random, tries, |p| scene.is_free(p, radius))
+}
+
+/// A position in a rectangle that is one of those wanted, uniform over them, by rejection.
+fn draw(
+    (min, max): (Point, Point),
+    random: &mut Random,
+    tries: u32,
+    is_wanted: impl Fn(Point) -> bool,
+) -> Option<Point> {
     (0..tries)
         .map(|_| {
             [
@@ -162,7 +190,7 @@ fn find_free(scene: &Scene, radius: f64, random: &mut Random, tries: u32) -> Opt
                 random.uniform(min[1], max[1]),
             ]
         })
-        .find(|&p| scene.is_free(p, radius))
+        .find(|&p| is_wanted(p))
 }
 
 /// Any heading.

@@ -41,15 +41,22 @@ impl Default for Start {
 /// How often the start lines are run until the robot is free where they put it.
 const TRIES: u32 = 10_000;
 
+/// Where the number of a place is held while the robot is put there, which sets it anew.
+const WHICH: Fixed = Fixed::X;
+
 /// What a start line does.
 #[derive(Clone, Debug)]
 pub(super) enum StartStep {
     /// Any free pose.
     Anywhere,
+    /// Any free pose in the place of the number that this sets.
+    Within(Code),
     /// Sets the position or the heading.
     Place(Code),
     /// Any free pose of another robot, by its place among them.
     OtherAnywhere(usize),
+    /// The same in a place.
+    OtherWithin(usize, Code),
     /// Sets the position or the heading of another robot.
     OtherPlace(usize, Code),
     /// Sets a state.
@@ -67,7 +74,7 @@ impl StartStep {
         others: usize,
     ) -> Result<Vec<Self>, TooLarge> {
         let has = |test: fn(&StartLine) -> bool| lines.iter().any(test);
-        let placed = has(|line| matches!(line, StartLine::Anywhere))
+        let placed = has(|line| matches!(line, StartLine::Anywhere(_)))
             || has(|line| matches!(line, StartLine::Position(..)))
                 && has(|line| matches!(line, StartLine::Heading(_)));
         // What the lines leave open of the pose is drawn before them.
@@ -83,7 +90,7 @@ impl StartStep {
                         if id.index() == other + 1 && wanted(placing))
                 })
             };
-            let whole = placed(|it| matches!(it, Placing::Anywhere))
+            let whole = placed(|it| matches!(it, Placing::Anywhere(_)))
                 || placed(|it| matches!(it, Placing::Position(..)))
                     && placed(|it| matches!(it, Placing::Heading(_)));
             if !whole {
@@ -95,8 +102,13 @@ impl StartStep {
             if let &StartLine::Other(id, placing) = line {
                 let other = id.index().saturating_sub(1);
                 match placing {
-                    Placing::Anywhere => {
+                    Placing::Anywhere(None) => {
                         steps.push(Self::OtherAnywhere(other));
+                        continue;
+                    }
+                    Placing::Anywhere(Some(place)) => {
+                        compiler.assign_all(&[(WHICH.register(), place)])?;
+                        steps.push(Self::OtherWithin(other, compiler.finish()?));
                         continue;
                     }
                     Placing::Position(x, y) => {
@@ -114,9 +126,13 @@ impl StartStep {
             }
             let step: fn(Code) -> Self = match *line {
                 StartLine::Other(..) => continue,
-                StartLine::Anywhere => {
+                StartLine::Anywhere(None) => {
                     steps.push(Self::Anywhere);
                     continue;
+                }
+                StartLine::Anywhere(Some(place)) => {
+                    compiler.assign_all(&[(WHICH.register(), place)])?;
+                    Self::Within
                 }
                 StartLine::Position(x, y) => {
                     compiler.assign_all(&[(Fixed::X.register(), x), (Fixed::Y.register(), y)])?;
@@ -220,6 +236,20 @@ impl Simulation<'_> {
             match step {
                 StartStep::Anywhere => self.place_anywhere(),
                 StartStep::OtherAnywhere(other) => self.place_other_anywhere(*other),
+                StartStep::Within(code) => {
+                    let place = self.which_place(code);
+                    let random = &mut self.body.random;
+                    let pose = self.simulator.within(place, self.simulator.radius, random);
+                    self.place(pose);
+                }
+                StartStep::OtherWithin(index, code) => {
+                    let place = self.which_place(code);
+                    if let Some(other) = self.others.get_mut(*index) {
+                        let random = &mut other.body.random;
+                        let pose = self.simulator.within(place, other.script.radius, random);
+                        self.place_other(*index, pose);
+                    }
+                }
                 StartStep::OtherPlace(other, code) => {
                     run(code, &mut self.registers, &mut self.body);
                     let id = Id::new(*other + 1);
@@ -279,6 +309,14 @@ impl Simulation<'_> {
             })
         };
         free && robots.iter().enumerate().all(apart)
+    }
+
+    /// The place of the number that this sets, if there is one.
+    fn which_place(&mut self, code: &Code) -> Option<usize> {
+        run(code, &mut self.registers, &mut self.body);
+        let number = self.registers.get(WHICH.register());
+        self.publish_pose();
+        (number >= 0.0).then_some(number as usize)
     }
 
     fn place_other_anywhere(&mut self, index: usize) {

@@ -105,6 +105,12 @@ fn files() {
             .status
             .success()
     );
+    // What is not beside a file is looked for below the folders that are named.
+    fs::write(path("inner/main.bt"), "use \"world.bt\"\ntree t = go\n").unwrap();
+    let alone = btc(&["compile", "main.bt"], &inner, b"");
+    assert_eq!(alone.status.code(), Some(1));
+    let named = btc(&["compile", "main.bt", "--root", ".."], &inner, b"");
+    assert!(named.status.success());
     // A device that never ends does.
     assert!(said(&["check", "/dev/zero"], "").contains("E0132"));
 }

@@ -30,6 +30,7 @@ mod learn;
 mod limits;
 mod logic;
 mod lsp;
+mod meaning;
 mod planted;
 mod plausible;
 mod program;

@@ -2,7 +2,9 @@
 
 use crate::check::Checker;
 use crate::check::builtin;
+use crate::check::context::Region;
 use crate::check::names::{Decl, is_built_in};
+use crate::check::task::history::NO_END;
 use crate::check::types::{Type, Typed, Value};
 use crate::diagnostic::{Applicability, Code, suggest};
 use crate::ir::expr::Expr;
@@ -81,6 +83,12 @@ impl<'a> Checker<'a> {
         }
         match self.value_of(&reference.name) {
             Some((decl, library)) => self.declared_reference(decl, library, reference),
+            None if self.context.region == Region::StartHistory
+                && reference.args.is_none()
+                && name == NO_END =>
+            {
+                Some(self.no_end(span))
+            }
             None => self.unknown_reference(reference),
         }
     }

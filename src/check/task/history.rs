@@ -3,10 +3,14 @@
 use crate::check::Checker;
 use crate::check::builtin::Function;
 use crate::check::context::Region;
-use crate::check::types::Type;
+use crate::check::types::{Type, Typed, Value};
 use crate::diagnostic::Code;
-use crate::ir::task::History;
-use crate::syntax::ast::{Expr, Outcome, Ref, Spanned};
+use crate::ir::task::{History, StartLine};
+use crate::source::Span;
+use crate::syntax::ast::{Expr, ExprKind, Outcome, Ref, Spanned};
+
+/// The word for no end of a behaviour in a `history` line of a start.
+pub const NO_END: &str = "none";
 
 impl<'a> Checker<'a> {
     /// `history last n outcome, …`
@@ -39,6 +43,12 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// `none`, where an episode begins with nothing in its history.
+    pub fn no_end(&mut self, span: Span) -> Typed {
+        let code = self.program.pool.num(StartLine::NO_END);
+        Typed::new(Type::Termination, Value::Scalar(code), span)
+    }
+
     /// Reports a history that starts with an outcome it does not keep: it would be forgotten at once.
     pub fn kept_in_history(&mut self, function: Function, reference: &Ref) {
         let Some(history) = self
@@ -62,6 +72,11 @@ impl<'a> Checker<'a> {
             .help(format!("let the task say `{}`", keeping(history, outcome)));
         }
     }
+}
+
+/// Whether a name says that the history begins empty, see [`Checker::no_end`].
+pub fn is_no_end(value: &Expr) -> bool {
+    matches!(&value.kind, ExprKind::Ref(reference) if reference.args.is_none() && reference.name.name == NO_END)
 }
 
 /// The `history` line that keeps an outcome in addition to those it keeps already.

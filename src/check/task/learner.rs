@@ -70,7 +70,9 @@ impl<'a> Checker<'a> {
             match entry {
                 LearnEntry::Start(start) => {
                     for line in self.start(start, history) {
-                        match built.start.iter_mut().find(|old| old.replaced_by(&line)) {
+                        // The last one is what counts in the task.
+                        let mut lines = built.start.iter_mut().rev();
+                        match lines.find(|old| old.replaced_by(&line)) {
                             Some(old) => *old = line,
                             None => built.start.push(line),
                         }

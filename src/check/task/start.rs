@@ -1,8 +1,10 @@
 //! `start`: what an episode begins with.
 
 use crate::check::Checker;
+use crate::check::builtin::Constant;
 use crate::check::context::{Context, Region};
 use crate::check::names::{Decl, START_WORDS};
+use crate::check::task::history::is_no_end;
 use crate::check::types::{Type, Value};
 use crate::diagnostic::Code;
 use crate::ir::expr::ExprId;
@@ -15,18 +17,21 @@ impl<'a> Checker<'a> {
         self.context = Context::new(Region::Start);
         self.kept = history;
         let mut lines: Vec<StartLine> = Vec::new();
-        let mut set: Vec<(&ast::Ident, Option<StartLine>)> = Vec::new();
+        let mut set: Vec<(&ast::Ident, Vec<StartLine>)> = Vec::new();
         for line in &start.lines {
             let name = &line.target.name;
             let scopes = self.ranges(&line.target).unwrap_or_default();
             let built = self.for_each_member(scopes, |checker, _| checker.start_line(line));
             let built: Vec<StartLine> = built.into_iter().flatten().flatten().collect();
-            let first = set
-                .iter()
-                .find(|(first, known)| match (known, built.first()) {
-                    (Some(known), Some(_)) => built.iter().any(|new| known.undone_by(new)),
-                    _ => first.name == name.name && line.target.args.is_none(),
-                });
+            // What is set for a whole family may be set otherwise for a member of it.
+            let undone = |known: &StartLine| built.iter().any(|new| known.undone_by(new));
+            let first =
+                set.iter().find(
+                    |(first, known)| match known.is_empty() || built.is_empty() {
+                        false => known.iter().all(undone),
+                        true => first.name == name.name && line.target.args.is_none(),
+                    },
+                );
             match first {
                 Some((first, _)) => {
                     let first = first.span;
@@ -38,8 +43,7 @@ impl<'a> Checker<'a> {
                     .label("this line would undo the first")
                     .also(first, "first set here");
                 }
-                None if built.is_empty() => set.push((name, None)),
-                None => set.extend(built.iter().map(|line| (name, Some(line.clone())))),
+                None => set.push((name, built.clone())),
             }
             lines.extend(built);
         }
@@ -58,7 +62,7 @@ impl<'a> Checker<'a> {
             "pose" => {
                 let placings = self.pose(value)?;
                 let own = |placing| match placing {
-                    Placing::Anywhere => StartLine::Anywhere,
+                    Placing::Anywhere(within) => StartLine::Anywhere(within),
                     Placing::Position(x, y) => StartLine::Position(x, y),
                     Placing::Heading(angle) => StartLine::Heading(angle),
                 };
@@ -80,7 +84,10 @@ impl<'a> Checker<'a> {
             }
             "history" => {
                 self.context.region = Region::StartHistory;
-                let value = self.expr(value);
+                let value = match is_no_end(value) {
+                    true => self.no_end(value.span),
+                    false => self.expr(value),
+                };
                 if !value.ty.fits(&Type::Termination) {
                     return self
                         .error(
@@ -128,18 +135,29 @@ impl<'a> Checker<'a> {
         };
         let line = |placing| match (id == self.subject, placing) {
             (false, placing) => StartLine::Other(id, placing),
-            (true, Placing::Anywhere) => StartLine::Anywhere,
+            (true, Placing::Anywhere(within)) => StartLine::Anywhere(within),
             (true, Placing::Position(x, y)) => StartLine::Position(x, y),
             (true, Placing::Heading(angle)) => StartLine::Heading(angle),
         };
         Some(placings.into_iter().map(line).collect())
     }
 
-    /// What a `pose` is set to: `anywhere`, a point, or a place, whose centre and `facing` it is then.
+    /// What a `pose` is set to: `anywhere`, perhaps in a place, a point, or a place, whose centre and `facing` it is then.
     fn pose(&mut self, value: &'a ast::Expr) -> Option<Vec<Placing>> {
+        if let ast::ExprKind::Ref(reference) = &value.kind
+            && reference.name.name == Constant::Anywhere.name()
+            && reference.args.as_ref().is_some_and(|args| !args.is_empty())
+        {
+            let &[place] = self.positional(reference, 1, 1)?.as_slice() else {
+                return None;
+            };
+            let place = self.expect(place, &Type::Place(None), "where the robot is put");
+            let number = self.code(&place.value)?;
+            return Some(vec![Placing::Anywhere(Some(number))]);
+        }
         let value = self.expr(value);
         match (&value.ty, &value.value) {
-            (_, Value::Anywhere) => Some(vec![Placing::Anywhere]),
+            (_, Value::Anywhere) => Some(vec![Placing::Anywhere(None)]),
             (_, Value::Point(x, y)) => Some(vec![Placing::Position(*x, *y)]),
             (_, Value::Place(id)) => {
                 let (x, y) = self.point_of(&value.value)?;

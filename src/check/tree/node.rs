@@ -6,7 +6,6 @@ use crate::check::expr::plain_ref;
 use crate::check::names::Decl;
 use crate::check::types::{Type, Value};
 use crate::diagnostic::{Applicability, Code};
-use crate::ir::law::{Block, Stmt};
 use crate::ir::tree::{Composite, Decorator, Node};
 use crate::source::Span;
 use crate::syntax::ast::{self, Arg, ArgKind, Expr, NodeKind, Ref, Spanned, Word};
@@ -176,7 +175,7 @@ impl<'a> Checker<'a> {
             let mut drives = false;
             node.visit_behaviors(&mut |id| {
                 let law = self.program.behaviors[id].law.as_ref();
-                drives |= law.is_none_or(|law| commands(&law.control));
+                drives |= law.is_none_or(|law| law.control.may_drive());
             });
             drives
         };
@@ -265,13 +264,4 @@ impl<'a> Checker<'a> {
         })
         .flatten()
     }
-}
-
-/// Whether a control law commands the drive on some path.
-fn commands(Block(stmts): &Block) -> bool {
-    stmts.iter().any(|stmt| match stmt {
-        Stmt::Drive { .. } => true,
-        Stmt::If(_, then, otherwise) => commands(then) || commands(otherwise),
-        _ => false,
-    })
 }

@@ -93,7 +93,7 @@ fn program(world: World, goal: Point, near: f64) -> Program {
     (law.requires, law.succeed, law.fail) = (truth, falsehood, falsehood);
     law.control = Block(vec![drive]);
     let task = &mut program.tasks[Id::new(0)];
-    task.start = vec![StartLine::Anywhere];
+    task.start = vec![StartLine::Anywhere(None)];
     task.end_on.clear();
     program
 }
