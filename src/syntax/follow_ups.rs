@@ -1,17 +1,20 @@
 //! Mistakes that follow from others: of those that one slip brings about, one is told.
 
 use super::ast::{File, Item, ItemKind};
-use crate::diagnostic::{Applicability, Code, Diagnostic};
+use crate::diagnostic::{self, Applicability, Code, Diagnostic};
 use crate::source::Span;
 use std::cmp::Ordering;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What is advised where a child of a tree stands behind the `}` of its tree.
 pub(super) const CLOSED_ABOVE: &str = "the `}` of its tree stands above: is there one too many?";
 
 /// Leaves out what follows from another mistake, and notes where the text was not understood.
 pub(super) fn left_out(text: &str, tree: &mut File, sorted: Vec<Diagnostic>) -> Vec<Diagnostic> {
-    tree.lost.any = sorted.iter().any(Diagnostic::is_error);
+    // What is only warned of is no cause of a mistake.
+    let (sorted, warnings): (Vec<Diagnostic>, Vec<Diagnostic>) =
+        sorted.into_iter().partition(Diagnostic::is_error);
+    tree.lost.any = !sorted.is_empty();
     tree.lost.unnamed |= is_cut(text, &sorted);
     let mut places: Vec<Span> = tree
         .lost
@@ -69,7 +72,13 @@ pub(super) fn left_out(text: &str, tree: &mut File, sorted: Vec<Diagnostic>) -> 
         true => too_early(text, found),
         false => found,
     });
-    one_of_a_habit(text, told.collect())
+    let mut told = one_of_a_habit(text, told.collect());
+    // In a line that is not understood nobody knows what a sign was to be.
+    let wrong: BTreeSet<Span> = told.iter().map(|found| lines(text, found.span())).collect();
+    let stands = |found: &Diagnostic| !wrong.contains(&lines(text, found.span()));
+    told.extend(warnings.into_iter().filter(stands));
+    diagnostic::sort(&mut told);
+    told
 }
 
 fn lacks_its_type(found: &Diagnostic) -> bool {
@@ -149,7 +158,7 @@ fn is_cut(text: &str, found: &[Diagnostic]) -> bool {
     let at_end = |found: &Diagnostic| {
         found.code == Code::E0102 || lines(text, found.span()).range().end >= end
     };
-    !text.is_empty() && !text.ends_with('\n') && found.iter().any(|it| it.is_error() && at_end(it))
+    !text.is_empty() && !text.ends_with('\n') && found.iter().any(at_end)
 }
 
 /// The mistakes of one place that do not follow from others there.

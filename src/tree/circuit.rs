@@ -279,9 +279,11 @@ mod tests {
             let mut valuations = (0..1 << count).map(values);
             let expected = valuations.find(|values| circuit.holds(goal, &inputs, values));
             assert_eq!(truth::least(&circuit, goal, &inputs), expected, "{seed}");
-            let mut solver = Solver::new(u64::MAX);
-            let solved = solver.least(&circuit, &[goal], &inputs);
-            assert_eq!(solved, Ok(expected.clone()), "{seed}");
+            let budget = || Solver::new(u64::MAX);
+            for mut solver in [budget(), budget().deciding_inputs()] {
+                let solved = solver.least(&circuit, &[goal], &inputs);
+                assert_eq!(solved, Ok(expected.clone()), "{seed}");
+            }
             found += usize::from(expected.is_some());
         }
         assert!((50..250).contains(&found), "{found}");

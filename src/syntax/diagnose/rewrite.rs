@@ -377,13 +377,14 @@ impl Place<'_> {
         let mark = self.value_begins_behind(asks)?.end;
         let value = head.get(mark..)?.trim();
         let rest = self.rest_of_line(asks.end);
-        let (asked, other) = rest.split_once(" else ")?;
-        let other = own(other).trim();
+        let (asked, behind) = rest.split_once(" else ")?;
+        let own = own(behind);
+        let other = own.trim();
         if value.is_empty() || other.is_empty() || other.contains(['{', ';']) {
             return None;
         }
         let start = head.len() - head.get(mark..)?.trim_start().len();
-        let end = asks.end + rest.find(" else ")? + " else ".len() + other.len();
+        let end = asks.end + rest.len() - behind.len() + own.trim_end().len();
         if value.contains(['{', '}']) || asked.contains('{') {
             return None;
         }

@@ -34,7 +34,7 @@ impl Align {
 pub(super) struct Trailing {
     /// With its slashes.
     pub(super) text: String,
-    /// The column, in characters, at which it was written.
+    /// The column at which it was written, as [`width`] counts it.
     pub(super) column: usize,
 }
 
@@ -46,6 +46,13 @@ pub(super) struct Line {
     pub(super) align: Align,
     pub(super) blank_before: bool,
     pub(super) comment: Option<Trailing>,
+}
+
+/// How many columns a text takes; a tab, which a path may hold, takes four.
+pub(super) fn width(text: &str) -> usize {
+    text.chars()
+        .map(|letter| if letter == '\t' { 4 } else { 1 })
+        .sum()
 }
 
 /// The text of the lines, in columns.
@@ -148,12 +155,12 @@ fn trailing(lines: &[Line], code: &mut [String]) {
         rest = after;
         let columns = lines.iter().zip(code.iter()).map(|(line, code)| {
             let written = line.comment.as_ref().map_or(0, |comment| comment.column);
-            written.max(code.chars().count() + 1)
+            written.max(width(code) + 1)
         });
         let column = columns.max().unwrap_or(0);
         for (line, code) in lines.iter().zip(code) {
             if let Some(comment) = &line.comment {
-                let blanks = column.saturating_sub(code.chars().count());
+                let blanks = column.saturating_sub(width(code));
                 code.push_str(&" ".repeat(blanks));
                 code.push_str(&comment.text);
             }

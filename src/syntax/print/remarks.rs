@@ -1,6 +1,6 @@
 //! What the source says between the lines: comments and blank lines.
 
-use super::columns::{Align, Line, Trailing};
+use super::columns::{self, Align, Line, Trailing};
 use super::layout::Layout;
 use super::source::Source;
 use crate::source::Span;
@@ -54,10 +54,7 @@ impl<'a> Remarks<'a> {
     }
 
     fn column(&self, at: usize) -> usize {
-        let line = self.slice(0, at).rsplit('\n').next().unwrap_or_default();
-        line.chars()
-            .map(|letter| if letter == '\t' { 4 } else { 1 })
-            .sum()
+        columns::width(self.slice(0, at).rsplit('\n').next().unwrap_or_default())
     }
 }
 

@@ -3,7 +3,7 @@
 #[cfg(test)]
 use super::rup::Proof;
 use super::{Circuit, Gate, Signal};
-use batsat::Callbacks;
+use batsat::{Callbacks, SolverInterface, lbool};
 use rustsat::solvers::{Solve, SolveIncremental, SolverResult};
 use rustsat::types::{Clause, Lit, TernaryVal};
 use std::cell::Cell;
@@ -20,6 +20,8 @@ pub(in crate::tree) struct Solver {
     solver: rustsat_batsat::Solver<Calls>,
     /// Which gates it knows.
     known: Vec<bool>,
+    /// Whether it decides inputs alone.
+    inputs_alone: bool,
     /// The work that it may still do.
     left: Rc<Cell<u64>>,
     /// The clauses that it has.
@@ -71,11 +73,19 @@ impl Solver {
         Self {
             solver,
             known: Vec::new(),
+            inputs_alone: false,
             left,
             clauses,
             #[cfg(test)]
             proof,
         }
+    }
+
+    /// The same, deciding inputs alone, from which the values of all gates follow. An answer takes no more decisions than
+    /// there are valuations, however large the circuit is; over many inputs it is better to decide gates, too.
+    pub(in crate::tree) fn deciding_inputs(mut self) -> Self {
+        self.inputs_alone = true;
+        self
     }
 
     /// How many of the clauses that it has learned were checked.
@@ -157,6 +167,11 @@ impl Solver {
         signals: &[Signal],
     ) -> Result<(), Exhausted> {
         self.known.resize(circuit.gates.len(), false);
+        let variables = self.solver.batsat_ref().num_vars() as usize;
+        for gate in circuit.gates.iter().skip(variables) {
+            let decided = !self.inputs_alone || matches!(gate, Gate::Input);
+            self.solver.batsat_mut().new_var(lbool::UNDEF, decided);
+        }
         let mut open: Vec<usize> = signals.iter().map(|signal| signal.gate()).collect();
         while let Some(gate) = open.pop() {
             match self.known.get_mut(gate) {
@@ -173,10 +188,7 @@ impl Solver {
                     self.clause([output, !a, !b])?;
                 }
                 Some(Gate::False) => self.clause([!output])?,
-                // A variable that no clause has is not decided.
-                Some(Gate::Input) | None => {
-                    self.solver.reserve(output.var()).map_err(|_| Exhausted)?
-                }
+                Some(Gate::Input) | None => {}
             }
         }
         Ok(())

@@ -20,6 +20,7 @@ use crate::tree::circuit::{Signal, truth};
 use crate::tree::compiled::CompiledTree;
 use pairs::{Memories, Pairs};
 use rustc_hash::FxHashSet;
+use std::collections::BTreeSet;
 use std::rc::Rc;
 
 /// Up to this many atoms, a truth table is quicker than a solver.
@@ -27,6 +28,9 @@ const TABLE: usize = 20;
 
 /// The work after which the solver gives up, in decisions over few clauses.
 const DECISIONS: u64 = 1_000_000;
+
+/// Up to this many inputs, atoms and statuses of behaviours, the solver decides them alone.
+const FEW: usize = 16;
 
 /// States after which the search gives up.
 const STATES: usize = 100_000;
@@ -85,9 +89,14 @@ impl SymbolicSearch {
         let asked: Vec<Atom> = asked.into_iter().collect();
         let tree = |root| CompiledTree::new(root, &asked).map_err(Unknown);
         let trees = [tree(left)?, tree(right)?];
+        let ticked: BTreeSet<_> = [left, right].into_iter().flat_map(behaviors).collect();
+        let solver = match asked.len() + 2 * ticked.len() {
+            0..=FEW => Solver::new(DECISIONS).deciding_inputs(),
+            _ => Solver::new(DECISIONS),
+        };
         Ok(Self {
             pairs: Pairs::new(asked, trees, history, excluded),
-            solver: Solver::new(DECISIONS),
+            solver,
             reached: Vec::new(),
             known: FxHashSet::default(),
             explored: Explored::default(),
