@@ -173,6 +173,47 @@ fn what_there_may_be_many_of() {
 }
 
 #[test]
+fn numbers() {
+    for tick in ["2 h", "0.0005 ms"] {
+        let program = SMALL.replace("100 ms", tick);
+        assert!(said(&["check", "-"], &program).contains("E0309"), "{tick}");
+    }
+    let long = "test \"waits\" of expert {\n    tick for 10_000_001 ticks => charge\n}\n";
+    let text = said(&["check", "-"], &format!("{SMALL}{long}"));
+    assert!(text.contains("E0309"), "{text}");
+    let often = "tree often = retry(1_000_001) { charge }\n";
+    let text = said(&["check", "-"], &format!("{SMALL}{often}"));
+    assert!(text.contains("from 1 to a million"), "{text}");
+    for arguments in [
+        ["learn", "-", "--seeds", "1001"],
+        ["run", "-", "--episodes", "1000001"],
+    ] {
+        let output = btc(&arguments, Path::new("."), SMALL.as_bytes());
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        let text = String::from_utf8(output.stderr).unwrap();
+        assert!(text.contains("is not in 1..="), "{text}");
+    }
+}
+
+#[test]
+fn tables_of_values() {
+    let refused = |table: &str| {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("table.csv"), table).unwrap();
+        let output = btc(&["decanonicalize", "table.csv"], folder.path(), b"");
+        assert_eq!(output.status.code(), Some(1));
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let digits = "1".repeat(65);
+    let text = refused(&format!("x:number,action\n{digits},go\n2,stay\n"));
+    assert!(text.contains("E0814"), "{text}");
+    // The first row stands for all 300 times 300 values of the others.
+    let values = list((0..300).map(|n| format!("{n},{n},stay\n")), "");
+    let text = refused(&format!("x:number,y:number,action\n-,-,go\n{values}"));
+    assert!(text.contains("E0815"), "{text}");
+}
+
+#[test]
 fn what_is_shown() {
     let mistakes = list((0..150).map(|n| format!("state a{n}: bool = b{n}")), "\n");
     let text = said(&["check", "-"], &mistakes);

@@ -109,12 +109,19 @@ impl Disk for Faulty {
     }
 }
 
-/// A result of `names`, all of the same age.
-fn result(names: &[&str], age: &str) -> Vec<(String, String)> {
+/// A result of these files and `more`, all of the same age.
+fn result(names: &[&str], more: usize, age: &str) -> Vec<(String, String)> {
+    let names = names.iter().map(|name| (*name).to_owned());
+    let more = (0..more).map(|number| format!("table{number}"));
     let texts = names
-        .iter()
-        .map(|name| ((*name).to_owned(), format!("{name} is {age}\n")));
+        .chain(more)
+        .map(|name| (name.clone(), format!("{name} is {age}\n")));
     texts.collect()
+}
+
+/// The result that comes.
+fn new(more: usize) -> Vec<(String, String)> {
+    result(&["a", "b", "c"], more, "new")
 }
 
 fn put(disk: &dyn Disk, folder: &Path, files: &[(String, String)]) -> io::Result<()> {
@@ -134,9 +141,9 @@ enum Before {
     OwnFolder,
 }
 
-fn prepare(place: &Path, before: Before) {
+fn prepare(place: &Path, before: Before, more: usize) {
     if before != Before::Nothing {
-        put(&System, place, &result(&["a", "b", "dropped"], "old")).unwrap();
+        put(&System, place, &result(&["a", "b", "dropped"], more, "old")).unwrap();
     }
     if matches!(before, Before::Own | Before::OwnFolder) {
         fs::write(place.join("notes"), "mine").unwrap();
@@ -148,33 +155,33 @@ fn prepare(place: &Path, before: Before) {
 }
 
 /// Lets each call fail in turn, and gives the number of calls that there are.
-fn fails_everywhere(before: Before, how: Failing, exchanges: bool) -> usize {
-    let expected = |new: bool| {
+fn fails_everywhere(before: Before, how: Failing, exchanges: bool, more: usize) -> usize {
+    let expected = |replaced: bool| {
         let folder = tempfile::tempdir().unwrap();
         let place = folder.path().join("results");
-        prepare(&place, before);
-        if new {
-            put(&System, &place, &result(&["a", "b", "c"], "new")).unwrap();
+        prepare(&place, before, more);
+        if replaced {
+            put(&System, &place, &new(more)).unwrap();
         }
         files(&place)
     };
-    let (old, new) = (expected(false), expected(true));
-    assert!(!new.contains_key("dropped"));
+    let (old, expected) = (expected(false), expected(true));
+    assert!(!expected.contains_key("dropped"));
     for at in 0.. {
         let folder = tempfile::tempdir().unwrap();
         let place = folder.path().join("results");
-        prepare(&place, before);
+        prepare(&place, before, more);
         let disk = Faulty::new(at, how, exchanges);
-        let done = put(&disk, &place, &result(&["a", "b", "c"], "new"));
+        let done = put(&disk, &place, &new(more));
         if !disk.was_met() {
-            assert_eq!(files(&place), new);
+            assert_eq!(files(&place), expected);
             return at;
         }
         let found = files(&place);
         let case = format!("{before:?}, {how:?}, call {at}");
         if done.is_ok() {
-            assert_eq!(found, new, "{case}");
-        } else if found != old && found != new {
+            assert_eq!(found, expected, "{case}");
+        } else if found != old && found != expected {
             // File by file, a kill leaves a mix that says so.
             assert_eq!(how, Failing::Forever, "{case}");
             assert!(before == Before::OwnFolder || !exchanges, "{case}");
@@ -187,8 +194,8 @@ fn fails_everywhere(before: Before, how: Failing, exchanges: bool) -> usize {
         // The next run succeeds, and cleans up. A process that another test starts holds all locks for a moment.
         let left = || leftovers(&place).len() + leftovers(folder.path()).len();
         for _ in 0..100 {
-            put(&System, &place, &result(&["a", "b", "c"], "new")).unwrap();
-            assert_eq!(files(&place), new, "{case}");
+            put(&System, &place, &new(more)).unwrap();
+            assert_eq!(files(&place), expected, "{case}");
             if left() == 0 {
                 break;
             }
@@ -205,11 +212,13 @@ fn a_folder_has_the_old_result_or_the_new() {
     for before in [Before::Nothing, Before::Old, Before::Own, Before::OwnFolder] {
         for how in [Failing::Once, Failing::Forever] {
             for exchanges in [true, false] {
-                faults += fails_everywhere(before, how, exchanges);
+                for more in [0, 5] {
+                    faults += fails_everywhere(before, how, exchanges, more);
+                }
             }
         }
     }
-    assert!(faults > 300, "{faults}");
+    assert!(faults > 1000, "{faults}");
 }
 
 #[test]
