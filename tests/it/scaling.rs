@@ -5,8 +5,10 @@
 //! `*` stands n times, with the number of the copy for `§`, and `SMALL` is the small delivery.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 const SMALL: &str = include_str!("../../examples/delivery_small.bt");
 
@@ -42,9 +44,10 @@ fn with_copies(case: &str, copies: usize) -> String {
 
 /// The instructions that btc takes, and its exit code.
 fn instructions(arguments: &[&str], at: &Path) -> (f64, Option<i32>) {
+    let btc = std::env::var_os("BTC").unwrap_or_else(|| env!("CARGO_BIN_EXE_btc").into());
     let output = Command::new("valgrind")
         .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
-        .arg(env!("CARGO_BIN_EXE_btc"))
+        .arg(btc)
         .args(arguments)
         .current_dir(at)
         .output()
@@ -56,48 +59,68 @@ fn instructions(arguments: &[&str], at: &Path) -> (f64, Option<i32>) {
     (counted.parse().unwrap(), output.status.code())
 }
 
+/// By how much the second doubling of a case costs more than the first, and what a copy costs.
+fn growth(file: &Path, command: &str) -> (f64, f64) {
+    let name = file.file_name().unwrap().to_str().unwrap();
+    let case = fs::read_to_string(file).unwrap();
+    let place = tempfile::tempdir().unwrap();
+    let arguments: Vec<&str> = command
+        .split(' ')
+        .map(|word| if word == "FILE" { name } else { word })
+        .collect();
+    let works = [1, 2, 4].map(|times| {
+        fs::write(place.path().join(name), with_copies(&case, COPIES * times)).unwrap();
+        let (work, code) = instructions(&arguments, place.path());
+        let expected = i32::from(name.starts_with("wrong"));
+        assert!(
+            code == Some(expected) || arguments[0] == "fmt",
+            "{name}, {command}: {code:?}"
+        );
+        work
+    });
+    let growth = (works[2] - works[1]) / (works[1] - works[0]);
+    (growth, (works[1] - works[0]) / COPIES as f64)
+}
+
 #[test]
 #[ignore = "needs Valgrind, and takes minutes"]
 fn twice_the_text_takes_twice_the_work() {
     let only = std::env::var("BTC_SCALING").unwrap_or_default();
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/scaling");
-    let entries = fs::read_dir(folder).unwrap();
-    let mut files: Vec<_> = entries.map(|entry| entry.unwrap().path()).collect();
+    let mut files: Vec<PathBuf> = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.file_name().unwrap().to_str().unwrap().contains(&only))
+        .collect();
     files.sort();
-    let mut slow = Vec::new();
-    let mut asked = 0;
-    for file in files {
-        let name = file.file_name().unwrap().to_str().unwrap();
-        if !name.contains(&only) {
-            continue;
-        }
-        let case = fs::read_to_string(&file).unwrap();
-        let commands = case.lines().next().unwrap().trim_start_matches("// ");
-        let place = tempfile::tempdir().unwrap();
-        for command in commands.split("; ") {
-            let arguments: Vec<&str> = command
-                .split(' ')
-                .map(|word| if word == "FILE" { name } else { word })
-                .collect();
-            let works = [1, 2, 4].map(|times| {
-                fs::write(place.path().join(name), with_copies(&case, COPIES * times)).unwrap();
-                let (work, code) = instructions(&arguments, place.path());
-                let expected = i32::from(name.starts_with("wrong"));
-                assert!(
-                    code == Some(expected) || arguments[0] == "fmt",
-                    "{name}, {command}: {code:?}"
-                );
-                work
+    let asked: Vec<(&PathBuf, String)> = files
+        .iter()
+        .flat_map(|file| {
+            let case = fs::read_to_string(file).unwrap();
+            let commands = case.lines().next().unwrap().trim_start_matches("// ");
+            let commands = commands
+                .split("; ")
+                .map(|command| (file, command.to_owned()));
+            commands.collect::<Vec<_>>()
+        })
+        .collect();
+    assert!(!asked.is_empty(), "there are cases");
+    let (next, slow) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
+    std::thread::scope(|scope| {
+        for _ in 0..std::thread::available_parallelism().map_or(1, usize::from) {
+            scope.spawn(|| {
+                while let Some((file, command)) = asked.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    let (growth, each) = growth(file, command);
+                    let name = file.file_name().unwrap().to_str().unwrap();
+                    println!("{growth:5.2} {each:>10.0} a copy: {name}, {command}");
+                    if growth > LIMIT {
+                        let mut slow = slow.lock().unwrap();
+                        slow.push(format!("{growth:.2}: {name}, {command}"));
+                    }
+                }
             });
-            let growth = (works[2] - works[1]) / (works[1] - works[0]);
-            let each = (works[1] - works[0]) / COPIES as f64;
-            println!("{growth:5.2} {each:>10.0} a copy: {name}, {command}");
-            if growth > LIMIT {
-                slow.push(format!("{growth:.2}: {name}, {command}"));
-            }
-            asked += 1;
         }
-    }
-    assert!(asked > 0, "there are cases");
+    });
+    let slow = slow.into_inner().unwrap();
     assert!(slow.is_empty(), "{}", slow.join("\n"));
 }
