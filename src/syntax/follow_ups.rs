@@ -26,13 +26,18 @@ pub(super) fn left_out(text: &str, tree: &mut File, sorted: Vec<Diagnostic>) -> 
         is_bracket(found.code) && slice(text, found) != "(" || opens_no_node(found)
     };
     let brackets = sorted.iter().filter(wide);
-    let regions: Vec<Span> = brackets.map(|found| region(tree, found)).collect();
+    let is_understood = |item: &&Item| !matches!(item.kind, ItemKind::Error);
+    let understood = tree.items.iter().filter(is_understood);
+    let understood: Vec<u32> = understood.map(|item| item.span.start).collect();
+    let regions = Regions::new(
+        brackets
+            .map(|found| region(tree, &understood, found))
+            .collect(),
+    );
     let place_of = |found: &Diagnostic| {
         let at = found.span();
-        let around = regions
-            .iter()
-            .filter(|region| region.start <= at.start && at.start < region.end);
-        around.fold(lines(text, at), |place, region| place.to(*region))
+        let place = lines(text, at);
+        regions.around(at).map_or(place, |region| place.to(region))
     };
     let mut told: Vec<Diagnostic> = Vec::new();
     let mut rest = sorted.into_iter().peekable();
@@ -294,24 +299,53 @@ fn is_beside(text: &str, last: &Diagnostic, next: &Diagnostic) -> bool {
 }
 
 /// What a mistake in brackets may have taken along: its item, for a bracket that closes nothing the one before it, and
-/// what follows up to the next item that was understood.
-fn region(tree: &File, bracket: &Diagnostic) -> Span {
+/// what follows up to the next item that was understood. `understood` is where such items begin.
+fn region(tree: &File, understood: &[u32], bracket: &Diagnostic) -> Span {
     let at = bracket.span();
-    let mut own: Option<&Item> = None;
-    let mut end = tree.span.end;
-    for item in &tree.items {
-        if item.span.start <= at.start {
-            let before = item.span.end <= at.start;
-            own = Some(item).filter(|_| !before || bracket.code == Code::E0103);
-        } else if !matches!(item.kind, ItemKind::Error) {
-            end = item.span.start;
-            break;
-        }
-    }
+    let begun = tree
+        .items
+        .partition_point(|item| item.span.start <= at.start);
+    let own = begun.checked_sub(1).and_then(|last| tree.items.get(last));
+    let own = own.filter(|item| item.span.end > at.start || bracket.code == Code::E0103);
+    let next = understood.partition_point(|start| *start <= at.start);
     Span {
         start: own.map_or(at.start, |item| item.span.start),
-        end,
+        end: understood.get(next).copied().unwrap_or(tree.span.end),
         ..at
+    }
+}
+
+/// Places that may overlap.
+struct Regions {
+    /// By where they begin.
+    sorted: Vec<Span>,
+    /// For each, how far it and those before it reach.
+    reach: Vec<u32>,
+}
+
+impl Regions {
+    fn new(mut sorted: Vec<Span>) -> Self {
+        sorted.sort_by_key(|region| region.start);
+        let furthest = sorted.iter().scan(0, |furthest, region| {
+            *furthest = region.end.max(*furthest);
+            Some(*furthest)
+        });
+        let reach = furthest.collect();
+        Self { sorted, reach }
+    }
+
+    /// What those cover together in which `at` begins.
+    fn around(&self, at: Span) -> Option<Span> {
+        let begun = self
+            .sorted
+            .partition_point(|region| region.start <= at.start);
+        let first = self.reach.partition_point(|end| *end <= at.start);
+        let end = self.reach.get(begun.checked_sub(1)?)?;
+        let first = self.sorted.get(first).filter(|_| first < begun)?;
+        Some(Span {
+            end: *end,
+            ..*first
+        })
     }
 }
 

@@ -102,7 +102,7 @@ impl<'i> Builder<'i> {
     fn failure_among(&self, seen: usize, strict: Rule, from: usize, start: usize) -> Failure {
         let first = self.tokens.partition_point(|token| token.start < from);
         let begin = |at: usize| self.tokens.get(first + at).map(|token| token.start);
-        let near = std::iter::successors(Some(seen), |seen| Some(seen * 4))
+        let near = std::iter::successors(Some(seen), |seen| Some(seen * 2))
             .map_while(|seen| Some((begin(seen)?, begin(seen - TOKENS_AHEAD)?)))
             .find_map(|(end, known)| {
                 let near = self.failure_within(strict, from..end, start)?;
