@@ -33,6 +33,15 @@ const NOWHERE: f64 = -1.0;
 /// The code of the nearest wall, beyond those of all walls.
 const NEAREST_WALL: f64 = 1e9;
 
+/// Which robots a parameter of a family stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Robots {
+    /// All but the one that reads: a robot is never its own target.
+    Others,
+    /// It, too.
+    All,
+}
+
 /// One of a family, with the codes of its arguments.
 #[derive(Clone, Debug)]
 pub struct Member<T> {
@@ -271,7 +280,11 @@ impl<'a> Checker<'a> {
     }
 
     /// Every way to give parameters members of their types; what has none is reported.
-    pub fn combinations(&mut self, params: &'a Params) -> Option<Vec<Vec<Binding<'a>>>> {
+    pub fn combinations(
+        &mut self,
+        params: &'a Params,
+        robots: Robots,
+    ) -> Option<Vec<Vec<Binding<'a>>>> {
         let mut ranges = Vec::new();
         for param in &params.params {
             if self.unsure.contains(&param.span) {
@@ -280,7 +293,10 @@ impl<'a> Checker<'a> {
             let ty = self.type_expr(&param.ty);
             let words = param.ty.factors.iter().map(|(name, _)| name.name.as_str());
             let called = words.collect::<Vec<_>>().join("/");
-            let members = self.members_of(&ty, param.ty.span, &called)?;
+            let mut members = self.members_of(&ty, param.ty.span, &called)?;
+            if ty == Type::Robot && robots == Robots::All {
+                members.insert(0, Value::Robot(self.subject));
+            }
             ranges.push((&param.name, ty, members));
         }
         self.products(ranges, params.span)

@@ -2,7 +2,9 @@
 //! learned from.
 
 mod author;
+mod coverage;
 mod expressions;
+mod files;
 mod items;
 mod trees;
 mod world;

@@ -3,7 +3,7 @@
 use crate::check::Checker;
 use crate::check::context::{Binding, Context, Region};
 use crate::check::expr::plain_ref;
-use crate::check::members::Member;
+use crate::check::members::{Member, Robots};
 use crate::check::names::Decl;
 use crate::check::types::{Type, Typed, Value};
 use crate::diagnostic::{Applicability, Code, Diagnostic};
@@ -29,7 +29,7 @@ impl<'a> Checker<'a> {
         let mut members = vec![(Vec::new(), when)];
         if let Some(params) = &event.params {
             let clean = self.bodies.clean.get(&event.name.span) == Some(&true);
-            let Some(scopes) = self.combinations(params).filter(|_| clean) else {
+            let Some(scopes) = self.combinations(params, Robots::Others).filter(|_| clean) else {
                 self.events.insert(&event.name.name, Vec::new());
                 return;
             };
@@ -254,7 +254,7 @@ impl<'a> Checker<'a> {
         if wrong || !fits {
             return;
         }
-        let Some(scopes) = self.combinations(params) else {
+        let Some(scopes) = self.combinations(params, Robots::Others) else {
             return;
         };
         let family = self.events.get(name.name.as_str()).cloned();

@@ -2,7 +2,7 @@
 
 use crate::check::Checker;
 use crate::check::context::{Binding, Context, Region};
-use crate::check::members::Member;
+use crate::check::members::{Member, Robots};
 use crate::check::names::TypeDecl;
 use crate::check::types::{Type, Typed, Value};
 use crate::diagnostic::{Code, Diagnostic};
@@ -55,7 +55,7 @@ impl<'a> Checker<'a> {
         self.context.scope.clear();
         let wrong = found.iter().any(Diagnostic::is_error);
         self.diagnostics.extend(found);
-        let Some(members) = self.combinations(params).filter(|_| !wrong) else {
+        let Some(members) = self.combinations(params, Robots::All).filter(|_| !wrong) else {
             // What is done with it has mistakes of its own to tell.
             if let Some(written) = &state.ty {
                 let (ty, members) = (self.type_expr(written), Vec::new());

@@ -67,6 +67,8 @@ pub(super) struct Known {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Choice {
     pub(super) call: String,
+    /// What stands for it and others in `choose`.
+    pub(super) family: Option<String>,
     pub(super) succeeds: bool,
     pub(super) fails: bool,
 }
@@ -80,6 +82,8 @@ pub(super) struct Region {
     pub(super) elapsed: bool,
     /// What another robot reads, which can read neither the sensors of the first nor others but the first.
     pub(super) script: bool,
+    /// `tune`.
+    pub(super) tunes: bool,
 }
 
 /// What the program at hand has declared.
@@ -94,6 +98,8 @@ pub(super) struct Declared {
     pub(super) walls: Vec<String>,
     pub(super) doors: Vec<String>,
     pub(super) robots: Vec<String>,
+    /// What they do.
+    pub(super) scripts: Vec<&'static str>,
     pub(super) enums: Vec<(&'static str, Vec<&'static str>)>,
     pub(super) sensors: Vec<String>,
     pub(super) holonomic: bool,
@@ -105,6 +111,8 @@ pub(super) struct Declared {
     pub(super) events: Vec<Known>,
     /// The behaviours to choose from.
     pub(super) choices: Vec<Choice>,
+    /// Those that the tree at hand has.
+    pub(super) selected: Vec<Choice>,
 }
 
 /// An author of programs.
@@ -147,7 +155,10 @@ impl Author {
     /// A name that nothing has.
     pub(super) fn name(&mut self, word: &str) -> String {
         self.fresh += 1;
-        format!("{word}_{}", self.fresh)
+        match self.chance(4) {
+            true => format!("`{word} no. {}`", self.fresh),
+            false => format!("{word}_{}", self.fresh),
+        }
     }
 
     /// Some of these, at least one.
@@ -167,6 +178,19 @@ impl Author {
             .iter()
             .map(|choice| choice.call.clone())
             .collect()
+    }
+
+    /// A behaviour that another robot runs, and that robot.
+    pub(super) fn by_another(&mut self) -> Option<(String, String)> {
+        let robots = self.has.robots.clone();
+        let at = (!robots.is_empty()).then(|| self.below(robots.len()))?;
+        let of: &[&str] = match self.has.scripts[at] {
+            "roam" => &["wander", "wait(300 ms)"],
+            "stalk" => &["wander"],
+            "attend(post)" => &["goto(post)", "flee(worker)"],
+            _ => &["wander"],
+        };
+        Some((self.pick(of).to_owned(), robots[at].clone()))
     }
 
     /// A type that a family may range over.

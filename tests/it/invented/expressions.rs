@@ -65,7 +65,26 @@ impl Author {
                 "(if {condition} {{ {a} }} else {{ let {name} = {value} {name} + {rest} }})"
             );
         }
+        if self.chance(20) {
+            let (other, c) = (self.truth(0, region), self.leaf(ty, region));
+            return format!("(if {condition} {{ {a} }} else if {other} {{ {c} }} else {{ {b} }})");
+        }
         format!("(if {condition} {{ {a} }} else {{ {b} }})")
+    }
+
+    /// A constant that may be tuned.
+    pub(super) fn tuned(&mut self, ty: &Type) -> Option<&'static str> {
+        let of: &[&str] = match ty {
+            Type::Number => &["tune(2)", "tune(-1, -3 .. 0)"],
+            Type::Ratio => &["tune(25%, 5% .. 60%)"],
+            Type::Length => &["tune(1 m)", "tune(35 cm, 200 mm .. 0.5 m)"],
+            Type::Time => &["tune(2 s, 500 ms .. 5 s)"],
+            Type::Angle => &["tune(30 deg, 10 deg .. 1 rad)"],
+            Type::Speed => &["tune(0.2 m/s)"],
+            Type::Turn => &["tune(1 rad/s, 20 deg/s .. 2 rad/s)"],
+            _ => return None,
+        };
+        Some(self.pick(of))
     }
 
     /// Something that has a name and the type.
@@ -88,10 +107,23 @@ impl Author {
             .iter()
             .map(|ty| self.expr(ty, depth.min(1), steady(region)))
             .collect();
-        Some(format!("{}({})", known.name, args.join(", ")))
+        // A shared expression has one parameter, `p`.
+        let is_shared = self.has.shared.iter().any(|it| it.name == known.name);
+        let named = if is_shared && self.chance(30) {
+            "p = "
+        } else {
+            ""
+        };
+        Some(format!("{}({named}{})", known.name, args.join(", ")))
     }
 
     fn leaf(&mut self, ty: &Type, region: Region) -> String {
+        if region.tunes
+            && self.chance(10)
+            && let Some(tuned) = self.tuned(ty)
+        {
+            return tuned.to_owned();
+        }
         let of: Vec<&str> = match ty {
             Type::Bool => vec!["true", "false", "touching"],
             Type::Number => vec!["0", "1", "2.5", "7", "1e-1", "1_0"],
@@ -170,7 +202,10 @@ impl Author {
             5 => format!("visible({})", self.target(depth, region)),
             6 => {
                 let place = self.pick(&self.has.places.clone());
-                format!("inside({place})")
+                match self.by_another().filter(|_| !region.script) {
+                    Some((_, robot)) => format!("inside({place}, by = {robot})"),
+                    None => format!("inside({place})"),
+                }
             }
             7 => {
                 let kind = Type::Kind(self.has.kinds[0].0);
@@ -181,6 +216,11 @@ impl Author {
                 let ty = self.ranging();
                 let (a, b) = (self.expr(&ty, depth, region), self.leaf(&ty, region));
                 format!("({a} {} {b})", self.pick(&["==", "!="]))
+            }
+            9 if self.chance(30) => {
+                let kind = self.has.kinds[1].0;
+                let name = self.name("t");
+                format!("(nearest({name} in {kind}: visible({name})) != nowhere)")
             }
             9 => {
                 let all = self.pick(&["any", "all"]);
@@ -209,9 +249,10 @@ impl Author {
             0 => format!("({a} + {b})"),
             1 => format!("({a} - {b})"),
             2 => format!("{}({a}, {b})", self.pick(&["min", "max"])),
+            3 if self.chance(30) => format!("clamp({a}, {b}, {b} + abs({a}))"),
             3 => format!("clamp({a}, abs({b}))"),
             4 => format!("abs({a})"),
-            5 => format!("(-{a})"),
+            5 => format!("({}{a})", self.pick(&["-", "+"])),
             6 if *ty != Type::Ratio => {
                 let n = self.expr(&Type::Number, depth, region);
                 format!("({n} * {a})")
@@ -235,7 +276,7 @@ impl Author {
             Type::Number => match self.below(6) {
                 0 => self.binder("count", depth, region),
                 1 => {
-                    let f = self.pick(&["sin", "cos"]);
+                    let f = self.pick(&["sin", "cos", "tan"]);
                     let a = self.expr(&Type::Angle, depth, region);
                     format!("{f}({a})")
                 }
@@ -288,12 +329,14 @@ impl Author {
                     let b = self.expr(&Type::Length, depth, region);
                     format!("atan2({a}, {b})")
                 }
-                4 => format!("asin(clamp({n}, 1))"),
+                4 => self
+                    .pick(&["asin(clamp(X, 1))", "acos(clamp(X, 1))", "atan(X)"])
+                    .replace('X', &n),
                 _ if self.has.facing.is_empty() => self.leaf(ty, region),
                 _ => format!("facing({})", self.pick(&self.has.facing.clone())),
             },
             Type::Speed => format!("(0.5 Hz * distance({}))", self.target(depth, region)),
-            Type::Turn => format!("(2 Hz * bearing({}))", self.target(depth, region)),
+            Type::Turn => format!("(beat * bearing({}))", self.target(depth, region)),
             Type::Time => format!("(distance({}) / max_speed)", self.target(depth, region)),
             _ => self.leaf(ty, region),
         }

@@ -11,26 +11,30 @@ const EVENT: Region = Region {
     draws: false,
     elapsed: false,
     script: false,
+    tunes: false,
+};
+/// What is looked at before every decision.
+const LOOKED_AT: Region = Region {
+    tunes: true,
+    ..EVENT
 };
 const EFFECT: Region = Region {
     draws: true,
-    elapsed: false,
-    script: false,
+    ..EVENT
 };
 const LAW: Region = Region {
-    draws: false,
     elapsed: true,
-    script: false,
+    ..LOOKED_AT
 };
-const CONTROL: Region = Region {
+const CONTROL: Region = Region { draws: true, ..LAW };
+/// Where a behaviour starts: its own variables are not known yet, nor how long it has run.
+const CONTROL_START: Region = Region {
     draws: true,
-    elapsed: true,
-    script: false,
+    ..LOOKED_AT
 };
 const SCRIPT: Region = Region {
-    draws: false,
-    elapsed: false,
     script: true,
+    ..EVENT
 };
 
 impl Author {
@@ -41,7 +45,7 @@ impl Author {
             ("gear", vec!["off", "slow", "fast"]),
             ("cargo", vec!["nothing", "parcel"]),
         ];
-        out.push_str("enum gear { off, slow, fast }\nenum cargo { nothing, parcel }\n\n");
+        out.push_str("let beat: frequency = 2 Hz\n\nenum gear { off, slow, fast }\nenum cargo { nothing, parcel }\n\n");
         self.world(&mut out);
         self.states(&mut out);
         self.shared(&mut out);
@@ -52,7 +56,8 @@ impl Author {
         self.scripts(&mut out);
         let observed = self.task(&mut out);
         let trees = self.trees(&mut out, &observed);
-        self.learner(&mut out);
+        self.learner(&mut out, "learned", "work");
+        self.errands(&mut out);
         self.claims(&mut out, &trees);
         (out, trees)
     }
@@ -82,7 +87,14 @@ impl Author {
         for _ in 0..self.count(2, 6) {
             let (name, ty) = (self.name("s"), self.anything());
             let value = self.constant(&ty);
-            let _ = writeln!(out, "state {name}: {} = {value}", ty.written());
+            let _ = match self.chance(80) || matches!(ty, Type::Kind(_)) {
+                true => writeln!(
+                    out,
+                    "/// What {name} is.\nstate {name}: {} = {value}",
+                    ty.written()
+                ),
+                false => writeln!(out, "state {name} = {value} // as it says"),
+            };
             self.has.states.push(Known {
                 name,
                 params: Vec::new(),
@@ -110,15 +122,29 @@ impl Author {
     fn shared(&mut self, out: &mut String) {
         for _ in 0..self.below(3) {
             let (name, ty) = (self.name("l"), self.anything());
-            let param = self.pick(&[Type::Number, Type::Length, Type::Angle, Type::Bool]);
+            let params = [
+                Type::Number,
+                Type::Length,
+                Type::Angle,
+                Type::Bool,
+                Type::Speed,
+            ];
+            let param = self.pick(&params);
+            let written = match param {
+                Type::Speed => self.pick(&["speed", "length / time"]),
+                _ => param.written(),
+            };
+            let default = match self.chance(30) {
+                true => format!(" = {}", self.constant(&param)),
+                false => String::new(),
+            };
             let bound = [("p".to_owned(), param.clone())];
             let value = self.with(&bound, |it| it.expr(&ty, DEPTH, EVENT));
             let _ = match self.chance(50) {
-                true => writeln!(out, "let {name}(p: {}) = {value}", param.written()),
+                true => writeln!(out, "let {name}(p: {written}{default}) = {value}"),
                 false => writeln!(
                     out,
-                    "let {name}(p: {}): {} = {{\n let q = p\n {value}\n}}",
-                    param.written(),
+                    "let {name}(p: {written}{default}): {} = {{\n let q = p\n {value}\n}}",
                     ty.written()
                 ),
             };
@@ -135,7 +161,7 @@ impl Author {
         let mut made = Vec::new();
         for _ in 0..self.count(2, 4) {
             let name = self.name("p");
-            let body = self.expr(&Type::Bool, DEPTH, EVENT);
+            let body = self.expr(&Type::Bool, DEPTH, LOOKED_AT);
             let _ = writeln!(out, "predicate {name} = {body}");
             made.push(Known {
                 name,
@@ -146,7 +172,7 @@ impl Author {
         for _ in 0..self.count(1, 2) {
             let (name, of) = (self.name("p"), self.ranging());
             let bound = [("m".to_owned(), of.clone())];
-            let body = self.with(&bound, |it| it.expr(&Type::Bool, DEPTH, EVENT));
+            let body = self.with(&bound, |it| it.expr(&Type::Bool, DEPTH, LOOKED_AT));
             let _ = writeln!(out, "predicate {name}(m: {}) = {body}", of.written());
             made.push(Known {
                 name,
@@ -168,28 +194,44 @@ impl Author {
             ("goto(post, margin = 10 cm)".to_owned(), yes, yes),
             (format!("approach({shop})"), yes, yes),
             ("approach((1 m, 3 m), within = 20 cm)".to_owned(), yes, yes),
-            (format!("follow({near})"), no, no),
+            (format!("follow({near}, gap = 50 cm)"), no, no),
             (format!("chase({near})"), no, no),
             ("flee(nearest_wall, safe = 50 cm)".to_owned(), yes, no),
             (format!("patrol({tree}, post)"), no, yes),
             (format!("turn_to({shop}, slack = 10 deg)"), yes, no),
             ("follow_wall".to_owned(), no, no),
+            (
+                "follow_wall(gap = 40 cm, catch = 60 cm, lose = 1 m)".to_owned(),
+                no,
+                no,
+            ),
             ("wander(leg = 60 cm)".to_owned(), yes, no),
             ("idle".to_owned(), no, no),
             ("wait(500 ms)".to_owned(), yes, no),
+            ("wait(duration = 800 ms)".to_owned(), yes, no),
         ];
         let robot = self.has.robots.first();
         library.extend(robot.map(|robot| (format!("chase({robot})"), no, no)));
         let facing = self.has.facing.first();
-        library.extend(facing.map(|place| (format!("dock({place})"), yes, yes)));
+        library.extend(facing.map(|place| {
+            let call = format!("dock(station = {place}, reach = 30 cm, slack = 5 deg)");
+            (call, yes, yes)
+        }));
         let mut library: Vec<Choice> = library
             .into_iter()
             .map(|(call, succeeds, fails)| Choice {
                 call,
+                family: None,
                 succeeds,
                 fails,
             })
             .collect();
+        if self.chance(20) {
+            out.push_str("behavior idle { succeed when elapsed > 1 s }\n\n");
+            for idle in library.iter_mut().filter(|it| it.call == "idle") {
+                idle.succeeds = true;
+            }
+        }
         for _ in 0..self.count(1, 3) {
             let choice = self.behavior(out);
             library.push(choice.clone());
@@ -199,6 +241,22 @@ impl Author {
             let choice = self.pick(&library);
             if !self.has.choices.contains(&choice) {
                 self.has.choices.push(choice);
+            }
+        }
+        if self.chance(30) {
+            let family = self.pick(&[
+                "goto(t in KIND, margin = 15 cm)",
+                "chase(t in KIND, margin = 15 cm)",
+            ]);
+            let ends = family.starts_with("goto");
+            let kind = self.pick(&["trees", "shops"]);
+            for member in self.members(&Type::Kind(kind)) {
+                self.has.choices.push(Choice {
+                    call: family.replace("t in KIND", &member),
+                    family: Some(family.replace("KIND", kind)),
+                    succeeds: ends,
+                    fails: ends,
+                });
             }
         }
         let (alias, of) = (self.name("alias"), self.pick(&library));
@@ -228,7 +286,10 @@ impl Author {
         for _ in 0..self.below(3) {
             let (local, ty) = (self.name("v"), self.anything());
             let value = self.with(&bound, |it| it.expr(&ty, 2, CONTROL_START));
-            let _ = writeln!(out, "local {local}: {} = {value}", ty.written());
+            let _ = match self.chance(80) || matches!(ty, Type::Kind(_)) {
+                true => writeln!(out, "local {local}: {} = {value}", ty.written()),
+                false => writeln!(out, "local {local} = {value}"),
+            };
             bound.push((local.clone(), ty.clone()));
             locals.push(Known {
                 name: local,
@@ -270,6 +331,7 @@ impl Author {
         };
         Choice {
             call,
+            family: None,
             succeeds,
             fails,
         }
@@ -345,8 +407,15 @@ impl Author {
                 let condition = self.expr(&Type::Bool, 2, region);
                 let _ = writeln!(text, "if {condition} {{");
                 self.statement(text, variables, depth - 1, region);
-                text.push_str("} else {\n");
-                self.statement(text, variables, depth - 1, region);
+                if self.chance(30) {
+                    let other = self.expr(&Type::Bool, 1, region);
+                    let _ = writeln!(text, "}} else if {other} {{");
+                    self.statement(text, variables, depth - 1, region);
+                }
+                if self.chance(70) {
+                    text.push_str("} else {\n");
+                    self.statement(text, variables, depth - 1, region);
+                }
                 text.push_str("}\n");
             }
             _ => {
@@ -378,9 +447,18 @@ impl Author {
             ];
             let moments: Vec<_> = moments.iter().filter(|(_, may)| *may).collect();
             let ((moment, _), behavior) = (self.pick(&moments), behavior.call);
-            let body = match self.below(3) {
-                0 => state,
-                1 => format!("{moment}({behavior})"),
+            let other = self.by_another();
+            let body = match (self.below(4), other) {
+                (0, _) => state,
+                (1, Some((does, robot))) => {
+                    let moment = self.pick(&["success", "failure", "running"]);
+                    let moment = match does.as_str() {
+                        "goto(post)" => moment,
+                        _ => self.pick(&["success", "running"]),
+                    };
+                    format!("{moment}({does}, by = {robot})")
+                }
+                (1 | 2, _) => format!("{moment}({behavior})"),
                 _ => format!("{moment}({behavior}) and {state}"),
             };
             let _ = match &family {
@@ -416,7 +494,25 @@ impl Author {
             self.with(&bound, |it| it.statement(out, &states, 2, EFFECT));
             out.push_str("}\n");
         }
+        if self.chance(40) {
+            let condition = self.happening();
+            let _ = writeln!(out, "on {condition} {{");
+            self.statement(out, &states, 2, EFFECT);
+            out.push_str("}\n");
+        }
         out.push('\n');
+    }
+
+    /// What happens in a tick and has no name.
+    fn happening(&mut self) -> String {
+        let condition = self.expr(&Type::Bool, 2, EVENT);
+        let ends = |choice: &&Choice| choice.succeeds;
+        match self.has.choices.iter().find(ends) {
+            Some(choice) if self.random.chance(0.5) => {
+                format!("success({}) and {condition}", choice.call)
+            }
+            _ => condition,
+        }
     }
 
     /// What other robots do.
@@ -461,8 +557,16 @@ impl Author {
             }
         }
         let _ = writeln!(out, "observe {}", observe.join(", "));
-        let _ = writeln!(out, "choose {}", self.calls().join(", "));
-        if self.chance(70) {
+        let mut choose: Vec<String> = Vec::new();
+        for choice in &self.has.choices {
+            let written = choice.family.as_ref().unwrap_or(&choice.call);
+            if !choose.contains(written) {
+                choose.push(written.clone());
+            }
+        }
+        let _ = writeln!(out, "choose {}", choose.join(", "));
+        let history = self.chance(70);
+        if history {
             let window = self.count(1, 3);
             let _ = writeln!(out, "history last {window} success, failure");
             for behavior in self.has.choices.clone() {
@@ -470,6 +574,7 @@ impl Author {
                     call,
                     succeeds,
                     fails,
+                    ..
                 } = behavior;
                 atoms.extend(succeeds.then(|| format!("done({call})")));
                 atoms.extend(fails.then(|| format!("failed({call})")));
@@ -478,7 +583,7 @@ impl Author {
         if self.chance(50) {
             out.push_str("patience 5 s\n");
         }
-        self.start(out);
+        self.start(out, history);
         let mut events: Vec<String> = Vec::new();
         for event in &self.has.events {
             events.push(match event.params.first() {
@@ -489,10 +594,18 @@ impl Author {
         if self.chance(40) {
             let _ = writeln!(out, "end on {}", events[0]);
         }
+        if self.chance(20) {
+            let condition = self.happening();
+            let _ = writeln!(out, "end on {condition}");
+        }
         out.push_str("end after 1_000 ticks\nreward {\n");
         for event in self.some(&events) {
             let value = self.expr(&Type::Number, 2, EVENT);
             let _ = writeln!(out, "on {event}: {value}");
+        }
+        if self.chance(30) {
+            let condition = self.happening();
+            let _ = writeln!(out, "on {condition}: 0.5");
         }
         if self.chance(50) {
             out.push_str("per 1 s: -0.05\n");
@@ -508,21 +621,42 @@ impl Author {
         atoms
     }
 
-    fn start(&mut self, out: &mut String) {
+    fn start(&mut self, out: &mut String, history: bool) {
         if self.chance(15) {
             return;
         }
         out.push_str("start {\n");
-        match self.below(4) {
+        match self.below(6) {
             0 => out.push_str("pose = anywhere\n"),
             1 => out.push_str("position = (uniform(0 m, 6 m), uniform(0 m, 4 m))\nheading = uniform(-180 deg, 180 deg)\n"),
             2 => out.push_str("pose = one_of(post, nearest(t in trees))\n"),
+            3 => out.push_str("pose = anywhere(post)\n"),
+            4 => out.push_str("pose = if chance(50%) { post } else { post }\n"),
             _ => {}
         }
         if let Some(robot) = self.has.robots.first()
             && self.random.chance(0.5)
         {
-            let _ = writeln!(out, "pose({robot}) = anywhere");
+            let robot = robot.clone();
+            let pose = self.pick(&[
+                "pose(R) = anywhere",
+                "position(R) = (uniform(0 m, 6 m), 2 m)",
+                "heading(R) = 90 deg\nposition(R) = (2 m, uniform(1 m, 3 m))",
+            ]);
+            let _ = writeln!(out, "{}", pose.replace('R', &robot));
+        }
+        let ended = self.has.choices.iter().find(|choice| choice.succeeds);
+        if let Some(ended) = ended.filter(|_| history) {
+            let ended = ended.call.clone();
+            let _ = match self.below(4) {
+                0 => writeln!(out, "history = success({ended})"),
+                1 => writeln!(
+                    out,
+                    "history = if chance(30%) {{ success({ended}) }} else {{ none }}"
+                ),
+                2 => writeln!(out, "history = none"),
+                _ => Ok(()),
+            };
         }
         for state in self.has.states.clone() {
             if self.chance(50) {
@@ -543,14 +677,18 @@ impl Author {
         out.push_str("}\n");
     }
 
-    fn learner(&mut self, out: &mut String) {
+    fn learner(&mut self, out: &mut String, name: &str, task: &str) {
         let method = self.pick(&["q_learning", "double_q", "model"]);
         let _ = writeln!(
             out,
-            "learn learned for work {{\nmethod = {method}\nepisodes = 20 of 200 ticks"
+            "learn {name} for {task} {{\nmethod = {method}\nepisodes = 20 of 200 ticks"
         );
         if method != "model" {
-            let rate = self.pick(&["max(visits^-0.7, 0.02)", "0.2 -> 0.02"]);
+            let rate = self.pick(&[
+                "max(visits^-0.7, 0.02)",
+                "0.2 -> 0.02",
+                "0.5 - 0.4 * progress",
+            ]);
             let _ = writeln!(out, "rate = {rate}");
         }
         match self.below(if method == "model" { 3 } else { 2 }) {
@@ -561,9 +699,40 @@ impl Author {
         let unseen = self.pick(&self.calls());
         let _ = writeln!(
             out,
-            "unseen = {unseen}\ndwell = 300 ms\nseed = {}\n}}\n",
+            "unseen = {unseen}\ndwell = 300 ms\nseed = {}",
             self.below(100)
         );
+        if self.chance(50) {
+            let explore = self.pick(&["50% -> 2%", "min(1, visits^-0.5)"]);
+            let _ = writeln!(out, "explore = {explore}\ninitial = 0.5");
+        }
+        if self.chance(30) {
+            out.push_str("start {\npose = anywhere\n}\n");
+        }
+        out.push_str("}\n\n");
+    }
+
+    /// A second task, with a tree and a learner.
+    fn errands(&mut self, out: &mut String) {
+        if self.chance(60) {
+            return;
+        }
+        let plain = |predicate: &&Known| predicate.params.is_empty();
+        let predicate = self.has.predicates.iter().find(plain).unwrap();
+        let guard = predicate.name.clone();
+        let first = self.has.choices[0].clone();
+        self.has.choices = vec![first.clone()];
+        let choose = first.family.unwrap_or(first.call.clone());
+        let _ = writeln!(
+            out,
+            "task errands {{\nobserve {guard}\nchoose {choose}\nend after 100 ticks\nreward {{ per 1 s: -0.1 }}\n}}\n"
+        );
+        let _ = writeln!(
+            out,
+            "tree errand_boy for errands = selector {{ {guard} => {0}, {0} }}\n",
+            first.call
+        );
+        self.learner(out, "errands_learned", "errands");
     }
 
     fn claims(&mut self, out: &mut String, trees: &[String]) {
@@ -584,12 +753,6 @@ impl Author {
             "claim {tree} reaches {event} within 1 min with probability >= 10%"
         );
         let _ = writeln!(out, "claim {} equals {}", trees[0], trees[trees.len() - 1]);
+        let _ = writeln!(out, "claim {tree} never {event} within 500 ticks");
     }
 }
-
-/// Where a behaviour starts: its own variables are not known yet, nor how long it has run.
-const CONTROL_START: Region = Region {
-    draws: true,
-    elapsed: false,
-    script: false,
-};

@@ -12,11 +12,45 @@ impl Author {
         );
         let names = vec!["hand".to_owned(), "other_hand".to_owned()];
         for name in &names {
+            self.has.selected.clear();
             let node = self.node(atoms, 3);
             let _ = writeln!(out, "tree {name} for work = {node}");
+            self.test(out, name, atoms);
         }
         out.push('\n');
         names
+    }
+
+    /// A test of a tree, which may well fail.
+    fn test(&mut self, out: &mut String, tree: &str, atoms: &[String]) {
+        let asked = |atom: &&String| !atom.starts_with("done(") && !atom.starts_with("failed(");
+        let given: Vec<String> = atoms.iter().filter(asked).cloned().collect();
+        let _ = writeln!(out, "test \"{tree} goes on\" of {tree} {{");
+        let changes = |author: &mut Self| {
+            let change = author.pick(&given);
+            let not = author.pick(&["", "not "]);
+            format!("{not}{change}")
+        };
+        let _ = writeln!(out, "given {}", changes(self));
+        for _ in 0..self.count(1, 3) {
+            let change = changes(self);
+            let lasting = self.pick(&["", " for 3 ticks", " for 1 s"]);
+            let selected = self.has.selected.clone();
+            let expected = match selected.is_empty() {
+                true => format!("{tree} fails"),
+                false => {
+                    let choice = self.pick(&selected);
+                    let answer = match (choice.succeeds, choice.fails) {
+                        (true, _) => " succeeds",
+                        (_, true) => " fails",
+                        _ => "",
+                    };
+                    format!("{}{answer}, {tree} runs", choice.call)
+                }
+            };
+            let _ = writeln!(out, "tick {change}{lasting} => {expected}");
+        }
+        out.push_str("}\n");
     }
 
     fn guard(&mut self, atoms: &[String], depth: usize) -> String {
@@ -38,7 +72,12 @@ impl Author {
             return match self.below(8) {
                 0 => self.guard(atoms, 1),
                 1 => "errand(post)".to_owned(),
-                _ => self.pick(&self.calls()),
+                2 => "errand(n = 1, to = post)".to_owned(),
+                _ => {
+                    let choice = self.pick(&self.has.choices.clone());
+                    self.has.selected.push(choice.clone());
+                    choice.call
+                }
             };
         }
         let depth = depth - 1;
@@ -80,7 +119,11 @@ impl Author {
                 self.count(1, 3),
                 self.node(atoms, depth)
             ),
-            8 => format!("timeout(1500 ms) {{ {} }}", self.node(atoms, depth)),
+            8 => format!(
+                "timeout({}) {{ {} }}",
+                self.pick(&["1500 ms", "tune(1 s, 500 ms .. 3 s)"]),
+                self.node(atoms, depth)
+            ),
             _ => format!("selector {{ {} }}", children(self)),
         }
     }

@@ -63,6 +63,7 @@ impl Author {
             let runs = self.pick(&["roam", "stalk", "attend(post)", "wander"]);
             self.robot(out, &name, Some(runs));
             self.has.robots.push(name);
+            self.has.scripts.push(runs);
         }
         out.push_str("}\n\n");
     }
@@ -125,7 +126,10 @@ impl Author {
                     ("left", "scanner(from = 0 deg, to = 180 deg, range = 3 m"),
                     ("right", "scanner(from = -180 deg, to = 0 deg, range = 3 m"),
                     ("ahead", "range_finder(at = 10 deg, range = 2 m"),
-                    ("call", "beacon(target = post, range = 3 m"),
+                    (
+                        "call",
+                        "beacon(target = post, range = 3 m, sector = 120 deg",
+                    ),
                 ] {
                     let noise = self.pick(&["", ", noise = 2 cm"]);
                     let _ = writeln!(out, "        sensor {name} = {sensor}{noise})");
