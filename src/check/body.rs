@@ -2,6 +2,7 @@
 
 use super::Checker;
 use super::context::{Binding, Context, Region};
+use super::report::Draft;
 use crate::diagnostic::{Code, Diagnostic, Label};
 use crate::source::Span;
 use crate::syntax::ast::{Ident, Ref};
@@ -9,6 +10,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// How many bodies may be checked within one another.
 const DEEP: usize = 48;
+
+/// How many definitions of a circle are shown.
+const SHOWN: usize = 5;
 
 /// How many bodies a program may unroll altogether.
 const MANY: usize = 200_000;
@@ -115,15 +119,7 @@ impl<'a> Checker<'a> {
     ) -> Option<T> {
         let name = reference.name.name.as_str();
         if self.bodies.is_open(body) {
-            return self
-                .error(
-                    Code::E0205,
-                    reference.name.span,
-                    format!("`{name}` is defined by itself"),
-                )
-                .label("this use closes the circle")
-                .also(body, "its definition starts here")
-                .none();
+            return self.circle(body, &reference.name, "").none();
         }
         if self.bodies.clean.get(&body) == Some(&false) {
             return None;
@@ -157,6 +153,30 @@ impl<'a> Checker<'a> {
             }
         }
         seen.is_empty().then_some(result)
+    }
+
+    /// Reports that a use leads back to the body that it is in, with the way there.
+    pub fn circle(&mut self, body: Span, used: &Ident, what: &str) -> Draft<'_> {
+        let opened = self.bodies.open.iter();
+        let way: Vec<Open> = opened.skip_while(|open| open.at != body).copied().collect();
+        let name = &used.name;
+        let message = format!("{what}`{name}` is defined by itself");
+        let mut draft = self
+            .error(Code::E0205, used.span, message)
+            .label("this use closes the circle")
+            .also(body, "its definition starts here");
+        let Some((_, between)) = way.split_first().filter(|(_, rest)| !rest.is_empty()) else {
+            return draft;
+        };
+        for open in between.iter().take(SHOWN) {
+            draft = draft.also(open.at, "it leads through this");
+        }
+        let names = way.iter().map(|open| format!("`{}` → ", open.name));
+        let names: Vec<String> = match way.len() > 2 * SHOWN {
+            true => names.take(SHOWN).chain(["… → ".to_owned()]).collect(),
+            false => names.collect(),
+        };
+        draft.note(format!("the circle is {}`{name}`", names.concat()))
     }
 
     /// Runs a pass over a body in its own context. What it reports is handed back.

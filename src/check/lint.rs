@@ -13,6 +13,7 @@ mod geometry;
 mod idle;
 mod interval;
 mod mentions;
+mod moments;
 mod predicates;
 mod ranges;
 mod regions;
@@ -53,6 +54,7 @@ impl<'a> Checker<'a> {
         self.choices_that_never_succeed(items());
         self.predicates_without_effect(items());
         self.rewards_without_effect(items());
+        self.moments_that_last(items());
         self.nodes_without_effect(items());
         self.subtrees_without_effect(items());
         self.claims_beyond_episodes(items());

@@ -30,6 +30,7 @@ pub use builtin::names as built_in_names;
 pub use lint::exclusions;
 pub use meaning::{Entity, Meaning, Meanings};
 pub use names::learned_name;
+pub use task::learner::methods;
 pub use types::written::names as built_in_types;
 
 use crate::diagnostic::Diagnostic;

@@ -1,7 +1,7 @@
 //! Tasks: observations, choices, history, rewards, and how episodes start and end.
 
 pub mod history;
-mod learner;
+pub mod learner;
 mod schedule;
 mod start;
 

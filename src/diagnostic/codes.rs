@@ -193,6 +193,8 @@ codes! {
     W0518 "two choices that do the same",
     W0519 "a reward that is paid in every tick",
     W0520 "a claim that allows most of what it denies",
+    W0521 "a moment that is taken for a time",
+    W0522 "a discount of 0",
 
     W0601 "a condition that always or never holds",
     W0602 "a node that is never reached",

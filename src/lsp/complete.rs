@@ -7,7 +7,7 @@ use super::outline::Outlined;
 use super::reference::{self, Form};
 use super::signature;
 use super::symbols::what;
-use crate::check::{Entity, built_in_names, built_in_types};
+use crate::check::{Entity, built_in_names, built_in_types, methods};
 use crate::source::Span;
 use crate::spelling::spelled;
 use crate::syntax::words::{ITEMS, NODES, UNITS};
@@ -70,6 +70,11 @@ impl List<'_> {
                 self.declared(&[E::State]);
             }
             Wanted::Setting => self.section("Learners", |form| form.word != "learn"),
+            Wanted::Method => {
+                for name in methods() {
+                    self.word(name, CompletionItemKind::EnumMember);
+                }
+            }
             Wanted::Statement => {
                 self.words(["let", "if", "for"]);
                 self.word("drive", CompletionItemKind::Function);
@@ -117,6 +122,11 @@ impl List<'_> {
                     self.word(word, CompletionItemKind::Keyword);
                 }
                 self.words(["done", "failed"]);
+                self.bound();
+            }
+            Wanted::Guard => {
+                self.declared(&[E::Predicate]);
+                self.words(["not", "done", "failed"]);
                 self.bound();
             }
             Wanted::TestLine => self.words(["given", "tick"]),

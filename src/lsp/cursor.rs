@@ -26,6 +26,10 @@ pub(super) enum Wanted {
     StartLine,
     /// A setting of a learner.
     Setting,
+    /// A method of learning.
+    Method,
+    /// What a guard goes on with: behind `and` there is no node.
+    Guard,
     /// A statement of a control law.
     Statement,
     /// An effect.
@@ -327,7 +331,7 @@ fn at_item(words: &[&str]) -> Wanted {
     match words.first().copied().unwrap_or_default() {
         "" => Wanted::Item,
         "use" if words.len() == 1 => Wanted::Use,
-        "tree" if has_value => Wanted::Node,
+        "tree" if has_value => of_tree(last),
         "tree" | "learn" if last == "for" => Wanted::Task,
         "learn" if words.len() == 1 => Wanted::Task,
         "claim" if words.len() == 1 || last == "equals" => Wanted::Tree,
@@ -373,6 +377,7 @@ fn within(kind: &str, words: &[&str]) -> Wanted {
         ("start", "history") if has_value => Wanted::Outcome,
         ("start" | "let", _) => Wanted::Value,
         ("learn", "") => Wanted::Setting,
+        ("learn", "method") if last == "=" => Wanted::Method,
         ("learn", "unseen") => Wanted::Behavior,
         ("learn", _) => Wanted::Value,
         ("control", "") => Wanted::Statement,
@@ -380,12 +385,20 @@ fn within(kind: &str, words: &[&str]) -> Wanted {
         ("control" | "each" | "on", "let") if last == ":" => Wanted::Type,
         ("control" | "each" | "on", "let" | "for") if !has_value => Wanted::Nothing,
         ("control" | "each" | "on", _) => Wanted::Value,
-        ("tree", _) => Wanted::Node,
+        ("tree", _) => of_tree(last),
         ("test", "") => Wanted::TestLine,
         ("test", _) if words.contains(&"=>") => Wanted::Expected,
         ("test", _) => Wanted::Predicate,
         ("enum", _) => Wanted::Nothing,
         _ => Wanted::Value,
+    }
+}
+
+/// What can stand behind a word of a tree.
+fn of_tree(last: &str) -> Wanted {
+    match last {
+        "and" | "or" | "not" => Wanted::Guard,
+        _ => Wanted::Node,
     }
 }
 
@@ -445,6 +458,9 @@ mod tests {
             ("world w {\n    tick = 50 m", Wanted::Unit),
             ("tree t = ", Wanted::Node),
             ("tree t = selector {\n    low => ", Wanted::Node),
+            ("tree t = selector {\n    low and ", Wanted::Guard),
+            ("tree t = selector {\n    low or not ne", Wanted::Guard),
+            ("tree t = not ", Wanted::Guard),
             ("tree t for ", Wanted::Task),
             ("behavior b(x: ", Wanted::Type),
             ("behavior b(", Wanted::Nothing),
@@ -459,6 +475,8 @@ mod tests {
             ("event e = success(", Wanted::Behavior),
             ("each tick {\n    ", Wanted::Effect),
             ("learn t {\n    ", Wanted::Setting),
+            ("learn t {\n    method = ", Wanted::Method),
+            ("learn t {\n    method = mo", Wanted::Method),
             ("test \"a\" of ", Wanted::Tree),
             ("test \"a\" of t {\n    ", Wanted::TestLine),
             ("test \"a\" of t {\n    given low, ", Wanted::Predicate),

@@ -82,15 +82,8 @@ impl<'a> Checker<'a> {
                 .none();
         }
         if self.bodies.is_open(event.name.span) {
-            return self
-                .error(
-                    Code::E0205,
-                    span,
-                    format!("the event `{name}` is defined by itself"),
-                )
-                .label("an event that waits for itself")
-                .also(event.name.span, "its definition starts here")
-                .none();
+            let body = event.name.span;
+            return self.circle(body, &reference.name, "the event ").none();
         }
         match self.events.get(event.name.name.as_str()).cloned() {
             Some(family) => {

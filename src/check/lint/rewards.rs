@@ -32,6 +32,7 @@ impl<'a> Checker<'a> {
                     self.dwells_too_long(learn);
                     self.sums_without_end(learn);
                     self.learns_nothing(learn);
+                    self.looks_no_further(learn);
                 }
                 _ => {}
             }
@@ -275,6 +276,26 @@ impl<'a> Checker<'a> {
             )
             .label("no update changes what was known before")
             .help("write a rate above 0, such as `0.1` or `visits^-0.7`");
+        }
+    }
+
+    /// A discount of 0: a decision is worth what it brings by itself.
+    fn looks_no_further(&mut self, learn: &'a ast::Learn) {
+        let objective = self.learner(learn).map(|learner| learner.objective);
+        let none = match objective {
+            Some(Objective::Discounted(
+                Discount::PerDecision(factor) | Discount::PerTime(factor, _),
+            )) => factor == 0.0,
+            _ => false,
+        };
+        if let Some(setting) = setting(learn, "discount").filter(|_| none) {
+            self.warning(
+                Code::W0522,
+                setting.value.span,
+                "nothing that follows a decision counts",
+            )
+            .label("so what leads to a reward later is worth nothing")
+            .help("write a discount above 0, such as `0.95 per decision` or `0.9 per 10 s`");
         }
     }
 

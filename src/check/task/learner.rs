@@ -23,6 +23,11 @@ const METHODS: [(&str, Method); 3] = [
     ("model", Method::Model),
 ];
 
+/// The names of the methods.
+pub fn methods() -> impl Iterator<Item = &'static str> {
+    METHODS.iter().map(|(name, _)| *name)
+}
+
 /// The method that a value names.
 fn method_of(value: &ast::Expr) -> Option<&'static (&'static str, Method)> {
     let ExprKind::Ref(Ref {
@@ -271,7 +276,7 @@ impl<'a> Checker<'a> {
         if found.is_none() {
             // `q-learning` is a difference.
             let written = print::expr(value).replace(" - ", "-").replace('-', "_");
-            let likely = suggest::nearest(&written, METHODS.iter().map(|(name, _)| *name));
+            let likely = suggest::nearest(&written, methods());
             let message = "no method of learning has this name";
             let draft = self.error(Code::E0501, value.span, message);
             match likely {

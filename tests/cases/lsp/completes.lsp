@@ -73,3 +73,7 @@ change yard.bt     low => goto(shed), ~>     lo
 complete yard.bt     lo|
 complete yard.bt behavior back_off(pace: |
 complete yard.bt let sl|ow
+change yard.bt learn mow {\n    me ~> learn mow {\n    method = mo
+complete yard.bt     method = mo|
+change yard.bt     lo ~>     low and ne
+complete yard.bt     low and ne|

@@ -20,6 +20,7 @@ state loaded = false
 
 let margin = 2 * 10 cm
 let far(p: place): bool = distance(p) > 1 m + margin
+let beyond(p: place, reach: length = 2 * (1 m)) = distance(p) - reach
 
 event arrived = success(goto(gate)) and loaded
 
