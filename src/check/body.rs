@@ -26,10 +26,21 @@ pub struct Bodies<'a> {
     gave_up: bool,
 }
 
-impl Bodies<'_> {
+impl<'a> Bodies<'a> {
     /// Whether the body that starts at this place is being checked.
     pub fn is_open(&self, at: Span) -> bool {
         self.open.iter().any(|open| open.at == at)
+    }
+
+    /// The bodies from the one that starts at this place to the one at hand, each of which uses the next.
+    fn circle(&self, at: Span) -> Vec<Open<'a>> {
+        let mut circle: Vec<Open<'a>> = Vec::new();
+        for open in self.open.iter().skip_while(|open| open.at != at) {
+            if circle.iter().all(|other| other.at != open.at) {
+                circle.push(*open);
+            }
+        }
+        circle
     }
 
     /// Whether the body at hand is checked for itself.
@@ -115,15 +126,7 @@ impl<'a> Checker<'a> {
     ) -> Option<T> {
         let name = reference.name.name.as_str();
         if self.bodies.is_open(body) {
-            return self
-                .error(
-                    Code::E0205,
-                    reference.name.span,
-                    format!("`{name}` is defined by itself"),
-                )
-                .label("this use closes the circle")
-                .also(body, "its definition starts here")
-                .none();
+            return self.closes_a_circle(body, reference);
         }
         if self.bodies.clean.get(&body) == Some(&false) {
             return None;
@@ -157,6 +160,27 @@ impl<'a> Checker<'a> {
             }
         }
         seen.is_empty().then_some(result)
+    }
+
+    /// Reports a use that closes a circle of definitions, with all of them.
+    fn closes_a_circle<T>(&mut self, body: Span, reference: &Ref) -> Option<T> {
+        let name = reference.name.name.as_str();
+        let at = reference.name.span;
+        let circle = self.bodies.circle(body);
+        let mut draft = self.error(Code::E0205, at, circular(name, &circle));
+        draft = match circle.as_slice() {
+            [_, _, ..] => draft.label(format!("uses `{name}`, which closes the circle")),
+            _ => draft.label("this use closes the circle"),
+        };
+        if circle.len() < 2 {
+            return draft.also(body, "its definition starts here").none();
+        }
+        for (open, next) in circle.iter().zip(circle.iter().skip(1)) {
+            if !open.library {
+                draft = draft.also(open.at, format!("uses `{}`", next.name));
+            }
+        }
+        draft.none()
     }
 
     /// Runs a pass over a body in its own context. What it reports is handed back.
@@ -197,6 +221,28 @@ impl<'a> Checker<'a> {
         .note(format!(
             "at most {DEEP} may stand within one another, and {MANY} uses in all"
         ));
+    }
+}
+
+/// How many definitions of a circle are named from its beginning, and how many from its end.
+const NAMED: usize = 6;
+
+/// Says that a name is defined by itself, and through what.
+fn circular(name: &str, circle: &[Open]) -> String {
+    let said = format!("`{name}` is defined by itself");
+    let (first, rest) = circle.split_at(circle.len().min(NAMED));
+    let last = rest.get(rest.len().saturating_sub(NAMED)..);
+    let last = last.unwrap_or_default();
+    let left_out = rest.len() > last.len();
+    let names = first.iter().map(|open| open.name);
+    let names = names.chain(left_out.then_some("…"));
+    let names = names.chain(last.iter().map(|open| open.name));
+    match circle.len() {
+        0 | 1 => said,
+        _ => {
+            let names: Vec<&str> = names.chain([name]).collect();
+            format!("{said}: {}", names.join(" → "))
+        }
     }
 }
 
