@@ -2,7 +2,6 @@
 
 use super::Checker;
 use super::context::{Binding, Context, Region};
-use super::report::Draft;
 use crate::diagnostic::{Code, Diagnostic, Label};
 use crate::source::Span;
 use crate::syntax::ast::{Ident, Ref};
@@ -10,9 +9,6 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// How many bodies may be checked within one another.
 const DEEP: usize = 48;
-
-/// How many definitions of a circle are shown.
-const SHOWN: usize = 5;
 
 /// How many bodies a program may unroll altogether.
 const MANY: usize = 200_000;
@@ -30,10 +26,21 @@ pub struct Bodies<'a> {
     gave_up: bool,
 }
 
-impl Bodies<'_> {
+impl<'a> Bodies<'a> {
     /// Whether the body that starts at this place is being checked.
     pub fn is_open(&self, at: Span) -> bool {
         self.open.iter().any(|open| open.at == at)
+    }
+
+    /// The bodies from the one that starts at this place to the one at hand, each of which uses the next.
+    fn circle(&self, at: Span) -> Vec<Open<'a>> {
+        let mut circle: Vec<Open<'a>> = Vec::new();
+        for open in self.open.iter().skip_while(|open| open.at != at) {
+            if circle.iter().all(|other| other.at != open.at) {
+                circle.push(*open);
+            }
+        }
+        circle
     }
 
     /// Whether the body at hand is checked for itself.
@@ -119,7 +126,7 @@ impl<'a> Checker<'a> {
     ) -> Option<T> {
         let name = reference.name.name.as_str();
         if self.bodies.is_open(body) {
-            return self.circle(body, &reference.name, "").none();
+            return self.closes_a_circle(body, reference);
         }
         if self.bodies.clean.get(&body) == Some(&false) {
             return None;
@@ -155,28 +162,25 @@ impl<'a> Checker<'a> {
         seen.is_empty().then_some(result)
     }
 
-    /// Reports that a use leads back to the body that it is in, with the way there.
-    pub fn circle(&mut self, body: Span, used: &Ident, what: &str) -> Draft<'_> {
-        let opened = self.bodies.open.iter();
-        let way: Vec<Open> = opened.skip_while(|open| open.at != body).copied().collect();
-        let name = &used.name;
-        let message = format!("{what}`{name}` is defined by itself");
-        let mut draft = self
-            .error(Code::E0205, used.span, message)
-            .label("this use closes the circle")
-            .also(body, "its definition starts here");
-        let Some((_, between)) = way.split_first().filter(|(_, rest)| !rest.is_empty()) else {
-            return draft;
+    /// Reports a use that closes a circle of definitions, with all of them.
+    pub fn closes_a_circle<T>(&mut self, body: Span, reference: &Ref) -> Option<T> {
+        let name = reference.name.name.as_str();
+        let at = reference.name.span;
+        let circle = self.bodies.circle(body);
+        let mut draft = self.error(Code::E0205, at, circular(name, &circle));
+        draft = match circle.as_slice() {
+            [_, _, ..] => draft.label(format!("uses `{name}`, which closes the circle")),
+            _ => draft.label("this use closes the circle"),
         };
-        for open in between.iter().take(SHOWN) {
-            draft = draft.also(open.at, "it leads through this");
+        if circle.len() < 2 {
+            return draft.also(body, "its definition starts here").none();
         }
-        let names = way.iter().map(|open| format!("`{}` → ", open.name));
-        let names: Vec<String> = match way.len() > 2 * SHOWN {
-            true => names.take(SHOWN).chain(["… → ".to_owned()]).collect(),
-            false => names.collect(),
-        };
-        draft.note(format!("the circle is {}`{name}`", names.concat()))
+        for (open, next) in circle.iter().zip(circle.iter().skip(1)) {
+            if !open.library {
+                draft = draft.also(open.at, format!("uses `{}`", next.name));
+            }
+        }
+        draft.none()
     }
 
     /// Runs a pass over a body in its own context. What it reports is handed back.
@@ -217,6 +221,28 @@ impl<'a> Checker<'a> {
         .note(format!(
             "at most {DEEP} may stand within one another, and {MANY} uses in all"
         ));
+    }
+}
+
+/// How many definitions of a circle are named from its beginning, and how many from its end.
+const NAMED: usize = 6;
+
+/// Says that a name is defined by itself, and through what.
+fn circular(name: &str, circle: &[Open]) -> String {
+    let said = format!("`{name}` is defined by itself");
+    let (first, rest) = circle.split_at(circle.len().min(NAMED));
+    let last = rest.get(rest.len().saturating_sub(NAMED)..);
+    let last = last.unwrap_or_default();
+    let left_out = rest.len() > last.len();
+    let names = first.iter().map(|open| open.name);
+    let names = names.chain(left_out.then_some("…"));
+    let names = names.chain(last.iter().map(|open| open.name));
+    match circle.len() {
+        0 | 1 => said,
+        _ => {
+            let names: Vec<&str> = names.chain([name]).collect();
+            format!("{said}: {}", names.join(" → "))
+        }
     }
 }
 

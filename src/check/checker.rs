@@ -8,7 +8,7 @@ use super::decl::event::EventId;
 use super::decl::input::InputSlot;
 use super::decl::predicate::PredicateId;
 use super::decl::state::StateSlot;
-use super::lint::{Again, Asked};
+use super::lint::{Again, Asked, Condition, FailClause};
 use super::meaning::Meanings;
 use super::members::{Kinds, Member};
 use super::merge;
@@ -19,7 +19,7 @@ use super::types::Type;
 use super::{Checked, Input};
 use crate::diagnostic::{self, Diagnostic};
 use crate::geometry::Point;
-use crate::ir::expr::ExprId;
+use crate::ir::law::Behavior;
 use crate::ir::task::History;
 use crate::ir::world::{Robot, World};
 use crate::ir::{Id, Name, Program};
@@ -55,7 +55,11 @@ pub struct Checker<'a> {
     /// Where the program asks whether a behaviour has ended.
     pub endings: BTreeSet<Asked>,
     /// The conditions of events, effects, doors and prices, by where they stand.
-    pub conditions: Vec<(Span, ExprId)>,
+    pub conditions: Vec<Condition>,
+    /// Where a program calls behaviours of the library.
+    pub library_calls: BTreeMap<Span, Id<Behavior>>,
+    /// Each `fail when`, by where it stands, as the behaviours have it.
+    pub fails: BTreeMap<Span, Vec<FailClause>>,
     /// What stands a second time where once is enough.
     pub again: BTreeMap<Span, Again>,
     /// The states that a value of a block hides.
@@ -120,6 +124,8 @@ impl<'a> Checker<'a> {
             asked: Vec::new(),
             endings: BTreeSet::new(),
             conditions: Vec::new(),
+            library_calls: BTreeMap::new(),
+            fails: BTreeMap::new(),
             again: BTreeMap::new(),
             hidden: BTreeSet::new(),
             positions: Vec::new(),

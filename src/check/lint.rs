@@ -28,8 +28,10 @@ mod world;
 
 use super::{Checker, Input};
 use crate::diagnostic::Diagnostic;
+pub use conditions::Condition;
 pub use endings::Asked;
 pub use exclusions::exclusions;
+pub use regions::FailClause;
 pub use same::Again;
 
 impl<'a> Checker<'a> {
@@ -52,6 +54,7 @@ impl<'a> Checker<'a> {
         self.choices_alike(items());
         self.regions_without_effect(items());
         self.choices_that_never_succeed(items());
+        self.calls_that_take_no_time();
         self.predicates_without_effect(items());
         self.rewards_without_effect(items());
         self.moments_that_last(items());

@@ -253,6 +253,34 @@ where
         .or_else(|| within(name, &candidates))
 }
 
+/// Whether a name is a slip of another one: a letter too much, too few or wrong, or two neighbours exchanged. Names that are
+/// told apart by a number, an ending or a letter that stands alone, such as `door_a` and `door_b`, are two names.
+pub fn is_slip(name: &str, meant: &str) -> bool {
+    let [ours, theirs]: [Vec<char>; 2] = [name, meant].map(|name| name.chars().collect());
+    let shorter = ours.len().min(theirs.len());
+    let same = ours.iter().zip(&theirs).take_while(|(a, b)| a == b).count();
+    let part = |name: &[char]| {
+        let around = name.get(same.saturating_sub(1)..(same + 2).min(name.len()));
+        around.is_some_and(|around| around.iter().all(|letter| letter.is_alphabetic()))
+    };
+    let within = same > 0 && same + 1 < ours.len().max(theirs.len()) && same < shorter;
+    shorter >= 4 && within && part(&ours) && part(&theirs) && is_near(name, meant)
+}
+
+/// Whether a word is another one with a letter too much, too few or wrong, or with two neighbours exchanged. A short word
+/// with another letter is another word: `in` is not `on`, and `set` is not `let`.
+pub fn is_near(word: &str, meant: &str) -> bool {
+    let letters = |word: &str| {
+        let mut letters: Vec<char> = word.chars().collect();
+        letters.sort_unstable();
+        letters
+    };
+    let (ours, theirs) = (letters(word), letters(meant));
+    let replaces = ours.len() == theirs.len() && ours != theirs;
+    let long = if replaces { 4 } else { 2 };
+    ours.len() >= long && osa_distance(word, meant) == 1
+}
+
 /// What other languages put before a name that asks or does something.
 const PREFIXES: [&str; 9] = [
     "is_", "has_", "get_", "can_", "do_", "the_", "my_", "at_", "in_",
@@ -287,7 +315,7 @@ fn half_edits(left: &str, right: &str) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::nearest;
+    use super::{is_near, is_slip, nearest};
 
     #[test]
     fn finds_what_was_meant() {
@@ -303,6 +331,28 @@ mod tests {
         assert_eq!(nearest("hauling", ["haul"]), Some("haul"));
         assert_eq!(nearest("turn", ["max_turn", "turns"]), Some("turns"));
         assert_eq!(nearest("chanse", ["chase", "chance"]), Some("chance"));
+    }
+
+    #[test]
+    fn tells_a_short_word_from_another() {
+        assert!(is_near("fo", "of"));
+        assert!(is_near("lst", "last"));
+        assert!(is_near("whlie", "while"));
+        assert!(!is_near("in", "on"));
+        assert!(!is_near("set", "let"));
+    }
+
+    #[test]
+    fn tells_a_slip_from_another_name() {
+        assert!(is_slip("shde", "shed"));
+        assert!(is_slip("loded", "loaded"));
+        assert!(is_slip("carrxing", "carrying"));
+        assert!(!is_slip("b1", "b2"));
+        assert!(!is_slip("door_a", "door_b"));
+        assert!(!is_slip("shed_1", "shed_2"));
+        assert!(!is_slip("sheds", "shed"));
+        assert!(!is_slip("hauled", "loaded"));
+        assert!(!is_slip("shed", "shed"));
     }
 
     #[test]

@@ -5,7 +5,7 @@ mod again;
 use super::digest::sha256;
 use super::text::{Text, decode};
 use crate::check::{self, Input, Meanings};
-use crate::diagnostic::{self, Applicability, Code, Diagnostic, render};
+use crate::diagnostic::{self, Applicability, Code, Diagnostic, render, suggest};
 use crate::ir::Program;
 use crate::source::{FileId, Source, Sources, Span};
 use crate::syntax;
@@ -158,7 +158,11 @@ pub fn load_again(
     let checked = check::check(&inputs);
     let mut diagnostics = loader.diagnostics;
     // A missing file may declare what seems undeclared.
-    let elsewhere = |found: &Diagnostic| matches!(found.code, Code::E0202 | Code::E0407);
+    let elsewhere = |found: &Diagnostic| match found.code {
+        Code::E0202 => !is_slip(&loader.sources, found),
+        Code::E0407 => true,
+        _ => false,
+    };
     // What is found where a text was not understood follows from that, and so may a setting that seems missing there.
     let understood: Vec<&ast::File> = loader.parsed.iter().map(|parsed| &parsed.ast).collect();
     let unread = |found: &Diagnostic| follows(&understood, found);
@@ -183,6 +187,13 @@ pub fn load_again(
         diagnostics,
         used: loader.parsed,
     }
+}
+
+/// Whether an undeclared name is one letter away from one that is known: whatever a missing file declares, that one was meant.
+fn is_slip(sources: &Sources, found: &Diagnostic) -> bool {
+    let written = sources.text(found.span());
+    let mut edits = found.fixes.iter().flat_map(|fix| &fix.edits);
+    edits.any(|(span, right)| *span == found.span() && suggest::is_slip(written, right))
 }
 
 /// Whether a mistake stands where a text was not understood, or misses something in an item with such a text.

@@ -175,8 +175,13 @@ fn missing<'n>(
     let diagnostic = diagnostic.label(label);
     let diagnostic = match suggest::nearest(name, names.iter().map(String::as_str)) {
         Some(likely) => diagnostic.help(format!("did you mean `{likely}`?")),
-        None if names.is_empty() => diagnostic,
-        None => diagnostic.help(format!("it has: {}", names.join(", "))),
+        None => diagnostic,
+    };
+    let diagnostic = match names.as_slice() {
+        [] => diagnostic,
+        // Which one is there, the place shows.
+        [_] if !diagnostic.help.is_empty() => diagnostic,
+        _ => diagnostic.help(format!("it has: {}", names.join(", "))),
     };
     Refused::program(loaded, [diagnostic])
 }

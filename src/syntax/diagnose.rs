@@ -21,7 +21,7 @@ use super::brackets::{innermost_open, unclosed};
 use super::expected;
 use super::grammar::Rule;
 use super::tokens::{Kind, Token};
-use crate::diagnostic::{Applicability, Code, Diagnostic};
+use crate::diagnostic::{Applicability, Code, Diagnostic, suggest};
 use crate::source::{FileId, Span};
 
 /// A text that does not parse.
@@ -182,13 +182,26 @@ impl Place<'_> {
         )
     }
 
+    /// The word of the language that was expected, if the token is nearly it.
+    fn misspelt(&self) -> Option<&'static str> {
+        if !words::is_word(self.found) || self.respelled().is_some() {
+            return None;
+        }
+        let near = suggest::nearest(self.found(), expected::words(&self.failure.expected))?;
+        suggest::is_near(self.found(), near).then_some(near)
+    }
+
     fn unexpected(&self) -> Diagnostic {
         let found = self.found();
         let diagnostic = match self.wanted() {
             Some(wanted) => {
                 let message = format!("expected {wanted}, found `{found}`");
-                Diagnostic::new(Code::E0101, self.span(), message)
-                    .label(format!("expected {wanted}"))
+                let diagnostic = Diagnostic::new(Code::E0101, self.span(), message);
+                let near = self.misspelt();
+                if let Some(word) = near.filter(|word| wanted.contains(&format!("`{word}`"))) {
+                    return self.meant(diagnostic, self.found, Some(word));
+                }
+                diagnostic.label(format!("expected {wanted}"))
             }
             None => {
                 let message = format!("`{found}` cannot stand here");

@@ -32,6 +32,41 @@ fn another_shape_is_proved_equal() {
     assert!(out(&output).starts_with("same: "), "{}", out(&output));
 }
 
+/// Which trees a file has is said where it has none of the name that was given, or where none was given and it has several.
+#[test]
+fn a_tree_that_is_not_there_is_told_with_those_that_are() {
+    let folder = tempfile::tempdir().unwrap();
+    let program = |trees: [&str; 2]| {
+        let [one, other] =
+            trees.map(|name| format!("tree {name} = selector {{ low => dock, go }}\n"));
+        format!("predicate low\nbehavior dock\nbehavior go\n{one}{other}")
+    };
+    fs::write(folder.path().join("old.bt"), program(["carry", "haul"])).unwrap();
+    fs::write(folder.path().join("new.bt"), program(["carry", "hauls"])).unwrap();
+    let told = |arguments: &[&str]| {
+        let all = [&["diff", "old.bt", "new.bt"], arguments].concat();
+        let output = btc(folder.path(), &all);
+        (output.status.code(), err(&output).to_owned())
+    };
+    let (code, said) = told(&["--tree", "carry"]);
+    assert_eq!(code, Some(0), "{said}");
+    let (code, said) = told(&["--tree", "haul"]);
+    assert_eq!(code, Some(1), "{said}");
+    for part in [
+        "new.bt",
+        "no tree `haul`",
+        "did you mean `hauls`?",
+        "it has: carry, hauls",
+    ] {
+        assert!(said.contains(part), "{part}: {said}");
+    }
+    let (code, said) = told(&[]);
+    assert_eq!(code, Some(1), "{said}");
+    for part in ["several `tree` items: carry, hauls", "--tree NAME"] {
+        assert!(said.contains(part), "{part}: {said}");
+    }
+}
+
 #[test]
 fn tables_are_compared_as_trees_are() {
     let output = btc(&cases(), &["diff", "old.csv", "new.csv"]);

@@ -43,7 +43,8 @@ impl<'a> Checker<'a> {
         }
         let name = self.instance_name(behavior.params.as_ref(), reference, &scope);
         let name = self.owned(name);
-        if let Some(known) = self.behaviors.get(&name) {
+        if let Some(known) = self.behaviors.get(&name).copied() {
+            self.calls_library(library, reference, known);
             return known.map(Value::Behavior);
         }
         // Arguments that change are evaluated at the start and held, but for a `target`, which is read afresh.
@@ -72,6 +73,7 @@ impl<'a> Checker<'a> {
                 law,
             })
         });
+        self.calls_library(library, reference, id);
         self.behaviors.insert(name, id);
         id.map(Value::Behavior)
     }

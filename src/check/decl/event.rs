@@ -82,8 +82,7 @@ impl<'a> Checker<'a> {
                 .none();
         }
         if self.bodies.is_open(event.name.span) {
-            let body = event.name.span;
-            return self.circle(body, &reference.name, "the event ").none();
+            return self.closes_a_circle(event.name.span, reference);
         }
         match self.events.get(event.name.name.as_str()).cloned() {
             Some(family) => {

@@ -2,6 +2,7 @@
 
 use crate::check::Checker;
 use crate::check::context::{Binding, Region};
+use crate::check::lint::FailClause;
 use crate::check::types::{Type, Value};
 use crate::diagnostic::Code;
 use crate::ir::Name;
@@ -27,6 +28,7 @@ impl<'a> Checker<'a> {
         let (yes, no) = (pool.bool(true), pool.bool(false));
         let (mut requires, mut succeed, mut fail) = (yes, no, no);
         let mut control: Option<(Span, Option<Block>)> = None;
+        let mut fails = Vec::new();
         self.same_clauses(clauses);
         for clause in clauses {
             self.context.region = Region::Clause;
@@ -43,7 +45,10 @@ impl<'a> Checker<'a> {
                     None => known = false,
                 },
                 ClauseKind::Fail(test) => match region("`fail when`", test) {
-                    Some(id) => fail = self.program.pool.or(fail, id),
+                    Some(id) => {
+                        fails.push((test.span, fail, id));
+                        fail = self.program.pool.or(fail, id);
+                    }
                     None => known = false,
                 },
                 ClauseKind::Control(block) => {
@@ -67,6 +72,17 @@ impl<'a> Checker<'a> {
             Some((_, lowered)) => lowered?,
             None => Block::default(),
         };
+        if known && !self.context.library {
+            for (at, before, when) in fails {
+                let clause = FailClause {
+                    requires,
+                    succeed,
+                    before,
+                    when,
+                };
+                self.fails.entry(at).or_default().push(clause);
+            }
+        }
         known.then_some(Law {
             locals,
             requires,

@@ -106,8 +106,9 @@ impl<'a> Checker<'a> {
 
     fn branch(&mut self, branch: &'a ast::Branch) -> Option<Stmt> {
         let condition = self.expect(&branch.cond, &Type::Bool, "a condition");
-        if matches!(self.context.region, Region::Effect | Region::EachTick) {
-            self.asks(branch.cond.span, condition.scalar());
+        self.branches_on(&branch.cond, condition.scalar());
+        if let Some(Else::Block(otherwise)) = branch.otherwise.as_deref() {
+            self.same_blocks(&branch.then, otherwise);
         }
         let then = self.block(&branch.then);
         let otherwise = match branch.otherwise.as_deref() {

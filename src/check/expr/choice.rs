@@ -12,6 +12,7 @@ impl<'a> Checker<'a> {
     /// `if … { … } else { … }`
     pub fn choice(&mut self, choice: &'a ast::Choice, span: Span) -> Option<Typed> {
         let condition = self.expect(&choice.cond, &Type::Bool, "a condition");
+        self.chooses_by(&choice.cond, condition.scalar());
         let then = self.yielded(&choice.then);
         if let Otherwise::Yield(other) = &choice.otherwise
             && choice.then.bindings.is_empty()

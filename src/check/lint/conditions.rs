@@ -3,38 +3,82 @@
 use super::apart::because;
 use super::cases::of_expr;
 use crate::check::Checker;
+use crate::check::context::Region;
 use crate::diagnostic::Code;
 use crate::ir::expr::{Expr, ExprId};
 use crate::source::Span;
+use crate::syntax::ast::{self, ExprKind};
 use std::collections::BTreeMap;
+
+/// A condition that stands in the text.
+#[derive(Clone, Copy, Debug)]
+pub struct Condition {
+    /// Where it stands.
+    at: Span,
+    /// What it asks.
+    asks: ExprId,
+    /// Whether it is written without any name.
+    nameless: bool,
+    /// Whether any robot may ask it.
+    of_a_law: bool,
+}
 
 impl<'a> Checker<'a> {
     /// Notes a condition, to be looked at once the program is whole.
     pub fn asks(&mut self, at: Span, condition: Option<ExprId>) {
-        if let (Some(condition), false) = (condition, self.context.library) {
-            self.conditions.push((at, condition));
+        self.notes_condition(at, condition, false, false);
+    }
+
+    /// Notes the condition of a branch in an effect or a control law. Of one that depends on parameters, nothing is said.
+    pub fn branches_on(&mut self, written: &'a ast::Expr, condition: Option<ExprId>) {
+        let of_a_law = self.context.region == Region::Control;
+        let is_effect = matches!(self.context.region, Region::Effect | Region::EachTick);
+        if is_effect || of_a_law && self.bodies.for_itself() {
+            self.notes_condition(written.span, condition, is_nameless(written), of_a_law);
+        }
+    }
+
+    /// Notes the condition of a choice between values, if it is written without any name.
+    pub fn chooses_by(&mut self, written: &'a ast::Expr, condition: Option<ExprId>) {
+        if is_nameless(written) {
+            self.notes_condition(written.span, condition, true, false);
+        }
+    }
+
+    fn notes_condition(&mut self, at: Span, asks: Option<ExprId>, nameless: bool, of_a_law: bool) {
+        if let (Some(asks), false) = (asks, self.context.library) {
+            self.conditions.push(Condition {
+                at,
+                asks,
+                nameless,
+                of_a_law,
+            });
         }
     }
 
     /// Warns of the conditions that always or never hold. Of what stands in the text once for each member of a kind, all
-    /// have to; what is a constant is meant to be one.
+    /// have to; what has the name of a constant is meant to be one.
     pub fn conditions_without_effect(&mut self) {
-        let mut places: BTreeMap<Span, Vec<ExprId>> = BTreeMap::new();
-        for (at, condition) in std::mem::take(&mut self.conditions) {
-            places.entry(at).or_default().push(condition);
+        let world = self.program.world.as_ref();
+        let alone = world.is_none_or(|world| world.others.is_empty());
+        let mut places: BTreeMap<Span, Vec<Condition>> = BTreeMap::new();
+        for condition in std::mem::take(&mut self.conditions) {
+            places.entry(condition.at).or_default().push(condition);
         }
         for (at, conditions) in places {
             let pool = &self.program.pool;
-            let told = |id: &ExprId| {
+            let told = |it: &Condition| {
                 // Of an event that never happens it is told where that is declared.
-                pool.constant(*id).is_some() || matches!(pool.get(*id), Expr::Event(_))
+                pool.constant(it.asks).is_some() && !it.nameless
+                    || matches!(pool.get(it.asks), Expr::Event(_))
+                    || it.of_a_law && !it.nameless && !alone
             };
             if conditions.iter().any(told) || self.says_one_thing_twice(at) {
                 continue;
             }
             let never = |wanted| {
                 let mut all = conditions.iter();
-                all.all(|id| of_expr(&self.program, *id, wanted).is_never())
+                all.all(|it| of_expr(&self.program, it.asks, wanted).is_never())
             };
             let says = match (never(true), never(false)) {
                 (true, _) => "never",
@@ -43,10 +87,20 @@ impl<'a> Checker<'a> {
             };
             let why = conditions
                 .first()
-                .and_then(|id| because(&self.program, *id));
+                .and_then(|it| because(&self.program, it.asks));
             self.warning(Code::W0601, at, format!("this condition {says} holds"))
                 .label("whatever happens in the world")
                 .note_if(why);
         }
+    }
+}
+
+/// Whether an expression is written without any name.
+fn is_nameless(expr: &ast::Expr) -> bool {
+    match &expr.kind {
+        ExprKind::Number(_) | ExprKind::Bool(_) => true,
+        ExprKind::Paren(inner) | ExprKind::Unary { operand: inner, .. } => is_nameless(inner),
+        ExprKind::Binary { left, right, .. } => is_nameless(left) && is_nameless(right),
+        _ => false,
     }
 }

@@ -5,13 +5,109 @@ use super::cases::of_expr;
 use super::view::View;
 use crate::check::Checker;
 use crate::diagnostic::Code;
-use crate::ir::Name;
-use crate::ir::law::Law;
+use crate::ir::expr::ExprId;
+use crate::ir::law::{Behavior, Law};
+use crate::ir::{Id, Name};
 use crate::source::Span;
-use crate::syntax::ast::{AspectKind, BehaviorBody, Clause, ClauseKind, Item, ItemKind};
+use crate::syntax::ast::{AspectKind, BehaviorBody, Clause, ClauseKind, Item, ItemKind, Ref};
 use std::collections::BTreeSet;
 
+/// A `fail when` of a behaviour, with what is looked at before it.
+#[derive(Clone, Copy, Debug)]
+pub struct FailClause {
+    /// What `requires` asks.
+    pub requires: ExprId,
+    /// What `succeed when` asks.
+    pub succeed: ExprId,
+    /// What the clauses before it ask.
+    pub before: ExprId,
+    /// What it asks.
+    pub when: ExprId,
+}
+
 impl<'a> Checker<'a> {
+    /// Notes where a program calls a behaviour of the library.
+    pub fn calls_library(
+        &mut self,
+        library: bool,
+        reference: &'a Ref,
+        behavior: Option<Id<Behavior>>,
+    ) {
+        let own = !self.context.library && !self.bodies.is_unrolling();
+        if let Some(behavior) = behavior.filter(|_| library && own) {
+            self.library_calls.insert(reference.span, behavior);
+        }
+    }
+
+    /// Warns of behaviours of the library that are over before they do anything, where they are called first.
+    pub fn calls_that_take_no_time(&mut self) {
+        let mut told = BTreeSet::new();
+        for (at, id) in std::mem::take(&mut self.library_calls) {
+            let behavior = &self.program.behaviors[id];
+            let view = View::of(&self.program, &behavior.name);
+            let over = behavior.law.as_ref().is_some_and(|law| {
+                let always = |asked| of_expr(view, asked, false).is_never();
+                always(law.requires) && always(law.succeed)
+            });
+            let name = behavior.name.bare();
+            if over && told.insert(id) {
+                self.warning(Code::W0302, at, format!("`{name}` succeeds at once"))
+                    .label("it takes no time and does nothing");
+            }
+        }
+    }
+
+    /// Warns of each `fail when` that what is looked at before it leaves nothing to say.
+    fn fails_without_effect(&mut self, clauses: &'a [Clause]) {
+        let world = self.program.world.as_ref();
+        if world.is_some_and(|world| !world.others.is_empty()) {
+            return;
+        }
+        let fails = clauses.iter().filter_map(|clause| match &clause.kind {
+            ClauseKind::Fail(test) => Some((clause, test)),
+            _ => None,
+        });
+        let mut first = None;
+        for (clause, test) in fails {
+            let first = *first.get_or_insert(test.span);
+            let found = self.fails.get(&test.span).cloned().unwrap_or_default();
+            let program = &self.program;
+            let says = found.iter().all(|it| {
+                let is_constant = program.pool.constant(it.when).is_some();
+                !is_constant && !of_expr(program, it.when, true).is_never()
+            });
+            if !says || found.is_empty() || self.says_one_thing_twice(test.span) {
+                continue;
+            }
+            let implies = |asked: fn(&FailClause) -> ExprId, wanted: bool| {
+                found.iter().all(|it| {
+                    let when = of_expr(program, it.when, true);
+                    when.implies(&of_expr(program, asked(it), wanted))
+                })
+            };
+            let (label, earlier) = if implies(|it| it.requires, false) {
+                ("wherever this holds, `requires` does not", None)
+            } else if implies(|it| it.succeed, true) {
+                ("wherever this holds, it has succeeded already", None)
+            } else if implies(|it| it.before, true) {
+                ("wherever this holds, it has failed already", Some(first))
+            } else {
+                continue;
+            };
+            let draft = self
+                .warning(
+                    Code::W0302,
+                    place(clause),
+                    "this `fail when` changes nothing",
+                )
+                .label(label);
+            match earlier {
+                Some(first) => draft.also(first, "this is looked at first").emit(),
+                None => draft.emit(),
+            }
+        }
+    }
+
     /// Warns of regions that no instance of a behaviour gets to.
     pub fn regions_without_effect(&mut self, items: impl Iterator<Item = &'a Item>) {
         for item in items {
@@ -89,6 +185,8 @@ impl<'a> Checker<'a> {
             self.warning(Code::W0302, at, "this behaviour never succeeds")
                 .label("what it waits for never holds")
                 .note_if(why);
+        } else {
+            self.fails_without_effect(clauses);
         }
     }
 

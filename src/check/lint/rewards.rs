@@ -32,6 +32,7 @@ impl<'a> Checker<'a> {
                     self.dwells_too_long(learn);
                     self.sums_without_end(learn);
                     self.learns_nothing(learn);
+                    self.tries_nothing(learn);
                     self.looks_no_further(learn);
                 }
                 _ => {}
@@ -57,6 +58,8 @@ impl<'a> Checker<'a> {
                         let span = last.map_or(aspect.span, |value| value.span);
                         self.warning(Code::W0510, span, "every reward of this task is 0")
                             .label("so any tree is as good as any other");
+                    } else {
+                        self.prices_of_nothing(lines);
                     }
                 }
                 AspectKind::EndOn(event) => {
@@ -134,6 +137,18 @@ impl<'a> Checker<'a> {
                 self.warning(Code::W0303, line.span, "this price is given twice")
                     .label("both are paid")
                     .also(earlier, "the first time");
+            }
+        }
+    }
+
+    /// A price of 0 adds nothing. A line with `on` may pay 0, so that no later line pays for its event.
+    fn prices_of_nothing(&mut self, lines: &'a [RewardLine]) {
+        for line in lines {
+            let is_zero =
+                matches!(&line.value.kind, ExprKind::Number(number) if number.value == 0.0);
+            if is_zero && matches!(line.paid, Paid::Per { .. }) {
+                self.warning(Code::W0510, line.value.span, "this price is 0")
+                    .label("it adds nothing to any reward");
             }
         }
     }
@@ -279,23 +294,37 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// A discount of 0: a decision is worth what it brings by itself.
+    /// A share of 0 for what is tried: whatever looks best first is done ever after. Where all looks better than it is at
+    /// first, as `initial` may have it, everything is tried all the same.
+    fn tries_nothing(&mut self, learn: &'a ast::Learn) {
+        let explore = self.learner(learn).map(|learner| learner.explore);
+        let explore = explore.and_then(|explore| self.program.pool.constant(explore));
+        let hopes = setting(learn, "initial").is_some();
+        let setting = setting(learn, "explore");
+        if let Some(setting) = setting.filter(|_| explore == Some(0.0) && !hopes) {
+            self.warning(Code::W0517, setting.value.span, "nothing is tried")
+                .label("in each episode the robot does what looks best so far")
+                .help("write a share above 0, such as `35% -> 5%`");
+        }
+    }
+
+    /// A discount of 0: what a decision leads to counts for nothing.
     fn looks_no_further(&mut self, learn: &'a ast::Learn) {
         let objective = self.learner(learn).map(|learner| learner.objective);
-        let none = match objective {
+        let factor = match objective {
             Some(Objective::Discounted(
                 Discount::PerDecision(factor) | Discount::PerTime(factor, _),
-            )) => factor == 0.0,
-            _ => false,
+            )) => factor,
+            _ => return,
         };
-        if let Some(setting) = setting(learn, "discount").filter(|_| none) {
+        if let Some(setting) = setting(learn, "discount").filter(|_| factor == 0.0) {
             self.warning(
-                Code::W0522,
+                Code::W0517,
                 setting.value.span,
-                "nothing that follows a decision counts",
+                "nothing counts but the reward of the decision itself",
             )
-            .label("so what leads to a reward later is worth nothing")
-            .help("write a discount above 0, such as `0.95 per decision` or `0.9 per 10 s`");
+            .label("what it leads to is not looked at")
+            .help("write a discount above 0, such as `0.95 per decision`");
         }
     }
 

@@ -4,7 +4,8 @@ use crate::check::Checker;
 use crate::diagnostic::Code;
 use crate::source::Span;
 use crate::syntax::ast::{
-    Arg, ArgKind, BinaryOp, Clause, ClauseKind, Expr, ExprKind, Literal, Ref, Spanned,
+    Arg, ArgKind, BinaryOp, Block, Branch, Clause, ClauseKind, Else, Expr, ExprKind, Literal, Ref,
+    Spanned, Stmt, StmtKind,
 };
 
 /// The functions whose value is another one each time.
@@ -43,6 +44,14 @@ impl<'a> Checker<'a> {
     pub fn same_branches(&mut self, then: &'a Expr, otherwise: &'a Expr) {
         if !self.context.library && is_like(then, otherwise) {
             let message = "both branches of this choice are the same".to_owned();
+            self.again(otherwise.span, then.span, message, "whatever holds");
+        }
+    }
+
+    /// Notes it where both branches of a statement do the same.
+    pub fn same_blocks(&mut self, then: &'a Block, otherwise: &'a Block) {
+        if !self.context.library && !then.stmts.is_empty() && does_the_same(then, otherwise) {
+            let message = "both branches do the same".to_owned();
             self.again(otherwise.span, then.span, message, "whatever holds");
         }
     }
@@ -153,6 +162,45 @@ fn is_like(a: &Expr, b: &Expr) -> bool {
         ) => x.node == y.node && is_like(a, c) && is_like(b, d),
         _ => false,
     }
+}
+
+/// Whether two blocks are written alike and do the same.
+fn does_the_same(a: &Block, b: &Block) -> bool {
+    let mut both = a.stmts.iter().zip(&b.stmts);
+    a.stmts.len() == b.stmts.len() && both.all(|(a, b)| is_like_stmt(a, b))
+}
+
+fn is_like_stmt(a: &Stmt, b: &Stmt) -> bool {
+    match (&a.kind, &b.kind) {
+        (StmtKind::Let(a), StmtKind::Let(b)) => {
+            a.name.name == b.name.name && is_like(&a.value, &b.value)
+        }
+        (
+            StmtKind::Assign {
+                target: a,
+                op: x,
+                value: of_a,
+            },
+            StmtKind::Assign {
+                target: b,
+                op: y,
+                value: of_b,
+            },
+        ) => x.node == y.node && is_same(a, b) && is_like(of_a, of_b),
+        (StmtKind::Call(a), StmtKind::Call(b)) => is_same(a, b),
+        (StmtKind::Branch(a), StmtKind::Branch(b)) => is_like_branch(a, b),
+        _ => false,
+    }
+}
+
+fn is_like_branch(a: &Branch, b: &Branch) -> bool {
+    let otherwise = match (a.otherwise.as_deref(), b.otherwise.as_deref()) {
+        (None, None) => true,
+        (Some(Else::Block(a)), Some(Else::Block(b))) => does_the_same(a, b),
+        (Some(Else::If(a)), Some(Else::If(b))) => is_like_branch(a, b),
+        _ => false,
+    };
+    otherwise && is_like(&a.cond, &b.cond) && does_the_same(&a.then, &b.then)
 }
 
 /// Whether two references are written alike and have one value.

@@ -1,7 +1,7 @@
 //! Statements.
 
 use super::Builder;
-use crate::diagnostic::{Applicability, Code, Diagnostic};
+use crate::diagnostic::{Applicability, Code, Diagnostic, suggest};
 use crate::source::Span;
 use crate::syntax::ast::{
     AssignOp, Binding, Block, Branch, Else, Expr, ExprKind, Ref, Stmt, StmtKind,
@@ -232,7 +232,7 @@ impl<'i> Builder<'i> {
             | "mut" | "val" | "def" | "real" | "string" => Some("let"),
             "when" | "while" | "switch" | "match" | "unless" => Some("if"),
             "foreach" | "loop" => Some("for"),
-            _ => None,
+            _ => misspelt(name, self.text.get(span.range().end..).unwrap_or_default()),
         };
         if let Some(meant) = meant.filter(|_| same_line && found != "}") {
             let diagnostic = Diagnostic::new(
@@ -367,6 +367,27 @@ impl<'i> Builder<'i> {
             "a call is written `{name}(…)`, an assignment `{name} = …`"
         )));
     }
+}
+
+/// The word that begins a statement, where one is nearly written so, and what follows it has the form of that statement.
+fn misspelt(name: &str, rest: &str) -> Option<&'static str> {
+    let line = rest.lines().next().unwrap_or_default();
+    let line = line.split("//").next().unwrap_or_default();
+    let words = ["let", "if", "for", "else", "while", "unless"];
+    let opens = line.contains('{');
+    let second = line.split_whitespace().nth(1);
+    let goes_on = |word: &str| match word {
+        "else" => line.trim_start().starts_with(['{']) || line.trim_start().starts_with("if "),
+        "let" => line.contains('=') && !opens,
+        "for" => second == Some("in") && opens,
+        _ => opens,
+    };
+    let word = (words.into_iter()).find(|word| suggest::is_near(name, word))?;
+    goes_on(word).then_some(match word {
+        // There is no loop, and no other branch.
+        "while" | "unless" => "if",
+        word => word,
+    })
 }
 
 /// The assignment for `x++`, `x--`.

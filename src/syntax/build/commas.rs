@@ -1,7 +1,7 @@
 //! Commas that are missing, and what looks like it: other words and brackets that are missing between two entries.
 
 use super::Builder;
-use crate::diagnostic::{Applicability, Code, Diagnostic};
+use crate::diagnostic::{Applicability, Code, Diagnostic, suggest};
 use crate::source::Span;
 use crate::syntax::grammar::Node;
 use crate::syntax::tokens::is_blank;
@@ -14,12 +14,13 @@ pub(super) const HISTORY: &str = "the ends of a history";
 const LEAVES: [&str; 2] = ["behavior", "tree"];
 
 /// What other notations put before the nodes of a tree.
-const BEFORE_NODES: [&str; 15] = [
+const BEFORE_NODES: [&str; 16] = [
     "subtree",
     "SubTree",
     "Subtree",
     "SubTreePlus",
     "when",
+    "while",
     "case",
     "action",
     "condition",
@@ -34,7 +35,10 @@ const BEFORE_NODES: [&str; 15] = [
 
 /// What to write for a word behind a node that other languages have there.
 fn behind_a_node(word: &str) -> Option<&'static str> {
-    Some(match word {
+    let near = ["until", "unless", "while", "when"].into_iter();
+    let near = near.filter(|_| word.len() >= 4);
+    let near = near.rev().find(|known| suggest::is_near(word, known));
+    Some(match near.unwrap_or(word) {
         "with" | "after" | "within" => {
             "what a node is done with goes around it: `timeout(10 s) { … }`, `retry(2) { … }`"
         }
@@ -141,6 +145,9 @@ impl<'i> Builder<'i> {
             self.report(diagnostic);
             return;
         }
+        if what == "the children of a node" && self.misspelt_joint(before, place) {
+            return;
+        }
         if what == "the children of a node"
             && let Some(help) = behind_a_node(self.slice(place))
             && before.is_some_and(|before| {
@@ -181,6 +188,45 @@ impl<'i> Builder<'i> {
         self.report(diagnostic);
     }
 
+    /// Reports a word between two parts of a child that is nearly one of the language: `memroy sequence`, `low adn full`.
+    fn misspelt_joint(&mut self, before: Option<Span>, next: Span) -> bool {
+        let Some(before) = before else {
+            return false;
+        };
+        let gap = self.text.get(before.range().end..next.range().start);
+        if gap.is_none_or(|gap| gap.contains('\n')) {
+            return false;
+        }
+        let word = self.slice(before).rsplit([' ', '(']).next();
+        let word = word.unwrap_or_default();
+        let end = before.range().end;
+        let last = Span::new(self.file, end - word.len(), end);
+        let is_node = NODES.iter().any(|(node, _)| *node == self.slice(next));
+        let before_it = match is_node {
+            true => ["memory"].as_slice(),
+            false => &["not"],
+        };
+        let tried = [(last, before_it), (next, ["and", "or"].as_slice())];
+        let found = tried.into_iter().find_map(|(at, words)| {
+            let written = self.slice(at);
+            let known = self
+                .glance()
+                .declares_by(&["predicate", "behavior", "tree"], written);
+            let mut words = words.iter().filter(|_| !known);
+            let meant = words.find(|word| suggest::is_near(written, word))?;
+            Some((at, *meant))
+        });
+        let Some((at, meant)) = found else {
+            return false;
+        };
+        let message = format!("expected `{meant}`, found `{}`", self.slice(at));
+        let diagnostic = Diagnostic::new(Code::E0101, at, message)
+            .label(format!("did you mean `{meant}`?"))
+            .fix(format!("write `{meant}`"), at, meant, Applicability::Unsafe);
+        self.report(diagnostic);
+        true
+    }
+
     /// Reports an argument without parentheses or a child without braces, at `next`, after the word `name`.
     fn missing_brackets(&mut self, name: &str, before: Span, next: Span, what: &str) -> bool {
         let gap = self.text.get(before.range().end..next.range().start);
@@ -200,7 +246,9 @@ impl<'i> Builder<'i> {
             Diagnostic::new(Code::E0101, next, message)
                 .label("expected `{`")
                 .help(format!("its form is `{form}`"))
-        } else if BEFORE_NODES.contains(&name) && what == "the children of a node" {
+        } else if (BEFORE_NODES.contains(&name) || suggest::is_near(name, "while"))
+            && what == "the children of a node"
+        {
             Diagnostic::new(
                 Code::E0101,
                 before,
