@@ -54,7 +54,7 @@ pub struct Checker<'a> {
     pub asked: Vec<(Span, Outcome)>,
     /// Where the program asks whether a behaviour has ended.
     pub endings: BTreeSet<Asked>,
-    /// The conditions of events, effects, doors and prices, by where they stand.
+    /// The conditions of events, effects, doors, prices and branches.
     pub conditions: Vec<Condition>,
     /// Where a program calls behaviours of the library.
     pub library_calls: BTreeMap<Span, Id<Behavior>>,

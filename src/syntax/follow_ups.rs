@@ -358,3 +358,34 @@ fn lines(text: &str, span: Span) -> Span {
     let end = after.find('\n').map_or(text.len(), |at| range.end + at);
     Span::new(span.file, start, end)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Regions;
+    use crate::source::{FileId, Span};
+
+    /// Places are looked up by bisection: what they cover together is what one finds who looks at all of them.
+    #[test]
+    fn places_around_are_those_that_one_finds_one_by_one() {
+        let spans: Vec<Span> = (0_usize..7)
+            .flat_map(|start| (start..8).map(move |end| Span::new(FileId(0), start, end)))
+            .collect();
+        let mut found = 0;
+        for (a, b, c) in (0..spans.len()).flat_map(|a| {
+            let all = 0..spans.len();
+            all.map(move |b| (a, b, (3 * a + 5 * b) % 28))
+        }) {
+            let places = [spans[a], spans[b], spans[c % spans.len()]];
+            let regions = Regions::new(places.to_vec());
+            for at in spans.iter().copied() {
+                let around = places
+                    .iter()
+                    .filter(|it| it.start <= at.start && at.start < it.end);
+                let naive = around.copied().reduce(Span::to);
+                assert_eq!(regions.around(at), naive, "{places:?}, {at:?}");
+                found += usize::from(naive.is_some());
+            }
+        }
+        assert!(found > 1000);
+    }
+}

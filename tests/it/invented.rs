@@ -11,12 +11,14 @@ mod world;
 
 use crate::program::{NoFiles, called, shown};
 use author::Author;
-use btc::driver::Text;
+use btc::diagnostic::render;
 use btc::driver::compile::{self, Form};
 use btc::driver::format::format;
 use btc::driver::load::{Loaded, load};
 use btc::driver::run::{Subject, run};
+use btc::driver::test::due;
 use btc::driver::trace::{Step, trace};
+use btc::driver::{self, Text};
 use btc::emit::form::TreeForm;
 use btc::emit::ir;
 use btc::geometry::Shape;
@@ -169,6 +171,27 @@ fn their_trees_are_written_in_every_form() {
             assert_eq!(known.root, tree.unwrap().root, "seed {seed}\n{printed}");
         }
     });
+}
+
+/// Their tests say what nobody has thought about: some hold, others are told to fail, at their places.
+#[test]
+fn their_tests_are_run() {
+    let failed = std::cell::Cell::new(0);
+    let run = std::cell::Cell::new(0);
+    all(|seed, text, program, trees| {
+        let due = due(program);
+        assert_eq!(due.len(), trees.len(), "seed {seed}\n{text}");
+        let told = || {
+            let results = driver::test::run(program, "invented.bt", &due, &[]);
+            render::human(&program.sources, &results.failures, false)
+        };
+        let once = told();
+        assert_eq!(told(), once, "seed {seed}");
+        failed.set(failed.get() + once.matches("error[E0612]").count());
+        run.set(run.get() + due.len());
+    });
+    let (failed, run) = (failed.get(), run.get());
+    assert!(0 < failed && failed < run, "{failed} of {run}");
 }
 
 #[test]

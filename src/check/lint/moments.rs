@@ -8,7 +8,7 @@ use crate::syntax::ast::{
 };
 use crate::syntax::print;
 
-/// How far events are followed that stand for other events.
+/// How deep conditions are looked into, and the events that they ask for.
 const DEEP: usize = 16;
 
 impl<'a> Checker<'a> {
@@ -21,29 +21,26 @@ impl<'a> Checker<'a> {
                         self.waits_for_nothing(condition, "its effects happen");
                     }
                 }
-                ItemKind::Task(task) => {
-                    for aspect in &task.aspects {
-                        match &aspect.kind {
-                            AspectKind::EndOn(condition) => {
-                                self.waits_for_nothing(condition, "the episode ends");
-                            }
-                            AspectKind::Reward { lines, .. } => {
-                                for line in lines {
-                                    match &line.paid {
-                                        Paid::On(condition) => {
-                                            self.waits_for_nothing(condition, "this is paid");
-                                        }
-                                        Paid::Per { during, .. } => {
-                                            during.iter().for_each(|during| self.priced(during));
-                                        }
-                                    }
-                                }
-                            }
-                            _ => {}
-                        }
-                    }
-                }
+                ItemKind::Task(task) => task
+                    .aspects
+                    .iter()
+                    .for_each(|aspect| self.moments_of(&aspect.kind)),
                 _ => {}
+            }
+        }
+    }
+
+    fn moments_of(&mut self, aspect: &AspectKind) {
+        if let AspectKind::EndOn(condition) = aspect {
+            self.waits_for_nothing(condition, "the episode ends");
+        }
+        let AspectKind::Reward { lines, .. } = aspect else {
+            return;
+        };
+        for line in lines {
+            match &line.paid {
+                Paid::On(condition) => self.waits_for_nothing(condition, "this is paid"),
+                Paid::Per { during, .. } => during.iter().for_each(|during| self.priced(during)),
             }
         }
     }

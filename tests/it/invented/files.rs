@@ -67,7 +67,7 @@ fn parted(text: &str, seed: u64) -> Loaded {
     );
     let (first, second) = (first.min(second), first.max(second));
     let of = |range: std::ops::Range<usize>| items[range].concat();
-    let files = Files(BTreeMap::from([
+    let mut files = Files(BTreeMap::from([
         (
             "parts/first.bt".to_owned(),
             format!("use std\n{}", of(0..first)),
@@ -81,7 +81,6 @@ fn parted(text: &str, seed: u64) -> Loaded {
         "use \"parts/second.bt\"\nuse std\nuse \"parts/first.bt\"\n{}",
         of(second..items.len())
     );
-    let mut files = files;
     load("invented.bt", main.into_bytes(), &mut files)
 }
 
