@@ -12,7 +12,6 @@ import signal
 import subprocess
 import sys
 import time
-from collections import Counter
 from fractions import Fraction
 from itertools import product
 from pathlib import Path
@@ -99,7 +98,10 @@ def kept(states, actions, step, safe):
 
 
 def cruise():
-    """A car behind a car that speeds up and brakes as it likes: keep five metres. After UPPAAL Stratego's example."""
+    """A car behind a car that speeds up and brakes as it likes: keep five metres, and be as fast as that allows.
+
+    After UPPAAL Stratego's example.
+    """
     speeds, far, near = range(0, 21, 2), 120, 5
 
     def step(state, action):
@@ -112,7 +114,8 @@ def cruise():
 
     states = list(product(speeds, speeds, range(far + 1)))
     allowed = kept(states, (-2, 0, 2), step, lambda state: state[2] >= near)
-    return Policy("cruise", ["own", "front", "distance"], numbered(allowed))
+    fastest = {state: {max(choices)} for state, choices in allowed.items()}
+    return Policy("cruise", ["own", "front", "distance"], numbered(fastest))
 
 
 def numbered(allowed):
@@ -157,7 +160,10 @@ def pendulum():
 
 
 def rooms():
-    """Two rooms with a heater each, and a wall between them: keep both within a few degrees. Two outputs."""
+    """Two rooms with a heater each, and a wall between them: keep both within a few degrees, heat no more than that takes.
+
+    Two outputs.
+    """
     size = (Fraction(1, 10), Fraction(1, 10))
 
     def step(low, high, heat):
@@ -170,7 +176,8 @@ def rooms():
 
     powers = list(product((Fraction(0), Fraction(1, 2), Fraction(1), Fraction(3, 2)), repeat=2))
     allowed = boxes(size, (24, 24), step, powers, (20, 20))
-    return Policy("rooms", ["one", "two"], numbered(allowed), outputs=2)
+    least = {state: {action for action in choices if sum(action) == min(map(sum, choices))} for state, choices in allowed.items()}
+    return Policy("rooms", ["one", "two"], numbered(least), outputs=2)
 
 
 WALLS = [((4, y), y not in (2, 13)) for y in range(16)] + [((x, 8), x not in (1, 10)) for x in range(16)] + [((11, y), y not in (5, 12)) for y in range(16)]
@@ -264,16 +271,16 @@ MODELS = {
             x : [0..9] init 0;
             y : [0..7] init 0;
             loaded : bool init false;
-            done : bool init false;
-            [east]  !done -> 0.9 : (x'=east_free ? x+1 : x) + 0.1 : true;
-            [west]  !done -> 0.9 : (x'=west_free ? x-1 : x) + 0.1 : true;
-            [north] !done -> 0.9 : (y'=y<7 & !door ? y+1 : y) + 0.1 : true;
-            [south] !done -> 0.9 : (y'=y>0 & !door ? y-1 : y) + 0.1 : true;
-            [pick]  !done -> (loaded'=loaded | (x=9 & y=0));
-            [drop]  !done -> (done'=loaded & x=0 & y=7);
+            over : bool init false;
+            [east]  !over -> 0.9 : (x'=east_free ? x+1 : x) + 0.1 : true;
+            [west]  !over -> 0.9 : (x'=west_free ? x-1 : x) + 0.1 : true;
+            [north] !over -> 0.9 : (y'=y<7 & !door ? y+1 : y) + 0.1 : true;
+            [south] !over -> 0.9 : (y'=y>0 & !door ? y-1 : y) + 0.1 : true;
+            [pick]  !over -> (loaded'=loaded | (x=9 & y=0));
+            [drop]  !over -> (over'=loaded & x=0 & y=7);
         endmodule
         rewards [east] true : 1; [west] true : 1; [north] true : 1; [south] true : 1; [pick] true : 1; [drop] true : 1; endrewards
-        label "done" = done;
+        label "done" = over;
     """,
     # A robot in a corridor that brings three parcels and has to charge in time; with an empty battery it is towed away.
     "charge": """mdp
@@ -426,6 +433,7 @@ def mapped(project):
         info = synthesizer.colored_mdp.feature_info
         tree.simplify([info.relevant_state_valuations[state] for state in info.state_is_relevant_bv])
         print(f"printing the synthesized tree below:\n{tree.to_string()}")
+    print(f"synthesis finished after {paynt.utils.timer.GlobalTimer.read():.2f} seconds")
 
 
 def state_key(valuation):
@@ -578,7 +586,7 @@ def btc(binary, policy, folder, source, effort=None):
         if isinstance(guard, bool):
             return guard, 0
         if isinstance(guard, str):
-            return names.get(guard, lambda held: held[guard] == 1)(held), 1
+            return names.get(guard.strip("`"), lambda held: held[guard.strip("`")] == 1)(held), 1
         if "not" in guard:
             value, asked = holds(guard["not"], held)
             return not value, asked
@@ -593,7 +601,7 @@ def btc(binary, policy, folder, source, effort=None):
 
     def tick(node, held):
         if node["node"] == "behavior":
-            return node["behavior"], 0
+            return node["behavior"].strip("`"), 0
         if node["node"] == "condition":
             return holds(node["condition"], held)
         assert node["node"] in ("selector", "sequence") and not node["memory"], node
@@ -606,7 +614,8 @@ def btc(binary, policy, folder, source, effort=None):
         return node["node"] == "sequence", asked
 
     def decide(held):
-        action, asked = tick(root, held)
+        # In dtControl's format inputs have no names.
+        action, asked = tick(root, {**held, **{f"x_{i}": value for i, value in enumerate(held.values())}})
         return [back[action]] if isinstance(action, str) else [], asked
 
     asked = check(policy, decide)
@@ -657,7 +666,8 @@ def actions_of_btc(policy):
     actions = policy.actions()
     if not isinstance(actions[0], tuple):
         return {action: action for action in actions}
-    return {"u = " + ", ".join(map(shown, action)): action for action in actions}
+    called = lambda action: shown(action[0]) if len(action) == 1 else f"({', '.join(map(shown, action))})"
+    return {f"u = {called(action)}": action for action in actions}
 
 
 # dtControl: the tree as JSON.
@@ -728,7 +738,9 @@ def paynt(python, policy, folder, exact):
         return {"failed": f"none in {LIMIT} s" if seconds >= LIMIT - 1 else f"none of depth {DEPTH} or less" if good else "ended in an error"}
     root = read_tree(found.group(1).splitlines())
     decide = lambda held: walk(root, held)
-    figures = {"tests": inner_nodes(root), "depth": depth_of(root), "seconds": seconds, "search": seconds}
+    figures = {"tests": inner_nodes(root), "depth": depth_of(root), "seconds": seconds}
+    said = re.search(r"synthesis finished after ([\d.]+) seconds", text)
+    figures["search"] = float(said.group(1)) if said else seconds
     figures["nodes"] = 2 * figures["tests"] + 1
     # Where the search has not ended, a tree of this depth may be all there was time for.
     figures["cut"] = seconds >= LIMIT - 1
@@ -803,9 +815,6 @@ def depth_of(node):
 def measure(binary, root, name):
     policy = POLICIES[name](root)
     folder = root / "runs" / name
-    done = folder / "figures.json"
-    if done.exists():
-        return json.loads(done.read_text())
     folder.mkdir(parents=True, exist_ok=True)
     policy.write_dtcontrol(folder / "policy.csv")
     source = folder / "policy.csv"
@@ -817,25 +826,25 @@ def measure(binary, root, name):
     elif not isinstance(policy.actions()[0], tuple):
         source = folder / "table.csv"
         policy.write_csv(source)
-    sizes = Counter(len(allowed) for _, allowed in policy.rows)
-    figures = {"policy": policy.name, "rows": len(policy.rows), "inputs": len(policy.inputs), "several": sum(sizes.values()) - sizes[1]}
-    tell = lambda *said: print(name, *said, file=sys.stderr, flush=True)
-    tell(figures)
+    several = sum(len(allowed) > 1 for _, allowed in policy.rows)
+    figures = {"policy": policy.name, "rows": len(policy.rows), "inputs": len(policy.inputs), "several": several}
+
+    def once(key, measured):
+        """What was measured before is read again."""
+        known = folder / f"{key}.figures.json"
+        if not known.exists():
+            known.write_text(json.dumps(measured()))
+            print(name, key, known.read_text(), file=sys.stderr, flush=True)
+        return json.loads(known.read_text())
+
     if binary:
-        figures["btc"] = btc(binary, policy, folder, source)
-        tell("btc", figures["btc"])
-        figures["btc more"] = btc(binary, policy, folder, source, EFFORT)
-        tell("btc more", figures["btc more"])
+        figures["btc"] = once("btc", lambda: btc(binary, policy, folder, source))
+        figures["btc more"] = once("btc-more", lambda: btc(binary, policy, folder, source, EFFORT))
     for kind, presets in (("axis", AXIS), ("linear", LINEAR)):
-        figures[kind] = []
-        for preset in presets:
-            figures[kind].append(dtcontrol(root / "dtcontrol/bin/python", policy, folder, preset))
-            tell(kind, figures[kind][-1])
+        python = root / "dtcontrol/bin/python"
+        figures[kind] = [once(preset, lambda: dtcontrol(python, policy, folder, preset)) for preset in presets]
     if policy.model and not name.endswith("-all"):
-        figures["paynt"] = paynt(root / "paynt/bin/python", policy, folder, name.endswith("-reached"))
-        tell("paynt", figures["paynt"])
-    if binary:
-        done.write_text(json.dumps(figures, indent=1))
+        figures["paynt"] = once("paynt", lambda: paynt(root / "paynt/bin/python", policy, folder, name.endswith("-reached")))
     return figures
 
 
@@ -869,7 +878,7 @@ def tables(all_figures):
         elif "failed" in run:
             row += [run["failed"], ""]
         else:
-            row += [cell(run, f", depth {run['depth']}"), f"{run['seconds']:.1f}"]
+            row += [cell(run, f", depth {run['depth']}"), seconds(run)]
         yield "| " + " | ".join(row) + " |"
     yield ""
     columns = ["policy", "rows with several actions", "asked per row: btc", "dtControl", "dtControl, sums", "PAYNT", "PAYNT: states reached", "costs above the least"]
