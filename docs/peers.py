@@ -22,13 +22,13 @@ AXIS = ["cart", "maxfreq", "minnorm", "mlentropy"]
 LINEAR = ["logreg", "linsvm", "maxfreqlc", "minnormlc", "oc1"]
 
 # Seconds that a run may take.
-LIMIT = 120
+LIMIT = 60
 
 # The deepest trees that PAYNT looks for: a tree of depth d is searched for among all with 2^d leaves.
 DEPTH = 8
 
-# More work than `btc decanonicalize` does unasked.
-EFFORT = 400
+# Ten times the work that `btc decanonicalize` does unasked.
+EFFORT = 200
 
 
 # --- Policies -------------------------------------------------------------------------------------------------------------
