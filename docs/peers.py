@@ -260,7 +260,7 @@ def planted():
 
 # --- Markov decision processes, by Storm ----------------------------------------------------------------------------------
 
-# Every action may be taken in every state, where it is of no use it does nothing: PAYNT's trees need it to be so.
+# Every action may be taken in every state; where it is of no use it does nothing. PAYNT plays dice where a tree names another.
 MODELS = {
     # A robot that fetches a parcel: two walls with a door each, a step fails once in ten.
     "fetch": """mdp
@@ -479,9 +479,7 @@ class Model:
             state = self.states[open_.pop()]
             if state["done"]:
                 continue
-            action = decide(state) if self.asks(state) else state["choices"][0]["label"]
-            choice = next(choice for choice in state["choices"] if choice["label"] == action)
-            for after, _ in choice["after"]:
+            for after in {after for choice in taken(self, state, decide) for after, _ in choice["after"]}:
                 if after not in met:
                     met.add(after)
                     open_.append(after)
@@ -729,7 +727,7 @@ def seconds_of(text):
 def paynt(python, policy, folder, exact):
     """The tree of least depth that maps Storm's scheduler (`exact`), or that is worth as much as any, within the limit."""
     model = policy.model
-    command = [python, "-m", "paynt", model.project, "--tree-depth", str(DEPTH), "--no-add-dont-care-action", "--timeout", str(LIMIT)]
+    command = [python, "-m", "paynt", model.project, "--tree-depth", str(DEPTH), "--timeout", str(LIMIT)]
     command = [python, __file__, "--map", model.project] if exact else [*command, "--tree-enumeration"]
     seconds, text, good = run(command, folder, LIMIT + 30)
     (folder / "paynt.txt").write_text(text)
@@ -758,15 +756,22 @@ def paynt(python, policy, folder, exact):
     return figures
 
 
+def taken(model, state, decide):
+    """The choices that are taken in a state, each as often: all of them where PAYNT's `__random__` is, or an action that is none there."""
+    choices = state["choices"]
+    action = decide(state) if model.asks(state) else choices[0]["label"]
+    return [choice for choice in choices if choice["label"] == action] or choices
+
+
 def worth(model, decide, reached):
     """The costs that are to be expected of a policy, by iteration."""
     moves = {}
     for number in reached:
         state = model.states[number]
         if not state["done"]:
-            action = decide(state) if model.asks(state) else state["choices"][0]["label"]
-            choice = next(choice for choice in state["choices"] if choice["label"] == action)
-            moves[number] = (float(choice["cost"]), [(after, float(share)) for after, share in choice["after"]])
+            choices = taken(model, state, decide)
+            cost = sum(float(choice["cost"]) for choice in choices) / len(choices)
+            moves[number] = (cost, [(after, float(share) / len(choices)) for choice in choices for after, share in choice["after"]])
     value = dict.fromkeys(reached, 0.0)
     for _ in range(200_000):
         change = 0.0
@@ -878,17 +883,17 @@ def tables(all_figures):
         elif "failed" in run:
             row += [run["failed"], ""]
         else:
-            row += [cell(run, f", depth {run['depth']}"), seconds(run)]
+            row += [cell(run, f", depth {run['depth']}" + (", stopped" if run.get("cut") else "")), seconds(run)]
         yield "| " + " | ".join(row) + " |"
     yield ""
-    columns = ["policy", "rows with several actions", "asked per row: btc", "dtControl", "dtControl, sums", "PAYNT", "PAYNT: states reached", "costs above the least"]
+    columns = ["policy", "rows with several actions", "asked per row: btc", f"btc, `--effort {EFFORT}`", "dtControl", "dtControl, sums", "PAYNT", "PAYNT: states reached", "costs above the least"]
     yield "| " + " | ".join(columns) + " |"
     yield "| --- |" + " ---: |" * (len(columns) - 1)
     for figures in all_figures:
-        runs = [figures["btc"], best(figures["axis"]), best(figures["linear"]), figures.get("paynt")]
+        runs = [figures["btc"], figures["btc more"], best(figures["axis"]), best(figures["linear"]), figures.get("paynt")]
         row = [figures["policy"], str(figures["several"])] + [f"{run['asked']:.1f}" if run and "asked" in run else "" for run in runs]
         run = figures.get("paynt", {})
-        row += [str(run.get("reached", "")), f"{100 * run['loss']:.3f} %" if "loss" in run else ""]
+        row += [str(run.get("reached", "")), f"{100 * abs(run['loss']):.1f} %" if "loss" in run else ""]
         yield "| " + " | ".join(row) + " |"
 
 
