@@ -212,6 +212,12 @@ impl<'a> Checker<'a> {
         let built_in = built_in.filter(|name| called != builtin::Constant::named(name).is_some());
         let known = scope.chain(declared).chain(built_in);
         let likely = self.likely(&name.name, known);
+        // What is drawn evenly from an interval is a number.
+        let likely = likely.map(|likely| match &wanted {
+            Some(Type::Bool) if likely == "uniform" => "chance",
+            Some(ty) if likely == "uniform" && ty.dim().is_none() => "one_of",
+            _ => likely,
+        });
         let what = match reference.args {
             Some(_) => "function, predicate or `let`",
             None => "state, event, place or `let`",
