@@ -121,6 +121,12 @@ impl<'a> Checker<'a> {
             if memory || !self.stands_twice(written, nodes, at) {
                 self.nodes_of(child, node, &open, &held);
             }
+            // What follows from a constant predicate is told by the warning of that.
+            if let Node::Condition(guard) = node
+                && asks_a_constant(&self.program, guard)
+            {
+                return;
+            }
             let status = match kind {
                 Composite::Selector => Status::Failure,
                 Composite::Sequence => Status::Success,

@@ -148,8 +148,11 @@ impl<'a> Checker<'a> {
                     let title = format!("count them: write `{} ticks`", print::expr(time));
                     (title, time.span.after(), " ticks".to_owned())
                 });
-                self.no_world(time.span, "a time", "how many ticks are these?")
-                    .fix_if(count);
+                let label = match count {
+                    Some(_) => "this is a plain number",
+                    None => "how many ticks are these?",
+                };
+                self.no_world(time.span, "a time", label).fix_if(count);
                 return None;
             }
             None => self.ticks(time, "`for`")?,
