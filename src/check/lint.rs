@@ -61,6 +61,7 @@ impl<'a> Checker<'a> {
         self.nodes_without_effect(items());
         self.subtrees_without_effect(items());
         self.claims_beyond_episodes(items());
+        self.sides_without_effect();
         self.world_without_effect(items());
     }
 

@@ -4,6 +4,7 @@ mod claim;
 mod guard;
 mod node;
 mod test;
+mod uncounted;
 
 pub use claim::written;
 

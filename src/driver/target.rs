@@ -8,7 +8,7 @@ use crate::ir::task::{Learner, Task};
 use crate::ir::tree::Tree;
 use crate::ir::{Id, Program};
 use crate::source::Span;
-use crate::syntax::ast::{AspectKind, Item, ItemKind, LearnEntry, Start, StartLine};
+use crate::syntax::ast::{self, AspectKind, Item, ItemKind, LearnEntry, Start, StartLine};
 
 /// The end of the main file: where something is missing.
 pub fn end_of_file(loaded: &Loaded) -> Span {
@@ -156,12 +156,45 @@ fn only<'n, T>(
     Err(Refused::program(loaded, [diagnostic]))
 }
 
+/// Why a tree that is declared is none that a command can take.
+fn no_whole_tree(loaded: &Loaded, tree: &ast::Tree) -> Diagnostic {
+    let (at, name) = (tree.name.span, &tree.name.name);
+    let (code, message, label) = if tree.params.is_some() {
+        (
+            Code::E0504,
+            format!("the tree `{name}` has parameters"),
+            "a tree without any can use it",
+        )
+    } else if loaded.program.world.is_some() {
+        (
+            Code::E0504,
+            format!("another robot runs the tree `{name}`"),
+            "this one is its script",
+        )
+    } else {
+        (
+            Code::E0407,
+            format!("the tree `{name}` needs a world, and there is none"),
+            "a world counts the ticks of its timeouts",
+        )
+    };
+    Diagnostic::new(code, at, message).label(label)
+}
+
 fn missing<'n>(
     loaded: &Loaded,
     what: &str,
     name: &str,
     names: impl Iterator<Item = &'n Name>,
 ) -> Refused {
+    let items = loaded.asts().flat_map(|ast| &ast.items);
+    let declared = items.filter_map(|item| match &item.kind {
+        ItemKind::Tree(tree) if what == "tree" && tree.name.name == name => Some(tree),
+        _ => None,
+    });
+    if let Some(tree) = declared.last() {
+        return Refused::program(loaded, [no_whole_tree(loaded, tree)]);
+    }
     let diagnostic = Diagnostic::new(
         Code::E0504,
         place_of(loaded, what),

@@ -2,11 +2,12 @@
 
 use crate::check::Checker;
 use crate::check::expr::expect::is_literal;
+use crate::check::types::units::Dim;
 use crate::check::types::{Type, Typed};
 use crate::diagnostic::Code;
 use crate::ir::Pool;
 use crate::ir::expr::{Binary, ExprId, Kind, Unary};
-use crate::syntax::ast::{Expr, Ref};
+use crate::syntax::ast::{Expr, ExprKind, Ref};
 
 impl<'a> Checker<'a> {
     /// A function of one number.
@@ -79,7 +80,7 @@ impl<'a> Checker<'a> {
     pub fn clamp(&mut self, reference: &'a Ref) -> Option<Typed> {
         let span = reference.span;
         let values = self.positional(reference, 2, 3)?;
-        let numbers = self.numbers(&values, "a limit of `clamp`")?;
+        let numbers = self.within_limits(&values)?;
         let ty = numbers.first()?.ty.clone();
         match numbers.as_slice() {
             [x, limit] => Some(self.lift(ty, span, [x, limit], |pool, [x, limit]| {
@@ -99,6 +100,28 @@ impl<'a> Checker<'a> {
             })),
             _ => None,
         }
+    }
+
+    /// A number with its limits. These are measures that somebody knows, and the number is reckoned: where they have one unit
+    /// and it has another, it is the number that is wrong.
+    fn within_limits(&mut self, values: &[&'a Expr]) -> Option<Vec<Typed>> {
+        let (value, limits) = values.split_first()?;
+        let number = self.number_of(value)?;
+        let limits = limits
+            .iter()
+            .map(|limit| (*limit, self.expr_like(limit, &number.ty)));
+        let limits: Vec<(&'a Expr, Typed)> = limits.collect();
+        let unit = unit_of(&limits).filter(|limit| limit.ty.dim() != number.ty.dim());
+        if let (Some(limit), ExprKind::Binary { .. }) = (unit, &value.kind) {
+            self.like(number, value, limit, "what `clamp` limits");
+            return None;
+        }
+        let mut like = number.clone();
+        let mut all = vec![number];
+        for (limit, typed) in limits {
+            all.push(self.next_alike(value, &mut like, (limit, typed), "a limit of `clamp`")?);
+        }
+        Some(all)
     }
 
     /// Whether one constant is more than another.
@@ -125,20 +148,33 @@ impl<'a> Checker<'a> {
         let mut like = first;
         for value in rest {
             let next = self.expr_like(value, &like.ty);
-            // A number without a unit says least of what is meant: it lacks the unit of the others.
-            let unlike = next.ty.dim().is_some() && next.ty.join(&like.ty).is_none();
-            if unlike && like.ty == Type::NUMBER && is_literal(lead) {
-                self.lacks_the_unit_of(&next, (lead, &like), role);
-                return None;
-            }
-            let next = self.like(next, value, &like, role);
-            if next.ty == Type::Error {
-                return None;
-            }
-            like.ty = like.ty.join(&next.ty).unwrap_or(like.ty);
-            all.push(next);
+            all.push(self.next_alike(lead, &mut like, (value, next), role)?);
         }
         Some(all)
+    }
+
+    /// A further value, which has to be of the type of those before it.
+    fn next_alike(
+        &mut self,
+        lead: &'a Expr,
+        like: &mut Typed,
+        (value, next): (&'a Expr, Typed),
+        role: &str,
+    ) -> Option<Typed> {
+        // A number without a unit says least of what is meant: it lacks the unit of the others.
+        let unlike = next.ty.dim().is_some() && next.ty.join(&like.ty).is_none();
+        if unlike && like.ty == Type::NUMBER && is_literal(lead) {
+            self.lacks_the_unit_of(&next, (lead, like), role);
+            return None;
+        }
+        let next = self.like(next, value, like, role);
+        if next.ty == Type::Error {
+            return None;
+        }
+        if let Some(joined) = like.ty.join(&next.ty) {
+            like.ty = joined;
+        }
+        Some(next)
     }
 
     /// Reports a plain number that stands beside a number with a unit.
@@ -158,6 +194,15 @@ impl<'a> Checker<'a> {
         self.number(&typed)?;
         Some(typed)
     }
+}
+
+/// The first of some values, if all of them have one unit.
+fn unit_of<'v>(values: &'v [(&Expr, Typed)]) -> Option<&'v Typed> {
+    let (_, first) = values.first()?;
+    let dim = first.ty.dim().filter(|dim| *dim != Dim::NONE)?;
+    let mut all = values.iter();
+    all.all(|(_, value)| value.ty.dim() == Some(dim))
+        .then_some(first)
 }
 
 fn clamped(pool: &mut Pool, x: ExprId, low: ExprId, high: ExprId) -> ExprId {

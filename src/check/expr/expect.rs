@@ -7,11 +7,11 @@ use crate::check::names::Decl;
 use crate::check::report::{Draft, listed};
 use crate::check::types::units::Dim;
 use crate::check::types::{Type, Typed};
-use crate::diagnostic::{Applicability, Code, suggest};
+use crate::diagnostic::{Applicability, Code, Diagnostic, suggest};
 use crate::ir::expr::ExprId;
 use crate::source::Span;
 use crate::spelling::spelled;
-use crate::syntax::ast::{ArgKind, Expr, ExprKind, Ref};
+use crate::syntax::ast::{ArgKind, BinaryOp, Expr, ExprKind, LetBody, Ref};
 use crate::syntax::print;
 
 impl<'a> Checker<'a> {
@@ -78,6 +78,7 @@ impl<'a> Checker<'a> {
             .this_is(&typed.ty)
             .help_if(help)
             .unit_for(expr, wanted.dim().filter(|_| typed.ty.dim().is_some()))
+            .unit_of_gain(expr, &typed.ty, wanted)
             .units_within(expr, wanted.dim().filter(|_| typed.ty == Type::NUMBER));
         if place {
             let right = format!("pose({})", print::expr(expr));
@@ -216,6 +217,22 @@ impl<'a> Checker<'a> {
         dim
     }
 
+    /// The number that a name stands for, if it is written as one.
+    fn plain_constant(&self, expr: &Expr) -> Option<&'a Expr> {
+        let reference = plain_ref(expr).filter(|reference| reference.args.is_none())?;
+        let name = reference.name.name.as_str();
+        if self.context.lookup(name).is_some() {
+            return None;
+        }
+        match self.names.value(name, self.context.library)? {
+            (Decl::Let(shared), false) if shared.params.is_none() => match &shared.body {
+                LetBody::Expr(value) => Some(value).filter(|value| is_literal(value)),
+                LetBody::Yield(_) => None,
+            },
+            _ => None,
+        }
+    }
+
     /// `battery <= 25`: a plain number above 1 where a ratio is meant.
     pub fn warn_plain_ratio(&mut self, expr: &Expr, wanted: &Type) {
         if *wanted != Type::Ratio {
@@ -237,6 +254,12 @@ impl<'a> Checker<'a> {
                     }
                     ArgKind::Named(..) | ArgKind::Binder { .. } => {}
                 }
+            }
+        }
+        if let Some(named) = self.plain_constant(expr) {
+            let told = |found: &Diagnostic| (found.code, found.span()) == (Code::W0301, named.span);
+            if !self.diagnostics.iter().any(told) {
+                self.warn_plain_ratio(named, wanted);
             }
         }
         if let ExprKind::Number(literal) = &expr.kind
@@ -330,6 +353,9 @@ fn conversion(typed: &Typed, expr: &Expr, wanted: &Type, is_variant: bool) -> Op
         let asked = print::expr(expr);
         return Some(format!("it is one divided by that: `1 / ({asked})`"));
     }
+    if gain(expr).is_some() && wanted.times(is, -1) == Dim::FREQUENCY {
+        return None;
+    }
     if is != Dim::TIME && is.times(Dim::TIME, -1) == wanted {
         let Some(literal) = literal else {
             let off = print::expr(expr);
@@ -346,6 +372,17 @@ fn conversion(typed: &Typed, expr: &Expr, wanted: &Type, is_variant: bool) -> Op
         ));
     }
     None
+}
+
+/// The plain number that a product begins with.
+fn gain(expr: &Expr) -> Option<&Expr> {
+    match &expr.kind {
+        ExprKind::Binary { op, left, .. } if op.node == BinaryOp::Mul => match is_literal(left) {
+            true => Some(left),
+            false => gain(left),
+        },
+        _ => None,
+    }
 }
 
 /// Whether it is so much in a time.
@@ -425,6 +462,25 @@ impl Draft<'_> {
             right,
             Applicability::Unsafe,
         )
+    }
+
+    /// Offers to write the unit of a gain that makes a rate of an error: `3 * error` is none, `3 Hz * error` is.
+    fn unit_of_gain(self, expr: &Expr, is: &Type, wanted: &Type) -> Self {
+        let rate = is.dim().zip(wanted.dim());
+        match gain(expr) {
+            Some(gain)
+                if rate.is_some_and(|(is, wanted)| wanted.times(is, -1) == Dim::FREQUENCY) =>
+            {
+                let right = format!("{} Hz", print::expr(gain));
+                self.fix(
+                    format!("a gain that makes a rate of something has a unit: write `{right}`"),
+                    gain.span,
+                    right,
+                    Applicability::Unsafe,
+                )
+            }
+            _ => self,
+        }
     }
 
     /// Offers to write the unit of a dimension after a literal that lacks it.

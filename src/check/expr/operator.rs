@@ -115,6 +115,8 @@ impl<'a> Checker<'a> {
         if a.ty == Type::Error || b.ty == Type::Error {
             return None;
         }
+        self.joins(left, a.scalar());
+        self.joins(right, b.scalar());
         Some(self.lift_binary(op, Type::Bool, &a, &b, span))
     }
 

@@ -3,6 +3,7 @@
 use crate::check::Checker;
 use crate::check::builtin;
 use crate::check::context::Region;
+use crate::check::expr::plain_ref;
 use crate::check::names::{Decl, is_built_in};
 use crate::check::task::history::NO_END;
 use crate::check::types::{Type, Typed, Value};
@@ -11,7 +12,7 @@ use crate::ir::expr::Expr;
 use crate::ir::world::{Robot, World};
 use crate::ir::{Id, Name};
 use crate::source::Span;
-use crate::syntax::ast::{Ident, Ref};
+use crate::syntax::ast::{Arg, ArgKind, Ident, Ref};
 
 impl<'a> Checker<'a> {
     /// A name, or a call.
@@ -168,6 +169,22 @@ impl<'a> Checker<'a> {
         self.context.scope.is_empty().then(|| open.name.to_owned())
     }
 
+    /// Whether a call is given a value of an enum, a place, a wall or a robot first, and no number.
+    fn is_given_names(&self, reference: &Ref) -> bool {
+        let first = reference.args.as_deref().and_then(<[Arg]>::first);
+        let Some(ArgKind::Positional(first)) = first.map(|arg| &arg.kind) else {
+            return false;
+        };
+        let named = plain_ref(first).filter(|named| named.args.is_none());
+        let decl = named.and_then(|named| self.names.value(&named.name.name, false));
+        decl.is_some_and(|(decl, _)| {
+            matches!(
+                decl,
+                Decl::Variant(..) | Decl::Place(..) | Decl::Wall(..) | Decl::Robot(_)
+            )
+        })
+    }
+
     fn unknown_reference(&mut self, reference: &Ref) -> Option<Typed> {
         let name = &reference.name;
         let wanted = self.wanted.take();
@@ -212,6 +229,10 @@ impl<'a> Checker<'a> {
         let built_in = built_in.filter(|name| called != builtin::Constant::named(name).is_some());
         let known = scope.chain(declared).chain(built_in);
         let likely = self.likely(&name.name, known);
+        let likely = likely.map(|likely| match likely {
+            "uniform" if self.is_given_names(reference) => "one_of",
+            _ => likely,
+        });
         let what = match reference.args {
             Some(_) => "function, predicate or `let`",
             None => "state, event, place or `let`",

@@ -4,7 +4,7 @@ use super::apart::because;
 use super::cases::of_expr;
 use crate::check::Checker;
 use crate::check::context::Region;
-use crate::diagnostic::Code;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::expr::{Expr, ExprId};
 use crate::source::Span;
 use crate::syntax::ast::{self, ExprKind};
@@ -20,49 +20,96 @@ pub struct Condition {
     /// Whether it is written without any name.
     nameless: bool,
     /// Whether any robot may ask it.
-    of_a_law: bool,
+    of_any_robot: bool,
+    /// Whether `and` or `or` joins it with another one.
+    joined: bool,
 }
 
 impl<'a> Checker<'a> {
     /// Notes a condition, to be looked at once the program is whole.
     pub fn asks(&mut self, at: Span, condition: Option<ExprId>) {
-        self.notes_condition(at, condition, false, false);
+        self.notes(at, condition);
+    }
+
+    /// Notes a side of `and` or `or` in a predicate, an event or a clause. Of one that depends on parameters, nothing is
+    /// said.
+    pub fn joins(&mut self, written: &'a ast::Expr, side: Option<ExprId>) {
+        let region = self.context.region;
+        let asks = matches!(region, Region::Predicate | Region::Event | Region::Clause);
+        if asks
+            && self.bodies.for_itself()
+            && let Some(noted) = self.notes(written.span, side)
+        {
+            noted.of_any_robot = region != Region::Event;
+            noted.joined = true;
+        }
     }
 
     /// Notes the condition of a branch in an effect or a control law. Of one that depends on parameters, nothing is said.
     pub fn branches_on(&mut self, written: &'a ast::Expr, condition: Option<ExprId>) {
         let of_a_law = self.context.region == Region::Control;
         let is_effect = matches!(self.context.region, Region::Effect | Region::EachTick);
-        if is_effect || of_a_law && self.bodies.for_itself() {
-            self.notes_condition(written.span, condition, is_nameless(written), of_a_law);
+        if (is_effect || of_a_law && self.bodies.for_itself())
+            && let Some(noted) = self.notes(written.span, condition)
+        {
+            noted.nameless = is_nameless(written);
+            noted.of_any_robot = of_a_law;
         }
     }
 
     /// Notes the condition of a choice between values, if it is written without any name.
     pub fn chooses_by(&mut self, written: &'a ast::Expr, condition: Option<ExprId>) {
-        if is_nameless(written) {
-            self.notes_condition(written.span, condition, true, false);
+        if is_nameless(written)
+            && let Some(noted) = self.notes(written.span, condition)
+        {
+            noted.nameless = true;
         }
     }
 
-    fn notes_condition(&mut self, at: Span, asks: Option<ExprId>, nameless: bool, of_a_law: bool) {
-        if let (Some(asks), false) = (asks, self.context.library) {
-            self.conditions.push(Condition {
-                at,
-                asks,
-                nameless,
-                of_a_law,
-            });
+    fn notes(&mut self, at: Span, asks: Option<ExprId>) -> Option<&mut Condition> {
+        if self.context.library {
+            return None;
         }
+        self.conditions.push(Condition {
+            at,
+            asks: asks?,
+            nameless: false,
+            of_any_robot: false,
+            joined: false,
+        });
+        self.conditions.last_mut()
     }
 
     /// Warns of the conditions that always or never hold. Of what stands in the text once for each member of a kind, all
     /// have to; what has the name of a constant is meant to be one.
     pub fn conditions_without_effect(&mut self) {
+        let noted = std::mem::take(&mut self.conditions);
+        let (sides, whole) = noted.into_iter().partition(|it| it.joined);
+        self.conditions = sides;
+        self.hold_always_or_never(whole);
+    }
+
+    /// Warns of the sides of `and` and `or` that always or never hold, where the whole does not: of the innermost.
+    pub fn sides_without_effect(&mut self) {
+        let mut sides = std::mem::take(&mut self.conditions);
+        sides.sort_by_key(|side| side.at.end - side.at.start);
+        for side in sides {
+            let told = |found: &Diagnostic| {
+                let (at, side) = (found.span(), side.at);
+                let overlap = at.file == side.file && at.start < side.end && side.start < at.end;
+                found.code == Code::W0601 && overlap
+            };
+            if !self.diagnostics.iter().any(told) {
+                self.hold_always_or_never(vec![side]);
+            }
+        }
+    }
+
+    fn hold_always_or_never(&mut self, noted: Vec<Condition>) {
         let world = self.program.world.as_ref();
         let alone = world.is_none_or(|world| world.others.is_empty());
         let mut places: BTreeMap<Span, Vec<Condition>> = BTreeMap::new();
-        for condition in std::mem::take(&mut self.conditions) {
+        for condition in noted {
             places.entry(condition.at).or_default().push(condition);
         }
         for (at, conditions) in places {
@@ -71,7 +118,7 @@ impl<'a> Checker<'a> {
                 // Of an event that never happens it is told where that is declared.
                 pool.constant(it.asks).is_some() && !it.nameless
                     || matches!(pool.get(it.asks), Expr::Event(_))
-                    || it.of_a_law && !it.nameless && !alone
+                    || it.of_any_robot && !it.nameless && !alone
             };
             if conditions.iter().any(told) || self.says_one_thing_twice(at) {
                 continue;

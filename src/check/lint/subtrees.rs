@@ -1,7 +1,7 @@
-//! Nodes without effect in subtrees with parameters, and times that no episode lasts.
+//! Nodes without effect in subtrees with parameters and in the scripts of robots, and times that no episode lasts.
 //!
-//! A subtree with parameters has a body for each set of arguments. What is said of it holds for all that the program
-//! uses.
+//! A subtree with parameters has a body for each set of arguments, and a script one for each robot. What is said of it
+//! holds for all that the program uses.
 
 use super::cases::Cases;
 use crate::check::Checker;
@@ -38,6 +38,7 @@ impl<'a> Checker<'a> {
             self.timeouts(&tree.root, &root, episode.unwrap_or(0));
             self.uses(&tree.root, &root, &mut uses);
         }
+        self.scripts_used(&mut uses);
         for (tree, nodes) in uses.into_values() {
             let mut told: Option<Vec<Diagnostic>> = None;
             for node in nodes.iter().take(MOST) {
@@ -53,6 +54,23 @@ impl<'a> Checker<'a> {
             if nodes.len() <= MOST {
                 self.diagnostics.extend(told.into_iter().flatten());
             }
+        }
+    }
+
+    /// Collects the trees that other robots run.
+    fn scripts_used(&self, uses: &mut Uses<'a>) {
+        let others = self
+            .program
+            .world
+            .iter()
+            .flat_map(|world| world.others.values());
+        for ((_, runs), other) in self.scripts.iter().zip(others) {
+            let (Some(tree), Some(node)) = (self.called(runs), &other.script) else {
+                continue;
+            };
+            let (_, nodes) = uses.entry(tree.name.span).or_insert((tree, Vec::new()));
+            nodes.push(node.clone());
+            self.uses(&tree.root, node, uses);
         }
     }
 

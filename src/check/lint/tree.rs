@@ -8,7 +8,7 @@ use super::idle::is_switch;
 use super::mentions::Mentions;
 use crate::check::Checker;
 use crate::diagnostic::Code;
-use crate::ir::tree::{Composite, Decorator, Guard, Node, Status};
+use crate::ir::tree::{Atom, Composite, Decorator, Guard, Node, Status};
 use crate::ir::{Name, Program};
 use crate::source::Span;
 use crate::syntax::ast::{self, ExprKind, Item, ItemKind, NodeKind};
@@ -121,6 +121,12 @@ impl<'a> Checker<'a> {
             if memory || !self.stands_twice(written, nodes, at) {
                 self.nodes_of(child, node, &open, &held);
             }
+            // What follows from a constant predicate is told by the warning of that.
+            if let Node::Condition(guard) = node
+                && asks_a_constant(&self.program, guard)
+            {
+                return;
+            }
             let status = match kind {
                 Composite::Selector => Status::Failure,
                 Composite::Sequence => Status::Success,
@@ -157,7 +163,10 @@ impl<'a> Checker<'a> {
         };
         // A predicate that is constant by its definition has its warning there.
         let plain = matches!(&written.kind, ExprKind::Ref(_));
-        if !plain && !self.says_one_thing_twice(written.span) {
+        if !plain
+            && !asks_a_constant(&self.program, guard)
+            && !self.says_one_thing_twice(written.span)
+        {
             self.warning(
                 Code::W0601,
                 written.span,
@@ -166,6 +175,22 @@ impl<'a> Checker<'a> {
             .label("it asks nothing");
         }
         true
+    }
+}
+
+/// Whether a guard asks a predicate without parameters that is constant by its definition.
+fn asks_a_constant(program: &Program, guard: &Guard) -> bool {
+    match guard {
+        Guard::Const(_) => false,
+        Guard::Not(guard) => asks_a_constant(program, guard),
+        Guard::And(parts) | Guard::Or(parts) => {
+            parts.iter().any(|part| asks_a_constant(program, part))
+        }
+        Guard::Atom(Atom::Predicate(id)) => {
+            let never = |wanted| of_guard(program, guard, wanted).is_never();
+            program.predicates[*id].name.arguments.is_empty() && (never(true) || never(false))
+        }
+        Guard::Atom(_) => false,
     }
 }
 

@@ -58,7 +58,9 @@ impl<'a> Checker<'a> {
         let known = self.names.learners.contains_key(name.name.as_str());
         match self.names.value(&name.name, false) {
             // Declared, with mistakes that were reported.
-            Some((Decl::Tree(tree), _)) if tree.params.is_none() => {}
+            Some((Decl::Tree(tree), _)) if tree.params.is_none() => {
+                self.needs_ticks(tree, name.span);
+            }
             _ if known => {}
             // Its parameters are told of where they stand.
             Some((Decl::Tree(tree), _))

@@ -64,12 +64,19 @@ impl<'a> Checker<'a> {
         let whole = decl.params.is_none() && tree.args.is_none() && robot.is_none();
         let (subject, root, task) = if whole {
             let called = Name::word(name);
-            let id = self.program.trees.named(&called)?;
+            let Some(id) = self.program.trees.named(&called) else {
+                self.needs_ticks(decl, tree.span);
+                return None;
+            };
             let known = &self.program.trees[id];
             (Subject::Tree(id), known.root.clone(), known.task)
         } else {
             self.asked.clear();
-            let root = self.as_robot(runner, |checker| checker.subtree(decl, library, tree))?;
+            let root = self.as_robot(runner, |checker| checker.subtree(decl, library, tree));
+            let Some(root) = root else {
+                self.needs_ticks(decl, tree.span);
+                return None;
+            };
             let task = self.task_for(decl).filter(|_| robot.is_none());
             if let Some(task) = task {
                 self.asks_kept_history(task);

@@ -2,6 +2,8 @@
 
 use super::called;
 use crate::check::Checker;
+use crate::check::expr::expect::is_literal;
+use crate::check::expr::plain_ref;
 use crate::check::names::Decl;
 use crate::check::report::listed;
 use crate::diagnostic::Code;
@@ -11,7 +13,8 @@ use crate::ir::program::Predicate;
 use crate::ir::test::{Expected, Line};
 use crate::ir::tree::{Atom, Guard, Node, Status};
 use crate::source::Span;
-use crate::syntax::ast::{self, Answer, Expr, ExprKind, Ref, Spanned, Step, TestLineKind};
+use crate::syntax::ast::{self, Answer, Expr, ExprKind, Ref, Spanned, Step, TestLineKind, UnaryOp};
+use crate::syntax::print;
 use std::collections::BTreeMap;
 
 /// The most ticks that one line of a test may last.
@@ -99,6 +102,16 @@ impl<'a> Checker<'a> {
     /// A predicate that holds or, behind `not`, does not.
     fn change(&mut self, change: &'a Expr) -> Option<(Id<Predicate>, bool)> {
         let span = change.span;
+        if let Some(reference) = plain_ref(denied(change))
+            && let Some((decl @ Decl::Event(_), _)) = self.value_of(&reference.name)
+        {
+            let label = format!("`{}` is {}", reference.name.name, decl.what());
+            return self
+                .error(Code::E0614, span, "a test sets predicates, one by one")
+                .label(label)
+                .help("nothing happens in a test: say what holds once this has happened")
+                .none();
+        }
         let (label, help) = match self.guard(change)? {
             Guard::Atom(Atom::Predicate(id)) => return Some((id, true)),
             Guard::Not(inner) => match *inner {
@@ -131,7 +144,15 @@ impl<'a> Checker<'a> {
         let ticks = match counted(time) {
             Some(ticks) => ticks,
             None if !self.has_world => {
-                self.no_world(time.span, "a time", "how many ticks are these?");
+                let count = is_literal(time).then(|| {
+                    let title = format!("count them: write `{} ticks`", print::expr(time));
+                    (title, time.span.after(), " ticks".to_owned())
+                });
+                let label = match count {
+                    Some(_) => "this is a plain number",
+                    None => "how many ticks are these?",
+                };
+                self.no_world(time.span, "a time", label).fix_if(count);
                 return None;
             }
             None => self.ticks(time, "`for`")?,
@@ -166,7 +187,7 @@ impl<'a> Checker<'a> {
                 .also(of_tree, "move this to the end");
                 return None;
             }
-            if self.is_tested(test, &step.name) {
+            if self.is_tested(test, &step.name, root) {
                 answer = Some((self.answer_of_tree(step)?, step.span()));
                 continue;
             }
@@ -182,12 +203,14 @@ impl<'a> Checker<'a> {
         })
     }
 
-    /// Whether a reference names the tree that is tested.
-    fn is_tested(&mut self, test: &'a ast::Test, name: &'a Ref) -> bool {
+    /// Whether a reference names the tree that is tested. Where that was not understood, its arguments do not count.
+    fn is_tested(&mut self, test: &'a ast::Test, name: &'a Ref, root: Option<&Node>) -> bool {
         let word = name.name.name.as_str();
         let learner = self.names.learners.get(word).copied();
         let is_tree = matches!(self.names.value(word, false), Some((Decl::Tree(_), _)));
-        if called(name) != called(&test.tree) || !is_tree && learner.is_none() {
+        let named = name.name.name == test.tree.name.name;
+        let same = called(name) == called(&test.tree) || root.is_none() && named;
+        if !same || !is_tree && learner.is_none() {
             return false;
         }
         if let Some(learner) = learner.and_then(|learn| learn.name.as_ref()) {
@@ -248,6 +271,14 @@ impl<'a> Checker<'a> {
             .label("it can never select this")
             .help(help)
             .none()
+    }
+}
+
+/// What stands behind `not`, if that is there.
+fn denied(change: &Expr) -> &Expr {
+    match &change.kind {
+        ExprKind::Unary { op, operand } if op.node == UnaryOp::Not => operand,
+        _ => change,
     }
 }
 
