@@ -46,6 +46,17 @@ impl Spot {
         )
     }
 
+    /// The choices that cost at most `slack` an episode in place of what a tree does here, which is one of them.
+    pub fn permitted(&self, drive: Drive, slack: f64) -> Vec<usize> {
+        let own = self.worth(drive);
+        let choices = self.values.iter().zip(&self.refuses).enumerate();
+        let permitted = choices.filter(|(choice, ([plain, _], refuses))| {
+            let is_own = drive.choice == Some(*choice);
+            is_own || !**refuses && self.weight * (own - plain) <= slack
+        });
+        permitted.map(|(choice, _)| choice).collect()
+    }
+
     /// The best choice.
     pub fn best(&self) -> f64 {
         let values = self.values.iter().map(|[plain, _]| *plain);
@@ -167,5 +178,30 @@ impl<'w> Field<'w> {
             }
         });
         gains.sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Drive, Spot};
+
+    #[test]
+    fn what_costs_little_is_permitted() {
+        let spot = Spot {
+            key: 0,
+            weight: 2.0,
+            values: [5.0, 4.75, 1.0, 6.0, 5.0].map(|worth| [worth; 2]).to_vec(),
+            refuses: vec![false, false, false, false, true],
+            nothing: 0.0,
+        };
+        let drive = |choice| Drive {
+            choice,
+            fell: false,
+        };
+        assert_eq!(spot.permitted(drive(Some(0)), 0.4), [0, 3]);
+        assert_eq!(spot.permitted(drive(Some(0)), 0.5), [0, 1, 3]);
+        // Its own choice always is, also one that fails at once.
+        assert_eq!(spot.permitted(drive(Some(4)), 0.0), [0, 3, 4]);
+        assert_eq!(spot.permitted(drive(None), 0.0), [0, 1, 2, 3]);
     }
 }

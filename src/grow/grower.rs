@@ -229,17 +229,19 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
             .collect();
         let terms = Terms::searching(self.price);
         let found = self.judge.race(&pruned, others, terms);
+        let base = found.map_or_else(
+            || pruned.clone(),
+            |found| self.pruned(&found.root.clone(), &found),
+        );
         let theirs = starts.others.iter().map(|(_, other)| other.clone());
         let theirs: Vec<Node> = theirs.collect();
-        let is_theirs = found
-            .as_ref()
-            .is_some_and(|found| theirs.contains(&found.root));
-        self.attempts.other = match (is_theirs, theirs.as_slice()) {
-            (true, _) => Some(pruned.clone()),
-            (false, [only]) => Some(only.clone()),
-            (false, _) => self.judge.best(&theirs, terms).map(|best| best.root),
+        let theirs = match theirs.as_slice() {
+            [only] => Some(only.clone()),
+            _ => self.judge.best(&theirs, terms).map(|best| best.root),
         };
-        let base = found.map_or(pruned, |found| self.pruned(&found.root.clone(), &found));
+        let others = [Some(pruned), theirs].into_iter().flatten();
+        let others = others.filter(|other| *other != base);
+        self.attempts.starts = std::iter::once(base.clone()).chain(others).collect();
         self.visit(&base);
         Ok(base)
     }

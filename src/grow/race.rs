@@ -128,7 +128,7 @@ pub struct Seen {
     /// Races held.
     races: u64,
     /// Whether harm was met in any episode.
-    harmed: bool,
+    pub harmed: bool,
     /// The mean length of an episode.
     pub length: u64,
 }

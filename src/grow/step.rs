@@ -52,13 +52,13 @@ pub(super) enum Step {
 /// The attempts to find a tree.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Attempts {
-    /// The tree that the one at hand began with; none if no more are made.
-    pub(super) first: Option<Node>,
-    /// The tree that the next begins with, if it is another.
-    pub(super) other: Option<Node>,
+    /// The trees that they begin with, in turn.
+    pub(super) starts: Vec<Node>,
+    /// Whether one is under way.
+    pub(super) under_way: bool,
     /// The ticks that had been simulated when the one at hand began.
     pub(super) begun: u64,
-    /// What came of those before: the best trees of their time, the best one last.
+    /// What came of those before: the best trees of their time, the last one last.
     pub(super) found: Vec<Vec<Visited>>,
 }
 

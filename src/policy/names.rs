@@ -90,6 +90,15 @@ pub(super) fn atoms(program: &Program) -> BTreeMap<AtomName, Atom> {
         .collect()
 }
 
+/// What something is called here that another tool calls so, in a file that nobody writes by hand: with an underscore where the
+/// name would ask the history.
+pub(super) fn foreign(name: &str) -> String {
+    match name {
+        Atom::DONE | Atom::FAILED => format!("{name}_"),
+        _ => name.to_owned(),
+    }
+}
+
 /// Whether the language can call something so, in backquotes where it has to.
 pub(super) fn check(name: &str) -> Result<(), TableErrorKind> {
     let why = match name {

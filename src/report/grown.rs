@@ -151,7 +151,11 @@ pub fn front(grown: &Grown) -> Vec<String> {
             point.returns.mean,
             point.harms,
             numbered(point.episodes, "episode"),
-            if point.taken { "; taken" } else { "" }
+            match (point.taken, grown.is_exact()) {
+                (false, _) => "",
+                (true, false) => "; taken",
+                (true, true) => "; taken, the proved tree",
+            }
         );
         line(&numbered(point.size.nodes as u64, "node"), &text)
     };
@@ -165,6 +169,7 @@ pub fn picture(grown: &Grown, name: &str) -> String {
         mean: point.returns.mean,
         interval: point.returns.ci95,
         taken: point.taken,
+        proved: point.taken && grown.is_exact(),
     });
     svg::front::front(&dots.collect::<Vec<_>>(), name)
 }

@@ -99,6 +99,7 @@ fn a_front_counts_whole_nodes() {
         mean,
         interval: [mean - 0.5, mean + 0.5],
         taken: nodes == 10,
+        proved: false,
     };
     check(
         "front.one.svg",

@@ -16,6 +16,8 @@ pub struct Dot {
     pub interval: [f64; 2],
     /// Whether it is the tree that was taken.
     pub taken: bool,
+    /// Whether it was taken because it is proved.
+    pub proved: bool,
 }
 
 /// The picture in px, and where the axes lie.
@@ -77,8 +79,12 @@ pub fn front(dots: &[Dot], caption: &str) -> String {
         };
         page.circle(class, place(dot, dot.mean), size);
     }
-    let legend = "return, 95 % interval, by nodes; the large dot is the tree that was taken";
-    page.text("remark", LEFT, TOP - 16.0, legend);
+    let taken = match dots.iter().any(|dot| dot.proved) {
+        true => "the large dot is the proved tree, taken as none returns much more",
+        false => "the large dot is the tree that was taken",
+    };
+    let legend = format!("return, 95 % interval, by nodes; {taken}");
+    page.text("remark", LEFT, TOP - 16.0, &legend);
     page.text("name end", RIGHT, TOP - 16.0, caption);
     page.finish()
 }

@@ -3,6 +3,9 @@
 //! What a search finds hangs on what it happened to count and to race first: two on the same policy may end with trees of
 //! 45 nodes and of 150. So there are several, each of which knows what was counted before, and what came of them races. Where
 //! the file has trees, one begins with the best of these and one with the exact tree.
+//!
+//! An attempt ends with the tree that returns most where harm costs little. One on the way may have returned nearly as much
+//! and done none. So all trees on all ways race where harm is dear.
 
 use super::{Grower, Visited};
 use crate::grow::race::{ENOUGH, Terms};
@@ -11,40 +14,41 @@ use crate::ir::tree::Node;
 use crate::learn::process::World;
 use std::mem;
 
-/// The attempts, and the part of the effort that they take.
-const ATTEMPTS: usize = 2;
+/// The most attempts, and the part of the effort that two of them take.
+const ATTEMPTS: usize = 4;
 const ATTEMPTED: f64 = 0.6;
-/// The trees that are kept of an attempt that was not the best.
-const KEPT: usize = 3;
+/// The part of the effort after which no third or fourth begins.
+const MORE: f64 = 0.35;
+/// The most trees of all ways that race in the end, the later ones.
+const RACING: usize = 48;
 
 impl<W: World> Grower<'_, '_, '_, W> {
     /// Begins an attempt.
     pub(super) fn attempt(&mut self, first: Node) -> (Node, Step) {
-        self.attempts.first = Some(first.clone());
+        self.attempts.under_way = true;
         self.attempts.begun = self.judge.seen.ticks;
         (first, Step::Begun)
     }
 
     /// Whether an attempt is under way.
     pub(super) fn is_attempting(&self) -> bool {
-        self.attempts.first.is_some()
-    }
-
-    /// How many attempts there are.
-    fn most(&self) -> usize {
-        match self.settings.effort < ENOUGH {
-            true => 1,
-            false => ATTEMPTS,
-        }
+        self.attempts.under_way
     }
 
     /// The ticks of an attempt, or of the whole search when they are over.
     pub(super) fn share(&self) -> f64 {
         let effort = self.settings.effort as f64;
-        match self.is_attempting() {
-            true => effort * ATTEMPTED / self.most() as f64,
-            false => effort,
+        let attempted = effort * ATTEMPTED;
+        match (self.is_attempting(), self.is_sparing()) {
+            (true, true) => attempted,
+            (true, false) => attempted / 2.0,
+            (false, _) => effort,
         }
+    }
+
+    /// Whether there is only one attempt.
+    fn is_sparing(&self) -> bool {
+        self.settings.effort < ENOUGH
     }
 
     /// Whether the attempt at hand has spent this part of its ticks.
@@ -57,28 +61,45 @@ impl<W: World> Grower<'_, '_, '_, W> {
     pub(super) fn again(&mut self, base: Node) -> (Node, Step) {
         self.visit(&base);
         self.attempts.found.push(mem::take(&mut self.visited));
-        let first = self.attempts.first.take();
-        if let Some(first) = first.filter(|_| self.attempts.found.len() < self.most()) {
-            let first = self.attempts.other.take().unwrap_or(first);
+        self.attempts.under_way = false;
+        if let Some(first) = self.next_start() {
             self.visit(&first);
             return self.attempt(first);
         }
         let mut found = mem::take(&mut self.attempts.found);
-        let tops = found.iter().filter_map(|trees| trees.last());
-        let tops = tops.map(|top| top.root.clone()).filter(|top| *top != base);
-        let tops: Vec<Node> = tops.collect();
-        let terms = Terms::taking(self.price);
-        let race = (!tops.is_empty()).then(|| self.judge.race(&base, tops, terms));
-        let best = race.flatten();
-        let base = best.map_or(base, |best| best.root);
-        let is_best = |trees: &Vec<Visited>| trees.last().is_some_and(|top| top.root == base);
-        found.sort_by_key(is_best);
-        let kept = found.into_iter().flat_map(|trees| {
-            let kept = if is_best(&trees) { trees.len() } else { KEPT };
-            let from = trees.len().saturating_sub(kept);
-            trees.into_iter().skip(from)
-        });
-        self.visited = kept.collect();
+        self.visited = found.iter().flatten().cloned().collect();
+        let base = self.reconsidered(base, Terms::taking(self.price));
+        let has_best = |trees: &Vec<Visited>| trees.iter().any(|tree| tree.root == base);
+        found.sort_by_key(has_best);
+        self.visited = found.into_iter().flatten().collect();
+        self.visit(&base);
         (base, Step::Detour(Detour::default()))
+    }
+
+    /// What the next attempt begins with, if there is one.
+    fn next_start(&self) -> Option<Node> {
+        let made = self.attempts.found.len();
+        let goes_on = match made {
+            _ if self.is_sparing() => false,
+            0 | 1 => true,
+            _ => made < ATTEMPTS && !self.spent(MORE),
+        };
+        let mut starts = self.attempts.starts.iter().cycle();
+        goes_on.then(|| starts.nth(made).cloned()).flatten()
+    }
+
+    /// The best on these terms of the trees that were the best of their time.
+    pub(super) fn reconsidered(&mut self, base: Node, terms: Terms) -> Node {
+        let mut trees: Vec<Node> = Vec::new();
+        for visited in self.visited.iter().rev() {
+            if trees.len() < RACING && visited.root != base && !trees.contains(&visited.root) {
+                trees.push(visited.root.clone());
+            }
+        }
+        if trees.is_empty() {
+            return base;
+        }
+        let found = self.judge.race(&base, trees, terms);
+        found.map_or(base, |found| self.taken(found))
     }
 }

@@ -26,6 +26,8 @@ const CLIMBS: [(f64, Harm, bool, f64); 4] = [
     (0.5, Harm::Dear, false, 0.93),
     (1.0, Harm::Dear, true, 1.0),
 ];
+/// The stage that begins with the best of all trees so far: from it on harm is dear.
+const RECONSIDERED: usize = 2;
 /// Races without a better tree before a stage ends.
 const FAILURES: usize = 3;
 /// The prices, in parts of a node's, at which smaller trees are looked for that cost something.
@@ -48,6 +50,13 @@ impl<W: World> Grower<'_, '_, '_, W> {
         let terms = Terms::of(price, *harm);
         if stage.number > 0 {
             self.charge(terms);
+        }
+        let is_first = stage.failures == 0 && stage.tried.is_empty();
+        if stage.number == RECONSIDERED && is_first && self.judge.seen.harmed {
+            let best = self.reconsidered(base.clone(), terms);
+            if best != base {
+                return (best, Step::Climb(stage));
+            }
         }
         let trees = self.proposals(&base, price, *only, &mut stage.tried);
         if trees.is_empty() {

@@ -9,6 +9,7 @@ use crate::grow::step::{Cover, Step};
 use crate::ir::tree::Node;
 use crate::learn::process::World;
 use crate::tree::Size;
+use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 /// The fewest nodes of a tree that is covered by smaller ones, and the part of an attempt after which no more are made.
@@ -16,6 +17,10 @@ const COVERED: usize = 20;
 const COVERS: f64 = 0.2;
 /// The most nodes of a base: to change a larger one takes too long, so the best tree that covers it takes its place, better or not.
 const LARGE: usize = 300;
+/// What a decision of a tree that covers another may cost an episode, in prices of a node; and how often such trees are made, each
+/// time knowing where those before went.
+const SLACKS: [f64; 4] = [0.1, 0.5, 2.0, 8.0];
+const PERMITTING: usize = 2;
 /// The races of the trees that cover another.
 const RUNS: usize = 2;
 
@@ -42,11 +47,31 @@ impl<W: World> Grower<'_, '_, '_, W> {
         if !self.has_spent(COVERS) && self.covers_more(&base, &mut cover) {
             return (base, Step::Cover(cover));
         }
+        for _ in 0..PERMITTING {
+            self.permit(&base, &mut cover);
+        }
         let mut best = self.best_of(base, cover.trees.clone(), RUNS);
         if Size::of(&best).nodes > LARGE {
             best = self.best_small(cover.trees).unwrap_or(best);
         }
         (best, Step::Sprout(0))
+    }
+
+    /// Adds trees that decide otherwise where that costs little.
+    fn permit(&mut self, base: &Node, cover: &mut Cover) {
+        let aim = Aim::Of(base);
+        let field = Field::new(self.ground, &self.evidence, Sight::Far, &cover.visits, aim);
+        let slacks = SLACKS.into_par_iter();
+        let found = slacks
+            .filter_map(|slack| cover::permitting(self.ground, &field, base, slack * self.price));
+        let found: Vec<Node> = found.collect();
+        for tree in found {
+            if !cover.trees.contains(&tree) {
+                let met = self.collect(&tree, 0.05);
+                add(&mut cover.visits, met);
+                cover.trees.push(tree);
+            }
+        }
     }
 
     /// The best of these trees that are not large.

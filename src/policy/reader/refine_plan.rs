@@ -4,6 +4,7 @@
 use super::decoded;
 use crate::ir::input::Measure;
 use crate::policy::error::{TableError, TableErrorKind};
+use crate::policy::names;
 use crate::policy::valued::{Builder, Valued};
 use saphyr_parser::{Event, Parser, Span};
 use std::collections::BTreeMap;
@@ -53,12 +54,13 @@ pub(super) fn read(text: &[u8]) -> Result<Valued, Vec<TableError>> {
         };
         let kind = factor.get("type").and_then(Node::scalar);
         let values = factor.get("values").and_then(Node::items);
+        let own = names::foreign(called);
         let column = match (kind, values) {
-            (Some("BoolStateFactor"), _) => builder.truth(called, &name.place),
-            (Some("IntStateFactor"), _) => builder.number(called, &name.place, Measure::plain()),
+            (Some("BoolStateFactor"), _) => builder.truth(&own, &name.place),
+            (Some("IntStateFactor"), _) => builder.number(&own, &name.place, Measure::plain()),
             (Some("StateFactor"), Some(values)) => {
                 let values = values.iter().filter_map(Node::scalar).map(str::to_owned);
-                builder.category(called, &name.place, values.collect())
+                builder.category(&own, &name.place, values.collect())
             }
             _ => {
                 let message = format!(
@@ -106,7 +108,7 @@ fn row(entry: &Node, columns: &BTreeMap<&str, usize>, builder: &mut Builder) {
             }
         }
     }
-    builder.allow([action], place);
+    builder.allow([names::foreign(action).as_str()], place);
     builder.end(place.clone());
 }
 

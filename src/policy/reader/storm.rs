@@ -6,6 +6,7 @@
 use super::decoded;
 use crate::ir::input::Measure;
 use crate::policy::error::{TableError, TableErrorKind};
+use crate::policy::names;
 use crate::policy::records;
 use crate::policy::valued::{Builder, Valued};
 use serde::Deserialize;
@@ -126,10 +127,11 @@ fn declared(
     builder: &mut Builder,
 ) -> Vec<(String, usize)> {
     let columns = state.iter().map(|(name, value)| {
+        let called = names::foreign(name);
         let column = match value {
-            Value::Bool(_) => builder.truth(name, place),
-            Value::String(_) => builder.category(name, place, Vec::new()),
-            _ => builder.number(name, place, Measure::plain()),
+            Value::Bool(_) => builder.truth(&called, place),
+            Value::String(_) => builder.category(&called, place, Vec::new()),
+            _ => builder.number(&called, place, Measure::plain()),
         };
         (name.clone(), column)
     });
@@ -178,7 +180,7 @@ fn chosen(choices: &Value, unnamed: &mut Vec<Value>) -> Result<Option<String>, W
     };
     let label = origin.get("action-label").and_then(Value::as_str);
     if let Some(label) = label.filter(|label| !label.is_empty()) {
-        return Ok(Some(label.to_owned()));
+        return Ok(Some(names::foreign(label)));
     }
     // A command without a name is known by its text.
     let at = unnamed.iter().position(|known| known == *origin);
