@@ -4,9 +4,9 @@ use super::apart::because;
 use super::cases::of_expr;
 use crate::check::Checker;
 use crate::check::context::Region;
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::Code;
 use crate::ir::expr::{Expr, ExprId};
-use crate::source::Span;
+use crate::source::{FileId, Span};
 use crate::syntax::ast::{self, ExprKind};
 use std::collections::BTreeMap;
 
@@ -23,6 +23,37 @@ pub struct Condition {
     of_any_robot: bool,
     /// Whether `and` or `or` joins it with another one.
     joined: bool,
+}
+
+/// Places in the text, joined where they overlap: by file and start, the end.
+#[derive(Default)]
+struct Places(BTreeMap<(FileId, u32), u32>);
+
+impl Places {
+    /// The last place that begins before the end of this one, if they overlap.
+    fn last(&self, at: Span) -> Option<Span> {
+        let mut before = self.0.range(..(at.file, at.end));
+        let ((file, start), end) = before.next_back()?;
+        let last = Span {
+            file: *file,
+            start: *start,
+            end: *end,
+        };
+        (last.file == at.file && last.end > at.start).then_some(last)
+    }
+
+    fn overlap(&self, at: Span) -> bool {
+        self.last(at).is_some()
+    }
+
+    fn add(&mut self, mut at: Span) {
+        while let Some(last) = self.last(at) {
+            self.0.remove(&(last.file, last.start));
+            at.start = at.start.min(last.start);
+            at.end = at.end.max(last.end);
+        }
+        self.0.insert((at.file, at.start), at.end);
+    }
 }
 
 impl<'a> Checker<'a> {
@@ -91,16 +122,19 @@ impl<'a> Checker<'a> {
 
     /// Warns of the sides of `and` and `or` that always or never hold, where the whole does not: of the innermost.
     pub fn sides_without_effect(&mut self) {
+        let mut told = Places::default();
+        let known = self.diagnostics.iter();
+        let known = known.filter(|found| found.code == Code::W0601);
+        known.for_each(|found| told.add(found.span()));
         let mut sides = std::mem::take(&mut self.conditions);
         sides.sort_by_key(|side| side.at.end - side.at.start);
         for side in sides {
-            let told = |found: &Diagnostic| {
-                let (at, side) = (found.span(), side.at);
-                let overlap = at.file == side.file && at.start < side.end && side.start < at.end;
-                found.code == Code::W0601 && overlap
-            };
-            if !self.diagnostics.iter().any(told) {
+            let (at, before) = (side.at, self.diagnostics.len());
+            if !told.overlap(at) {
                 self.hold_always_or_never(vec![side]);
+            }
+            if self.diagnostics.len() > before {
+                told.add(at);
             }
         }
     }
