@@ -17,7 +17,7 @@ const COPIES: usize = 120;
 
 /// By how much the second doubling may cost more than the first: 2 if each copy costs the same, 4 if it costs as much as there
 /// are copies.
-const LIMIT: f64 = 2.75;
+const LIMIT: f64 = 2.5;
 
 fn with_copies(case: &str, copies: usize) -> String {
     let lines: Vec<&str> = case.lines().skip(1).collect();
