@@ -24,7 +24,7 @@ use crate::ir::task::History;
 use crate::ir::world::{Robot, World};
 use crate::ir::{Id, Name, Program};
 use crate::source::Span;
-use crate::syntax::ast::{Expr, Ident, ItemKind, Outcome};
+use crate::syntax::ast::{self, Expr, Ident, ItemKind, Outcome};
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -90,6 +90,10 @@ pub struct Checker<'a> {
     pub subject: Id<Robot>,
     /// The robots that run a tree of their own, in order: their names, and what they run.
     pub scripts: Vec<(&'a Ident, &'a Expr)>,
+    /// The constants without a unit that have been used as ratios.
+    pub plain_ratios: BTreeMap<Span, &'a Expr>,
+    /// The trees that claims and tests ask for and that are not whole, with where they are asked for.
+    pub needed: Vec<(&'a ast::Tree, Span)>,
     /// The length of a tick in seconds, once the world has said it.
     pub tick: Option<f64>,
     /// Whether there is a world, right or wrong.
@@ -124,6 +128,8 @@ impl<'a> Checker<'a> {
             asked: Vec::new(),
             endings: BTreeSet::new(),
             conditions: Vec::new(),
+            plain_ratios: BTreeMap::new(),
+            needed: Vec::new(),
             library_calls: BTreeMap::new(),
             fails: BTreeMap::new(),
             again: BTreeMap::new(),
@@ -220,6 +226,8 @@ impl<'a> Checker<'a> {
                 self.test(test);
             }
         }
+        self.timeouts_without_a_world();
+        self.named_ratios();
         self.tunables(items());
         self.whole_program(files);
     }

@@ -7,7 +7,7 @@ use crate::check::names::Decl;
 use crate::check::report::{Draft, listed};
 use crate::check::types::units::Dim;
 use crate::check::types::{Type, Typed};
-use crate::diagnostic::{Applicability, Code, Diagnostic, suggest};
+use crate::diagnostic::{Applicability, Code, suggest};
 use crate::ir::expr::ExprId;
 use crate::source::Span;
 use crate::spelling::spelled;
@@ -233,6 +233,13 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Warns of the constants above 1 that were used as ratios by their names.
+    pub fn named_ratios(&mut self) {
+        for named in std::mem::take(&mut self.plain_ratios).into_values() {
+            self.warn_plain_ratio(named, &Type::Ratio);
+        }
+    }
+
     /// `battery <= 25`: a plain number above 1 where a ratio is meant.
     pub fn warn_plain_ratio(&mut self, expr: &Expr, wanted: &Type) {
         if *wanted != Type::Ratio {
@@ -257,10 +264,7 @@ impl<'a> Checker<'a> {
             }
         }
         if let Some(named) = self.plain_constant(expr) {
-            let told = |found: &Diagnostic| (found.code, found.span()) == (Code::W0301, named.span);
-            if !self.diagnostics.iter().any(told) {
-                self.warn_plain_ratio(named, wanted);
-            }
+            self.plain_ratios.insert(named.span, named);
         }
         if let ExprKind::Number(literal) = &expr.kind
             && literal.unit.is_none()

@@ -185,3 +185,30 @@ fn is_nameless(expr: &ast::Expr) -> bool {
         _ => false,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Places;
+    use crate::source::{FileId, Span};
+
+    /// Joined places overlap with just what one of them does.
+    #[test]
+    fn places_overlap_as_one_by_one() {
+        let spans: Vec<Span> = (0_usize..6)
+            .flat_map(|start| (start + 1..7).map(move |end| Span::new(FileId(0), start, end)))
+            .collect();
+        let mut found = 0;
+        for (a, b) in (0..spans.len()).flat_map(|a| (0..spans.len()).map(move |b| (a, b))) {
+            let told = [spans[a], spans[b], spans[(a + 2 * b) % spans.len()]];
+            let mut places = Places::default();
+            told.into_iter().for_each(|span| places.add(span));
+            for at in &spans {
+                let one = |told: &Span| told.start < at.end && at.start < told.end;
+                assert_eq!(places.overlap(*at), told.iter().any(one), "{told:?} {at:?}");
+                found += usize::from(places.overlap(*at));
+            }
+            assert!(!places.overlap(Span::new(FileId(1), 0, 7)));
+        }
+        assert!(found > 0);
+    }
+}

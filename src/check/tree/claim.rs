@@ -59,7 +59,7 @@ impl<'a> Checker<'a> {
         match self.names.value(&name.name, false) {
             // Declared, with mistakes that were reported.
             Some((Decl::Tree(tree), _)) if tree.params.is_none() => {
-                self.needs_ticks(tree, name.span);
+                self.needed.push((tree, name.span));
             }
             _ if known => {}
             // Its parameters are told of where they stand.

@@ -65,7 +65,7 @@ impl<'a> Checker<'a> {
         let (subject, root, task) = if whole {
             let called = Name::word(name);
             let Some(id) = self.program.trees.named(&called) else {
-                self.needs_ticks(decl, tree.span);
+                self.needed.push((decl, tree.span));
                 return None;
             };
             let known = &self.program.trees[id];
@@ -74,7 +74,7 @@ impl<'a> Checker<'a> {
             self.asked.clear();
             let root = self.as_robot(runner, |checker| checker.subtree(decl, library, tree));
             let Some(root) = root else {
-                self.needs_ticks(decl, tree.span);
+                self.needed.push((decl, tree.span));
                 return None;
             };
             let task = self.task_for(decl).filter(|_| robot.is_none());

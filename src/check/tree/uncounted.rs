@@ -6,28 +6,36 @@ use crate::check::names::Decl;
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
 use crate::syntax::ast::{self, ArgKind, Node, NodeKind, Word};
+use std::collections::BTreeSet;
 
 impl<'a> Checker<'a> {
-    /// Reports the timeouts of a tree that a claim or a test needs, if no world says how long their times are. A file
+    /// Reports the timeouts of the trees that claims and tests need, if no world says how long their times are. A file
     /// without a world may leave that to the one that uses it, but what it claims and tests itself is known here.
-    pub(super) fn needs_ticks(&mut self, tree: &'a ast::Tree, asked: Span) {
+    pub fn timeouts_without_a_world(&mut self) {
+        let needed = std::mem::take(&mut self.needed);
         if self.has_world {
             return;
         }
-        let mut times = Vec::new();
-        self.timeouts_of(tree, &mut vec![tree.name.span], &mut times);
-        for time in times {
-            let told = |found: &Diagnostic| found.is_error() && found.span() == time;
-            if !self.diagnostics.iter().any(told) {
+        let errors = self.diagnostics.iter().filter(|found| found.is_error());
+        let wrong: BTreeSet<Span> = errors.map(Diagnostic::span).collect();
+        let mut seen = BTreeSet::new();
+        for (tree, asked) in needed {
+            let mut times = self.timeouts_of(tree, &mut seen);
+            times.retain(|time| !wrong.contains(time));
+            for time in times {
                 self.no_world(time, "a timeout", "how many ticks are these?")
                     .also(asked, "they are counted for this");
             }
         }
     }
 
-    /// The times of the timeouts in a tree and its subtrees.
-    fn timeouts_of(&self, tree: &'a ast::Tree, seen: &mut Vec<Span>, times: &mut Vec<Span>) {
-        let mut nodes: Vec<&'a Node> = vec![&tree.root];
+    /// The times of the timeouts in a tree and its subtrees, as far as these were not seen.
+    fn timeouts_of(&self, tree: &'a ast::Tree, seen: &mut BTreeSet<Span>) -> Vec<Span> {
+        let mut times = Vec::new();
+        let mut nodes: Vec<&'a Node> = Vec::new();
+        if seen.insert(tree.name.span) {
+            nodes.push(&tree.root);
+        }
         while let Some(node) = nodes.pop() {
             match &node.kind {
                 NodeKind::Composite {
@@ -49,14 +57,14 @@ impl<'a> Checker<'a> {
                     let name = plain_ref(leaf).map(|leaf| leaf.name.name.as_str());
                     let named = name.and_then(|name| self.names.value(name, false));
                     if let Some((Decl::Tree(subtree), _)) = named
-                        && !seen.contains(&subtree.name.span)
+                        && seen.insert(subtree.name.span)
                     {
-                        seen.push(subtree.name.span);
-                        self.timeouts_of(subtree, seen, times);
+                        nodes.push(&subtree.root);
                     }
                 }
                 NodeKind::Error => {}
             }
         }
+        times
     }
 }
