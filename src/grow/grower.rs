@@ -229,10 +229,10 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
             .collect();
         let terms = Terms::searching(self.price);
         let found = self.judge.race(&pruned, others, terms);
-        let base = found.map_or_else(
-            || pruned.clone(),
-            |found| self.pruned(&found.root.clone(), &found),
-        );
+        let base = match found {
+            Some(found) => self.pruned(&found.root, &found),
+            None => pruned.clone(),
+        };
         let theirs = starts.others.iter().map(|(_, other)| other.clone());
         let theirs: Vec<Node> = theirs.collect();
         let theirs = match theirs.as_slice() {

@@ -54,10 +54,8 @@ pub(super) enum Step {
 pub(super) struct Attempts {
     /// The trees that they begin with, in turn.
     pub(super) starts: Vec<Node>,
-    /// Whether one is under way.
-    pub(super) under_way: bool,
-    /// The ticks that had been simulated when the one at hand began.
-    pub(super) begun: u64,
+    /// The ticks that had been simulated when the one at hand began; none when they are over.
+    pub(super) begun: Option<u64>,
     /// What came of those before: the best trees of their time, the last one last.
     pub(super) found: Vec<Vec<Visited>>,
 }

@@ -2,7 +2,7 @@
 //!
 //! What a search finds hangs on what it happened to count and to race first: two on the same policy may end with trees of
 //! 45 nodes and of 150. So there are several, each of which knows what was counted before, and what came of them races. Where
-//! the file has trees, one begins with the best of these and one with the exact tree.
+//! the file has trees, they begin with the best of these and with the exact tree in turn.
 //!
 //! An attempt ends with the tree that returns most where harm costs little. One on the way may have returned nearly as much
 //! and done none. So all trees on all ways race where harm is dear.
@@ -25,14 +25,13 @@ const RACING: usize = 48;
 impl<W: World> Grower<'_, '_, '_, W> {
     /// Begins an attempt.
     pub(super) fn attempt(&mut self, first: Node) -> (Node, Step) {
-        self.attempts.under_way = true;
-        self.attempts.begun = self.judge.seen.ticks;
+        self.attempts.begun = Some(self.judge.seen.ticks);
         (first, Step::Begun)
     }
 
     /// Whether an attempt is under way.
     pub(super) fn is_attempting(&self) -> bool {
-        self.attempts.under_way
+        self.attempts.begun.is_some()
     }
 
     /// The ticks of an attempt, or of the whole search when they are over.
@@ -53,7 +52,7 @@ impl<W: World> Grower<'_, '_, '_, W> {
 
     /// Whether the attempt at hand has spent this part of its ticks.
     pub(super) fn has_spent(&self, part: f64) -> bool {
-        let spent = self.judge.seen.ticks - self.attempts.begun;
+        let spent = self.judge.seen.ticks - self.attempts.begun.unwrap_or_default();
         spent as f64 >= part * self.share()
     }
 
@@ -61,7 +60,7 @@ impl<W: World> Grower<'_, '_, '_, W> {
     pub(super) fn again(&mut self, base: Node) -> (Node, Step) {
         self.visit(&base);
         self.attempts.found.push(mem::take(&mut self.visited));
-        self.attempts.under_way = false;
+        self.attempts.begun = None;
         if let Some(first) = self.next_start() {
             self.visit(&first);
             return self.attempt(first);
