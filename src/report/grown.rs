@@ -169,9 +169,8 @@ pub fn picture(grown: &Grown, name: &str) -> String {
         mean: point.returns.mean,
         interval: point.returns.ci95,
         taken: point.taken,
-        proved: point.taken && grown.is_exact(),
     });
-    svg::front::front(&dots.collect::<Vec<_>>(), name)
+    svg::front::front(&dots.collect::<Vec<_>>(), name, grown.is_exact())
 }
 
 /// A grown tree in `metrics.json`.

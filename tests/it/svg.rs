@@ -99,14 +99,15 @@ fn a_front_counts_whole_nodes() {
         mean,
         interval: [mean - 0.5, mean + 0.5],
         taken: nodes == 10,
-        proved: false,
     };
     check(
         "front.one.svg",
-        &svg::front::front(&[dot(10, 9.0)], "learned"),
+        &svg::front::front(&[dot(10, 9.0)], "learned", false),
     );
     let all = [dot(1, 2.0), dot(4, 5.0), dot(10, 9.0), dot(38, 9.25)];
-    check("front.svg", &svg::front::front(&all, "learned"));
+    check("front.svg", &svg::front::front(&all, "learned", false));
+    let proved = svg::front::front(&all, "learned", true);
+    check("front.proved.svg", &proved);
 }
 
 #[test]

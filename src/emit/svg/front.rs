@@ -16,8 +16,6 @@ pub struct Dot {
     pub interval: [f64; 2],
     /// Whether it is the tree that was taken.
     pub taken: bool,
-    /// Whether it was taken because it is proved.
-    pub proved: bool,
 }
 
 /// The picture in px, and where the axes lie.
@@ -42,8 +40,8 @@ const RULES: &[Rule] = &[
     rule("taken", "fill:#d55e00", "fill:#e69f00"),
 ];
 
-/// The front, the smallest tree first. `caption` says what was learned.
-pub fn front(dots: &[Dot], caption: &str) -> String {
+/// The front, the smallest tree first. `caption` says what was learned, `proved` whether the tree that was taken is proved.
+pub fn front(dots: &[Dot], caption: &str, proved: bool) -> String {
     let finite =
         |dot: &&Dot| dot.mean.is_finite() && dot.interval.iter().all(|end| end.is_finite());
     let dots: Vec<&Dot> = dots.iter().filter(finite).collect();
@@ -79,8 +77,8 @@ pub fn front(dots: &[Dot], caption: &str) -> String {
         };
         page.circle(class, place(dot, dot.mean), size);
     }
-    let taken = match dots.iter().any(|dot| dot.proved) {
-        true => "the large dot is the proved tree, taken as none returns much more",
+    let taken = match proved {
+        true => "the large dot is the proved tree, taken",
         false => "the large dot is the tree that was taken",
     };
     let legend = format!("return, 95 % interval, by nodes; {taken}");
