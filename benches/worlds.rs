@@ -1,4 +1,5 @@
-//! How learned trees do on the sample worlds of `tests/worlds/`, beside the trees by hand: a table in Markdown.
+//! How learned trees do on the sample worlds of `tests/worlds/`, beside the trees by hand: a table in Markdown, and how many
+//! trees do well.
 //!
 //! `cargo bench --bench worlds [-- WORLD…] [--seeds 1,2] [--episodes 300] [--with-hand]`
 //!
@@ -96,8 +97,44 @@ impl Measured {
     }
 }
 
+/// What a grown tree is measured by, and whether it keeps to it.
+struct Kept {
+    returns: bool,
+    more: bool,
+    nodes: bool,
+    harm: bool,
+}
+
+impl Kept {
+    fn of(grown: &Measured, hand: &Measured, exact: &Measured) -> Self {
+        let best = if hand.mean >= exact.mean { hand } else { exact };
+        Self {
+            returns: grown.mean >= best.mean - 0.02 * best.mean.abs(),
+            more: grown.mean > best.mean,
+            nodes: grown.nodes as f64 <= 1.3 * hand.nodes as f64,
+            harm: grown.deaths <= best.deaths,
+        }
+    }
+}
+
+/// How many of the rows keep to each, in words.
+fn counted(rows: &[Kept]) -> String {
+    let count = |keeps: fn(&Kept) -> bool| rows.iter().filter(|row| keeps(row)).count();
+    format!(
+        "Of {} trees {} return at least 98 % of the better of the two others, {} more than both; {} have at most 1.3 times the nodes of \
+         the tree by hand; under {} no more episodes end badly than under the better of the two others. Return, nodes and harm \
+         together: {}.",
+        rows.len(),
+        count(|row| row.returns),
+        count(|row| row.more),
+        count(|row| row.nodes),
+        count(|row| row.harm),
+        count(|row| row.returns && row.nodes && row.harm),
+    )
+}
+
 /// One line of the table.
-fn row(world: &Path, seed: u64, arguments: &Arguments) -> String {
+fn row(world: &Path, seed: u64, arguments: &Arguments) -> (String, Kept) {
     let name = world.file_stem().unwrap().to_string_lossy();
     let source = fs::canonicalize(world).unwrap();
     let options = LearnOptions {
@@ -136,14 +173,15 @@ fn row(world: &Path, seed: u64, arguments: &Arguments) -> String {
     let ticks =
         ["/ticks", "/improved/ticks", "/grown/ticks"].map(|at| metrics.pointer(at)?.as_u64());
     let ticks: u64 = ticks.iter().flatten().sum();
-    format!(
+    let text = format!(
         "| {name} | {seed} | {} | {} | {} | {ratio} | {:.2} | {:.1} | {seconds:.1} |",
         hand.cell(),
         exact.cell(),
         grown.cell(),
         grown.nodes as f64 / hand.nodes as f64,
         ticks as f64 / 1e6
-    )
+    );
+    (text, Kept::of(&grown, &hand, &exact))
 }
 
 fn main() {
@@ -156,9 +194,13 @@ fn main() {
         "| world | seed | hand | exact | grown | grown / best of both | nodes, grown / hand | M ticks | s |"
     );
     println!("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
+    let mut rows = Vec::new();
     for world in &arguments.worlds {
         for &seed in &arguments.seeds {
-            println!("{}", row(world, seed, &arguments));
+            let (text, kept) = row(world, seed, &arguments);
+            println!("{text}");
+            rows.push(kept);
         }
     }
+    println!("\n{}", counted(&rows));
 }
