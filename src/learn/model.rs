@@ -9,7 +9,7 @@ use super::average;
 use super::method::{Decision, Method, Settings};
 use super::process::Key;
 use super::q_table::{Admission, QTable};
-use super::solve::{Outlook, Problem};
+use super::solve::{Outlook, Problem, Solution};
 use crate::checkpoint::{decode, encode};
 use serde::{Deserialize, Serialize};
 
@@ -76,6 +76,25 @@ impl Model {
             unknown: self.initial,
         }
     }
+
+    /// What the search for the solution begins with: where the problem is large, the solution of the round before.
+    fn begun(&self, problem: &Problem) -> Solution {
+        let mut begun = problem.unsolved();
+        if !problem.is_large() {
+            return begun;
+        }
+        let rows = problem.states.iter().zip(&mut begun.policy).enumerate();
+        for (row, (choices, taken)) in rows {
+            let before = self.policy.get(row).copied().flatten();
+            let place = choices
+                .iter()
+                .position(|(choice, _)| Some(*choice) == before);
+            *taken = place.or(*taken);
+        }
+        let values = begun.values.iter_mut().enumerate();
+        values.for_each(|(row, value)| *value = self.table.best_value(row));
+        begun
+    }
 }
 
 impl Method for Model {
@@ -134,13 +153,14 @@ impl Method for Model {
 
     fn refit(&mut self) {
         let mut problem = self.problem();
+        let begun = self.begun(&problem);
         let solution = if self.average {
-            let (gain, solution) = average::solve(&problem, &self.starts);
+            let (gain, solution) = average::solve(&problem, &self.starts, begun);
             self.table.gain = gain;
             problem = problem.at_cost(gain);
             solution
         } else {
-            problem.solve()
+            problem.solve_from(begun)
         };
         for (row, choices) in problem.states.iter().enumerate() {
             for (choice, outlook) in choices {

@@ -1,5 +1,6 @@
 //! Finite semi-Markov decision problems, solved exactly (Howard 1960; Puterman 1994, chapters 6 and 11).
 
+mod rest;
 mod sweeps;
 
 use nalgebra::{DMatrix, DVector};
@@ -55,7 +56,7 @@ pub struct Solution {
 }
 
 /// The most states for which a policy is evaluated by elimination, whose cost is cubic; above, by sweeps.
-const ELIMINATED: usize = 600;
+const ELIMINATED: usize = 100;
 
 /// The most improvements of a policy; far fewer are ever needed.
 const IMPROVEMENTS: usize = 200;
@@ -123,23 +124,29 @@ impl Problem {
         problem
     }
 
+    /// Whether there are so many states that it pays to begin near the solution.
+    pub fn is_large(&self) -> bool {
+        self.states.len() > ELIMINATED
+    }
+
     /// Policy iteration: evaluates exactly, takes what is better, until nothing is.
     pub fn solve(&self) -> Solution {
-        self.solve_from(Solution {
+        self.solve_from(self.unsolved())
+    }
+
+    /// The policy that takes the first choice of every state, with no values yet.
+    pub fn unsolved(&self) -> Solution {
+        Solution {
             policy: self.first(),
             values: vec![self.unknown; self.states.len()],
-        })
+        }
     }
 
     /// The same from the solution of a problem with the same states and choices.
     pub fn solve_from(&self, near: Solution) -> Solution {
         let Solution { mut policy, values } = near;
         // Where states are many, values are rough until nothing seems better by them.
-        let mut rough = if self.states.len() > ELIMINATED {
-            ROUGH
-        } else {
-            0.0
-        };
+        let mut rough = if self.is_large() { ROUGH } else { 0.0 };
         let mut values = self.evaluate_from(&policy, values, rough);
         for _ in 0..IMPROVEMENTS {
             let better = match rough > 0.0 {
@@ -186,7 +193,7 @@ impl Problem {
     /// The same, where sweeps are needed from values that may be near, until changes are below this part of the greatest value.
     fn evaluate_from(&self, policy: &[Option<usize>], values: Vec<f64>, settled: f64) -> Vec<f64> {
         let taken = |state| policy.get(state).copied().flatten();
-        if self.states.len() > ELIMINATED {
+        if self.is_large() {
             return self.settle(taken, values, settled);
         }
         self.eliminate(policy)

@@ -115,6 +115,24 @@ fn more_states_than_are_eliminated_are_swept() {
 }
 
 #[test]
+fn where_states_are_many_the_beginning_decides_nothing() {
+    let mut random = Random::new(4, 0, 0);
+    for states in [150, 400] {
+        let problem = random_problem(&mut random, states, 0.99);
+        assert!(problem.is_large());
+        let solution = problem.solve();
+        same(&solution.values, &value_iteration(&problem, None));
+        let mut begun = problem.unsolved();
+        for (choices, taken) in problem.states.iter().zip(&mut begun.policy) {
+            *taken = taken.map(|_| random.below(choices.len() as u64) as usize);
+        }
+        let values = begun.values.iter_mut();
+        values.for_each(|value| *value = 100.0 * random.gaussian());
+        same(&problem.solve_from(begun).values, &solution.values);
+    }
+}
+
+#[test]
 fn without_discount_and_end_there_is_an_answer_still() {
     let forever = Outlook {
         reward: -1.0,
@@ -136,7 +154,7 @@ fn the_average_is_the_greatest_of_all_policies() {
     for _ in 0..60 {
         let problem = random_problem(&mut random, 5, 1.0);
         let starts = [(0, 3.0), (2, 1.0)];
-        let (average, solution) = average::solve(&problem, &starts);
+        let (average, solution) = average::solve(&problem, &starts, problem.unsolved());
         let of = |policy: &[Option<usize>]| average::gain(&problem, policy, &starts);
         assert!((of(&solution.policy) - average).abs() < 1e-9);
         let all = policies(&problem);
@@ -182,7 +200,7 @@ fn an_average_counts_the_time() {
         unknown: 0.0,
     };
     assert_eq!(problem.solve().policy, [Some(0)]);
-    let (average, solution) = average::solve(&problem, &[(0, 1.0)]);
+    let (average, solution) = average::solve(&problem, &[(0, 1.0)], problem.unsolved());
     assert_eq!(solution.policy, [Some(1)]);
     assert!((average - 0.5).abs() < 1e-12);
     // A start is worth nothing over the average.
