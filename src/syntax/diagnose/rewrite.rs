@@ -7,8 +7,7 @@ use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::grammar::Rule;
 use crate::syntax::tokens::{Kind, Token};
-use crate::syntax::words::TYPES;
-use crate::syntax::words::UNITS;
+use crate::syntax::words::{NODES, TYPES, UNITS};
 
 /// The words that declare one name.
 const DECLARING: [&str; 5] = ["event", "predicate", "behavior", "task", "tree"];
@@ -41,7 +40,52 @@ impl Place<'_> {
             .or_else(|| self.listed_condition())
             .or_else(|| self.reactive())
             .or_else(|| self.spare_mark())
+            .or_else(|| self.doubled_comma())
+            .or_else(|| self.required_when())
+            .or_else(|| self.raised_by_letter())
             .or_else(|| self.in_pieces())
+    }
+
+    /// `2 m³/s`: an exponent as it is printed.
+    fn raised_by_letter(&self) -> Option<Diagnostic> {
+        let after_number = self.before.is_some_and(|token| token.kind == Kind::Number);
+        let unit = self.found();
+        let right = unit.replace('²', "^2").replace('³', "^3");
+        let known = right
+            .split('^')
+            .next()
+            .is_some_and(|unit| UNITS.contains(&unit));
+        (after_number && known && right != unit).then(|| {
+            let message = "an exponent of a unit is written with `^`";
+            Diagnostic::new(Code::E0114, self.span(), message).write(
+                self.span(),
+                right,
+                Applicability::Safe,
+            )
+        })
+    }
+
+    /// `max(a,, b)`
+    fn doubled_comma(&self) -> Option<Diagnostic> {
+        let doubled = self.found() == "," && self.before() == "," && self.open_is_paren();
+        doubled.then(|| {
+            Diagnostic::new(Code::E0118, self.span(), "one comma is enough")
+                .label("drop it")
+                .fix("drop the `,`", self.span(), "", Applicability::Safe)
+        })
+    }
+
+    /// `requires when visible(A)`
+    fn required_when(&self) -> Option<Diagnostic> {
+        let (clause, when) = (self.second_before?, self.before?);
+        let said = clause.of(self.text) == "requires" && when.of(self.text) == "when";
+        said.then(|| {
+            let drop = self.span_of(when).to(self.span().before());
+            let message = "what a behaviour `requires` follows at once";
+            Diagnostic::new(Code::E0101, self.span_of(when), message)
+                .label("this is said of `succeed` and `fail`")
+                .fix("drop `when`", drop, "", Applicability::Safe)
+        })
     }
 
     /// `goto(A),;`
@@ -277,6 +321,17 @@ impl Place<'_> {
         let follows = matches!(self.after_found(), "=" | "(" | ":" | "{");
         let words = is_word(name) && is_word(self.found) && self.same_line_as_before();
         let keyword = matches!(self.found(), "for" | "of" | "if" | "when");
+        // Of `tree hand selector {` the `=` is missing.
+        let is_node = NODES.iter().any(|(node, _)| *node == self.found());
+        if is_node && word.of(self.text) == "tree" && self.after_found() == "{" {
+            let gap = self.span_of(name).after();
+            let message = "`=` gives a tree its node";
+            return Some(
+                Diagnostic::new(Code::E0101, self.span(), message)
+                    .label("a `=` is missing before this")
+                    .fix("put a `=`", gap, " =", Applicability::Safe),
+            );
+        }
         if !(declares && follows && words) || keyword || self.parted(word, name) {
             return None;
         }
