@@ -39,64 +39,8 @@ impl Place<'_> {
             .or_else(|| self.typed_predicate())
             .or_else(|| self.listed_condition())
             .or_else(|| self.reactive())
-            .or_else(|| self.spare_mark())
-            .or_else(|| self.doubled_comma())
-            .or_else(|| self.required_when())
-            .or_else(|| self.raised_by_letter())
+            .or_else(|| self.spare())
             .or_else(|| self.in_pieces())
-    }
-
-    /// `2 m³/s`: an exponent as it is printed.
-    fn raised_by_letter(&self) -> Option<Diagnostic> {
-        let after_number = self.before.is_some_and(|token| token.kind == Kind::Number);
-        let unit = self.found();
-        let right = unit.replace('²', "^2").replace('³', "^3");
-        let known = right
-            .split('^')
-            .next()
-            .is_some_and(|unit| UNITS.contains(&unit));
-        (after_number && known && right != unit).then(|| {
-            let message = "an exponent of a unit is written with `^`";
-            Diagnostic::new(Code::E0114, self.span(), message).write(
-                self.span(),
-                right,
-                Applicability::Safe,
-            )
-        })
-    }
-
-    /// `max(a,, b)`
-    fn doubled_comma(&self) -> Option<Diagnostic> {
-        let doubled = self.found() == "," && self.before() == "," && self.open_is_paren();
-        doubled.then(|| {
-            Diagnostic::new(Code::E0118, self.span(), "one comma is enough")
-                .label("drop it")
-                .fix("drop the `,`", self.span(), "", Applicability::Safe)
-        })
-    }
-
-    /// `requires when visible(A)`
-    fn required_when(&self) -> Option<Diagnostic> {
-        let (clause, when) = (self.second_before?, self.before?);
-        let said = clause.of(self.text) == "requires" && when.of(self.text) == "when";
-        said.then(|| {
-            let drop = self.span_of(when).to(self.span().before());
-            let message = "what a behaviour `requires` follows at once";
-            Diagnostic::new(Code::E0101, self.span_of(when), message)
-                .label("this is said of `succeed` and `fail`")
-                .fix("drop `when`", drop, "", Applicability::Safe)
-        })
-    }
-
-    /// `goto(A),;`
-    fn spare_mark(&self) -> Option<Diagnostic> {
-        let spare = self.found() == ";" && self.before() == ",";
-        (spare && self.failure.strict == Rule::strict_child).then(|| {
-            Diagnostic::new(Code::E0118, self.span(), "nothing needs a `;` here")
-                .label("drop it")
-                .note("commas part the children of a node")
-                .fix("drop the `;`", self.span(), "", Applicability::Safe)
-        })
     }
 
     /// `reactive selector`
