@@ -10,6 +10,7 @@ mod pieces;
 mod places;
 mod respelled;
 mod rewrite;
+mod spare;
 mod units;
 mod words;
 

@@ -68,6 +68,9 @@ pub const TYPES: [&str; 15] = [
     "target",
 ];
 
+/// How a value by the time is said, for who writes `2% per tick`.
+pub(super) const RATE: &str = "a rate in every tick: `battery -= 1%/s * tick`";
+
 /// What is reckoned of numbers.
 pub const FUNCTIONS: [&str; 20] = [
     "abs", "sign", "min", "max", "clamp", "wrap", "sqrt", "exp", "ln", "floor", "ceil", "round",

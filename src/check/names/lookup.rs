@@ -160,7 +160,9 @@ impl<'a> Checker<'a> {
                 let (name, input) = (spelled(&name.name), spelled(input));
                 format!("`{name}` is a value of `{input}`: `predicate NAME = {input} == {name}`")
             }),
-            (Some(_), _) => None,
+            (Some(_), _) => {
+                (what == "type" && is_a_plain_number(&name.name)).then(|| MEASURED.to_owned())
+            }
             (None, Some((decl, _))) if what == "type" => Some(format!(
                 "`{0}` is {1}; members are of a kind, which stands behind their names: `{0}: KIND = …`",
                 name.name,
@@ -290,6 +292,17 @@ fn ranging(name: &str) -> Option<&'static str> {
         "none" | "nobody" => "not any(x in KIND: …)",
         _ => return None,
     })
+}
+
+/// What is said to who takes any number for a `number`.
+const MEASURED: &str = "a `number` has no unit; what is measured is a `length`, a `time`, an `angle`, a `speed`, a `ratio`";
+
+/// Whether other languages call the numbers so that have no whole values.
+fn is_a_plain_number(name: &str) -> bool {
+    matches!(
+        name,
+        "float" | "double" | "real" | "decimal" | "f32" | "f64"
+    )
 }
 
 /// What helps who writes such a name.

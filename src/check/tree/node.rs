@@ -1,5 +1,6 @@
 //! Nodes: composites, decorators, behaviours, subtrees unrolled.
 
+use super::uncounted::counted;
 use crate::check::Checker;
 use crate::check::context::Region;
 use crate::check::expr::plain_ref;
@@ -120,7 +121,8 @@ impl<'a> Checker<'a> {
             }
             (true, Some([arg])) => match &arg.kind {
                 ArgKind::Positional(value) if word.node == Word::Timeout => {
-                    self.ticks(value, "a timeout")
+                    let counted = counted(value).filter(|_| !self.has_world);
+                    counted.or_else(|| self.ticks(value, "a timeout"))
                 }
                 ArgKind::Positional(value) => self.times(name, value),
                 ArgKind::Named(parameter, value) => {

@@ -11,6 +11,7 @@ use crate::ir::test::{Subject, Test};
 use crate::ir::tree::Node;
 use crate::ir::world::{Robot, World};
 use crate::ir::{Id, Name};
+use crate::source::Span;
 use crate::syntax::ast::{self, Expr, ExprKind, Ref};
 use crate::syntax::print;
 
@@ -29,15 +30,21 @@ impl<'a> Checker<'a> {
     /// `test "title" of tree { … }`
     pub fn test(&mut self, test: &'a ast::Test) {
         self.context = Context::new(Region::Tree);
-        let tested = self.tested(test);
+        let (tested, told) = self.captured(|checker| checker.tested(test));
+        // Where it was not understood what a robot runs, nobody knows which robot a script is read by.
+        let lost = self.a_script_is_lost();
+        let told = told
+            .into_iter()
+            .filter(|found| !(lost && of_a_robot(found)));
+        self.diagnostics.extend(told);
         let robot = tested.as_ref().map_or(World::acting(), |it| it.robot);
         let root = tested.as_ref().and_then(|tested| tested.root.as_ref());
         let (lines, told) = self
             .captured(|checker| checker.as_robot(robot, |checker| checker.test_lines(test, root)));
-        // Where the tree was not understood, nobody knows which robot runs it.
-        let of_a_robot =
-            |found: &Diagnostic| matches!(found.code, Code::E0406 | Code::E0411 | Code::E0613);
-        let follows = |found: &Diagnostic| tested.is_none() && of_a_robot(found);
+        // Where the tree was not understood, nobody knows which robot runs it, nor that a tree named there is this one.
+        let of_the_tree = |found: &Diagnostic| matches!(found.code, Code::E0203 | Code::E0613);
+        let follows =
+            |found: &Diagnostic| tested.is_none() && (of_a_robot(found) || of_the_tree(found));
         let told = told.into_iter().filter(|found| !follows(found));
         self.diagnostics.extend(told);
         if let (Some(tested), Some(lines)) = (tested, lines) {
@@ -49,6 +56,19 @@ impl<'a> Checker<'a> {
                 lines,
             });
         }
+    }
+
+    /// Whether a mistake was told of what another robot runs, or of a robot that runs nothing.
+    fn a_script_is_lost(&self) -> bool {
+        self.diagnostics.iter().any(|found| {
+            let place = found.span();
+            let holds = |script: Span| {
+                script.file == place.file && script.start <= place.start && place.end <= script.end
+            };
+            let mut scripts = self.scripts.iter();
+            found.code == Code::E0408
+                || found.is_error() && scripts.any(|(_, script)| holds(script.span))
+        })
     }
 
     fn tested(&mut self, test: &'a ast::Test) -> Option<Tested> {
@@ -134,6 +154,11 @@ impl<'a> Checker<'a> {
             root: None,
         })
     }
+}
+
+/// Whether something is told of the robot that reads.
+fn of_a_robot(found: &Diagnostic) -> bool {
+    matches!(found.code, Code::E0406 | Code::E0411)
 }
 
 /// A reference as it is written.

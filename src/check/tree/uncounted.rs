@@ -1,11 +1,11 @@
-//! Timeouts of trees that are asked for where no world counts ticks.
+//! Ticks where no world says how long they are, and the timeouts that ask for it.
 
 use crate::check::Checker;
 use crate::check::expr::plain_ref;
 use crate::check::names::Decl;
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
-use crate::syntax::ast::{self, ArgKind, Node, NodeKind, Word};
+use crate::syntax::ast::{self, ArgKind, Expr, ExprKind, Node, NodeKind, Word};
 use std::collections::BTreeSet;
 
 impl<'a> Checker<'a> {
@@ -24,7 +24,8 @@ impl<'a> Checker<'a> {
             times.retain(|time| !wrong.contains(time));
             for time in times {
                 self.no_world(time, "a timeout", "how many ticks are these?")
-                    .also(asked, "they are counted for this");
+                    .also(asked, "they are counted for this")
+                    .help("count them: `timeout(50 ticks) { … }`");
             }
         }
     }
@@ -47,6 +48,7 @@ impl<'a> Checker<'a> {
                     let arg = args.as_deref().and_then(<[ast::Arg]>::first);
                     if word.node == Word::Timeout
                         && let Some(ArgKind::Positional(time)) = arg.map(|arg| &arg.kind)
+                        && counted(time).is_none()
                     {
                         times.push(time.span);
                     }
@@ -67,4 +69,14 @@ impl<'a> Checker<'a> {
         }
         times
     }
+}
+
+/// A whole number of ticks, as it is written.
+pub(super) fn counted(time: &Expr) -> Option<u64> {
+    let ExprKind::Number(number) = &time.kind else {
+        return None;
+    };
+    let unit = number.unit.as_ref()?;
+    let whole = number.value.fract() == 0.0 && (1.0..=1e15).contains(&number.value);
+    (whole && matches!(unit.text.as_str(), "tick" | "ticks")).then_some(number.value as u64)
 }

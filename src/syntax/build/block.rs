@@ -9,7 +9,7 @@ use crate::syntax::ast::{
 use crate::syntax::diagnose::{self, no_such_unit};
 use crate::syntax::grammar::{Node, Parts, Rule};
 use crate::syntax::tokens::Kind;
-use crate::syntax::words::TYPES;
+use crate::syntax::words::{RATE, TYPES};
 
 impl<'i> Builder<'i> {
     pub(super) fn take_block(&mut self, parts: &mut Parts<'i>) -> Block {
@@ -266,7 +266,7 @@ impl<'i> Builder<'i> {
         if name == "per" && self.goes_on(span.range().start) {
             let diagnostic = Diagnostic::new(Code::E0101, span, "`per` cannot stand here")
                 .label("a statement ends before this")
-                .help("a rate in every tick: `battery -= 1%/s * tick`");
+                .help(RATE);
             self.report(diagnostic);
             return;
         }

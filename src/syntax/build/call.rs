@@ -6,8 +6,8 @@ use crate::source::Span;
 use crate::syntax::ast::{Arg, ArgKind, Expr, ExprKind, Ident, Ref};
 use crate::syntax::diagnose::no_such_unit;
 use crate::syntax::grammar::{Node, Parts, Rule};
-use crate::syntax::tokens::Kind;
-use crate::syntax::words::RANGING;
+use crate::syntax::tokens::{Kind, is_blank};
+use crate::syntax::words::{RANGING, RATE};
 
 /// What comes next of a range whose `..` is another word.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -190,6 +190,28 @@ impl<'i> Builder<'i> {
         self.condition_follows(node, before)
             || self.kind_goes_first(node, before)
             || self.unit_is_meant(node, before)
+            || self.rate_is_meant(node, before)
+    }
+
+    /// Reports `max(a - 2% per tick, 0%)`, where a value has a rate behind it.
+    fn rate_is_meant(&mut self, node: &Node<'i>, before: Option<&Arg>) -> bool {
+        let (Some(before), Some(word)) = (before, self.token_at(self.starts(node))) else {
+            return false;
+        };
+        let gap = self.text.get(before.span.range().end..word.start);
+        match gap.unwrap_or_default().trim_matches(is_blank) {
+            "" if word.of(self.text) == "per" && !self.glance().has("per") => {
+                let span = Span::new(self.file, word.start, word.end);
+                let diagnostic = Diagnostic::new(Code::E0101, span, "`per` cannot stand here")
+                    .label("a value ends before this")
+                    .help(RATE);
+                self.report(diagnostic);
+                true
+            }
+            // What it is by the time of was reported with `per`.
+            "per" => true,
+            _ => false,
+        }
     }
 
     /// Reports `nearest(b in bush where …)`, whose condition follows a colon.

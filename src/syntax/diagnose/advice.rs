@@ -7,7 +7,7 @@ use crate::source::Span;
 use crate::spelling::RESERVED;
 use crate::syntax::grammar::Rule;
 use crate::syntax::tokens::{Kind, Token};
-use crate::syntax::words::{CALLED, FUNCTIONS, NODES, RANGING};
+use crate::syntax::words::{CALLED, FUNCTIONS, NODES, RANGING, RATE};
 
 /// Whether a word comes next.
 fn is_word_next(next: Option<Token>) -> bool {
@@ -233,6 +233,14 @@ impl Place<'_> {
             (_, "[")
                 if self
                     .wanted()
+                    .is_some_and(|wanted| wanted.contains("an argument"))
+                    && self.next().is_some_and(|next| next.kind == Kind::Number) =>
+            {
+                "there are no lists: a point is written `(1 m, 2 m)`, and any other value is an argument of its own"
+            }
+            (_, "[")
+                if self
+                    .wanted()
                     .is_some_and(|wanted| wanted.contains("an argument")) =>
             {
                 "there are no lists: each value is an argument of its own"
@@ -297,6 +305,7 @@ impl Place<'_> {
             (Rule::strict_child, _) if self.begins_with("if") => {
                 "a guard is followed by `=>`: `CONDITION => NODE`"
             }
+            (_, "per") if self.expects(Rule::or_op) || self.expects(Rule::sum_op) => RATE,
             (_, "xor") => "one of the two, and not both: `a != b`",
             (_, "in") if self.expects(Rule::or_op) && is_word_next(self.next()) => {
                 "whether the robot is in a place: `inside(PLACE)`, another robot: `inside(PLACE, by = ROBOT)`"

@@ -7,8 +7,7 @@ use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::grammar::Rule;
 use crate::syntax::tokens::{Kind, Token};
-use crate::syntax::words::TYPES;
-use crate::syntax::words::UNITS;
+use crate::syntax::words::{NODES, TYPES, UNITS};
 
 /// The words that declare one name.
 const DECLARING: [&str; 5] = ["event", "predicate", "behavior", "task", "tree"];
@@ -40,19 +39,8 @@ impl Place<'_> {
             .or_else(|| self.typed_predicate())
             .or_else(|| self.listed_condition())
             .or_else(|| self.reactive())
-            .or_else(|| self.spare_mark())
+            .or_else(|| self.spare())
             .or_else(|| self.in_pieces())
-    }
-
-    /// `goto(A),;`
-    fn spare_mark(&self) -> Option<Diagnostic> {
-        let spare = self.found() == ";" && self.before() == ",";
-        (spare && self.failure.strict == Rule::strict_child).then(|| {
-            Diagnostic::new(Code::E0118, self.span(), "nothing needs a `;` here")
-                .label("drop it")
-                .note("commas part the children of a node")
-                .fix("drop the `;`", self.span(), "", Applicability::Safe)
-        })
     }
 
     /// `reactive selector`
@@ -277,6 +265,17 @@ impl Place<'_> {
         let follows = matches!(self.after_found(), "=" | "(" | ":" | "{");
         let words = is_word(name) && is_word(self.found) && self.same_line_as_before();
         let keyword = matches!(self.found(), "for" | "of" | "if" | "when");
+        // Of `tree hand selector {` the `=` is missing.
+        let is_node = NODES.iter().any(|(node, _)| *node == self.found());
+        if is_node && word.of(self.text) == "tree" && self.after_found() == "{" {
+            let gap = self.span_of(name).after();
+            let message = "`=` gives a tree its node";
+            return Some(
+                Diagnostic::new(Code::E0101, self.span(), message)
+                    .label("a `=` is missing before this")
+                    .fix("put a `=`", gap, " =", Applicability::Safe),
+            );
+        }
         if !(declares && follows && words) || keyword || self.parted(word, name) {
             return None;
         }

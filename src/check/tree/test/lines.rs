@@ -6,6 +6,7 @@ use crate::check::expr::expect::is_literal;
 use crate::check::expr::plain_ref;
 use crate::check::names::Decl;
 use crate::check::report::listed;
+use crate::check::tree::uncounted::counted;
 use crate::diagnostic::Code;
 use crate::ir::Id;
 use crate::ir::law::Behavior;
@@ -296,14 +297,4 @@ fn status(answer: Spanned<Answer>) -> Status {
         Answer::Fails => Status::Failure,
         Answer::Runs => Status::Running,
     }
-}
-
-/// A whole number of ticks, as it is written.
-fn counted(time: &Expr) -> Option<u64> {
-    let ExprKind::Number(number) = &time.kind else {
-        return None;
-    };
-    let unit = number.unit.as_ref()?;
-    let whole = number.value.fract() == 0.0 && (1.0..=1e15).contains(&number.value);
-    (whole && matches!(unit.text.as_str(), "tick" | "ticks")).then_some(number.value as u64)
 }
