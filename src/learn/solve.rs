@@ -56,10 +56,13 @@ pub struct Solution {
 }
 
 /// The most states for which a policy is evaluated by elimination, whose cost is cubic; above, by sweeps.
-const ELIMINATED: usize = 100;
+const ELIMINATED: usize = 600;
 
 /// The most improvements of a policy; far fewer are ever needed.
 const IMPROVEMENTS: usize = 200;
+
+/// The most of them by rough values.
+const ROUGH_ONES: usize = 100;
 
 /// The least gain that counts as better, above the noise of the elimination.
 const BETTER: f64 = 1e-9;
@@ -148,15 +151,16 @@ impl Problem {
         // Where states are many, values are rough until nothing seems better by them.
         let mut rough = if self.is_large() { ROUGH } else { 0.0 };
         let mut values = self.evaluate_from(&policy, values, rough);
-        for _ in 0..IMPROVEMENTS {
+        for at in 0..IMPROVEMENTS {
             let better = match rough > 0.0 {
                 true => ROUGHLY_BETTER * largest(&values),
                 false => BETTER,
             };
-            if !self.improve(&mut policy, &values, better) {
-                if rough == 0.0 {
-                    break;
-                }
+            let improved = self.improve(&mut policy, &values, better);
+            if !improved && rough == 0.0 {
+                break;
+            }
+            if !improved || at >= ROUGH_ONES {
                 rough = 0.0;
             }
             values = self.evaluate_from(&policy, values, rough);

@@ -6,15 +6,13 @@
 
 use nalgebra::DVector;
 
-/// The directions that are kept at a time, and how often they are begun anew.
-const DIRECTIONS: usize = 16;
-const CYCLES: usize = 120;
+/// The directions that are kept at a time before they are begun anew.
+const DIRECTIONS: usize = 40;
 /// What is left to change is reckoned on the way. It is looked at when it seems to be this part of what may be left.
 const SEEMS: f64 = 0.1;
 /// A direction of which a sweep leaves all but this part leads nowhere.
 const LEADS: f64 = 1e-10;
-/// What is left to change after some directions is at most this part of what was left before. Where it is more, it is rounding if
-/// it is at most this part of the greatest value; else the sum has no end.
+/// What is left to change is rounding where directions leave more than this part of it, and it is at most this part of the greatest value.
 const SHRINKS: f64 = 0.9;
 const ROUNDING: f64 = 1e-8;
 
@@ -24,28 +22,31 @@ struct Way {
     taken: DVector<f64>,
 }
 
-/// The values that a sweep changes by less than `least` says of them; `None` where there are none or they are not found. `sweep` is one
+/// The values that a sweep changes by less than `least` says of them, or those after so many times all directions. `sweep` is one
 /// sweep, `change` what a sweep makes of a change of the values.
 pub fn found(
     values: Vec<f64>,
     sweep: impl Fn(&mut [f64]),
     change: impl Fn(&mut [f64]),
     least: impl Fn(&[f64]) -> f64,
-) -> Option<Vec<f64>> {
+    times: usize,
+) -> Vec<f64> {
     let mut values = DVector::from_vec(values);
+    let mut found = values.clone();
     let mut before = f64::INFINITY;
-    for _ in 0..CYCLES {
+    for _ in 0..=times {
         let mut swept = values.clone();
         sweep(swept.as_mut_slice());
         let mut left = &swept - &values;
-        let least = least(swept.as_slice());
         let now = left.amax();
-        let shrinks = now < SHRINKS * before;
-        if now < least || !shrinks && now < ROUNDING * swept.amax() {
-            return Some(swept.as_slice().to_vec());
+        if !left.norm().is_finite() {
+            break;
         }
-        if !shrinks {
-            return None;
+        let least = least(swept.as_slice());
+        let is_rounding = now >= SHRINKS * before && now < ROUNDING * swept.amax();
+        found = swept;
+        if now < least || is_rounding {
+            break;
         }
         before = now;
         let mut ways: Vec<Way> = Vec::new();
@@ -59,7 +60,7 @@ pub fn found(
             ways.push(way);
         }
     }
-    None
+    found.as_slice().to_vec()
 }
 
 /// The direction of what is left to change, beside those that are known.

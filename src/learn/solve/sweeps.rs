@@ -6,6 +6,10 @@ use super::{Outlook, Problem, largest, rest};
 pub(super) const SWEEPS: usize = 20_000;
 const SETTLED: f64 = 1e-12;
 
+/// How often all directions are gone while values are rough, and at most.
+const ROUGHLY: usize = 2;
+const EXACTLY: usize = 120;
+
 /// What rounding may change in a sweep, in parts of the greatest value.
 const ROUNDING: f64 = 1e-14;
 
@@ -89,8 +93,8 @@ impl Problem {
         };
         let change = |change: &mut [f64]| self.sweep_change(&taken, change);
         let least = |values: &[f64]| SETTLED.max(settled.max(ROUNDING) * largest(values));
-        let found = rest::found(values.clone(), sweep, change, least);
-        found.unwrap_or_else(|| self.sweep_all(&taken, values))
+        let times = if settled > 0.0 { ROUGHLY } else { EXACTLY };
+        rest::found(values, sweep, change, least, times)
     }
 
     /// What a sweep makes of a change of the values.

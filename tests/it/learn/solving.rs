@@ -117,7 +117,7 @@ fn more_states_than_are_eliminated_are_swept() {
 #[test]
 fn where_states_are_many_the_beginning_decides_nothing() {
     let mut random = Random::new(4, 0, 0);
-    for states in [150, 400] {
+    for states in [700, 900] {
         let problem = random_problem(&mut random, states, 0.99);
         assert!(problem.is_large());
         let solution = problem.solve();
