@@ -200,7 +200,7 @@ impl<'i> Builder<'i> {
         };
         let gap = self.text.get(before.span.range().end..word.start);
         match gap.unwrap_or_default().trim_matches(is_blank) {
-            "" if word.of(self.text) == "per" && !self.glance().has("per") => {
+            "" if word.of(self.text) == "per" && self.time_follows(word.end) => {
                 let span = Span::new(self.file, word.start, word.end);
                 let diagnostic = Diagnostic::new(Code::E0101, span, "`per` cannot stand here")
                     .label("a value ends before this")
@@ -212,6 +212,17 @@ impl<'i> Builder<'i> {
             "per" => true,
             _ => false,
         }
+    }
+
+    /// Whether the next token is a unit of time, or a number.
+    fn time_follows(&self, end: usize) -> bool {
+        self.token_at(end).is_some_and(|next| {
+            next.kind == Kind::Number
+                || matches!(
+                    next.of(self.text),
+                    "tick" | "ticks" | "ms" | "s" | "min" | "h" | "second" | "minute" | "hour"
+                )
+        })
     }
 
     /// Reports `nearest(b in bush where …)`, whose condition follows a colon.
