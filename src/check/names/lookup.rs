@@ -147,6 +147,9 @@ impl<'a> Checker<'a> {
         // Nor is a word of logic.
         let of_logic = what.starts_with("function") && ranging(&name.name).is_some();
         let likely = likely.filter(|_| !of_logic);
+        // Which type a number of another language has, its unit would say.
+        let of_any_unit = what == "type" && is_a_plain_number(&name.name);
+        let likely = likely.filter(|_| !of_any_unit);
         let input = self.input_with(&name.name);
         let likely = likely.filter(|_| input.is_none());
         let bound = what.starts_with("state") && self.context.ended.contains(name.name.as_str());
@@ -160,9 +163,8 @@ impl<'a> Checker<'a> {
                 let (name, input) = (spelled(&name.name), spelled(input));
                 format!("`{name}` is a value of `{input}`: `predicate NAME = {input} == {name}`")
             }),
-            (Some(_), _) => {
-                (what == "type" && is_a_plain_number(&name.name)).then(|| MEASURED.to_owned())
-            }
+            (Some(_), _) => None,
+            (None, None) if of_any_unit => Some(MEASURED.to_owned()),
             (None, Some((decl, _))) if what == "type" => Some(format!(
                 "`{0}` is {1}; members are of a kind, which stands behind their names: `{0}: KIND = …`",
                 name.name,
@@ -295,7 +297,7 @@ fn ranging(name: &str) -> Option<&'static str> {
 }
 
 /// What is said to who takes any number for a `number`.
-const MEASURED: &str = "a `number` has no unit; what is measured is a `length`, a `time`, an `angle`, a `speed`, a `ratio`";
+const MEASURED: &str = "a plain one is a `number`, which has no unit; what is measured is a `length`, a `time`, an `angle`, a `speed`, a `ratio`";
 
 /// Whether other languages call the numbers so that have no whole values.
 fn is_a_plain_number(name: &str) -> bool {
