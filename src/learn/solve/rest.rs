@@ -11,10 +11,10 @@ const DIRECTIONS: usize = 40;
 /// What is left to change is reckoned on the way. It is looked at when it seems to be this part of what may be left.
 const SEEMS: f64 = 0.1;
 /// A direction of which a sweep leaves all but this part leads nowhere.
-const LEADS: f64 = 1e-10;
+const LEADS: f64 = 1e-14;
 /// What is left to change is rounding where directions leave more than this part of it, and it is at most this part of the greatest value.
 const SHRINKS: f64 = 0.9;
-const ROUNDING: f64 = 1e-8;
+const ROUNDING: f64 = 1e-13;
 
 /// A direction, and what of it a sweep takes away, which has length one.
 struct Way {
