@@ -221,9 +221,10 @@ impl<'a> Checker<'a> {
                 self.claim(claim);
             }
         }
+        let lost = self.a_script_is_lost();
         for item in items() {
             if let ItemKind::Test(test) = &item.kind {
-                self.test(test);
+                self.test(test, lost);
             }
         }
         self.timeouts_without_a_world();

@@ -37,25 +37,21 @@ pub fn gain(problem: &Problem, policy: &[Option<usize>], starts: &[(usize, f64)]
     }
 }
 
-/// The greatest average reward a tick, sought from a solution that may be near, and its policy with the relative values of the states: what is gained from there up
-/// to a restart over what the average would bring in the same time.
+/// The greatest average reward a tick, and its policy with the relative values of the states: what is gained from there up
+/// to a restart over what the average would bring in the same time. `near` is a solution that may be near.
 ///
 /// The ratio is made greatest by the method of Dinkelbach (1967): the best policy where each tick costs the average so
 /// far has a greater average, until it has the same.
 pub fn solve(problem: &Problem, starts: &[(usize, f64)], near: Solution) -> (f64, Solution) {
     let mut average = gain(problem, &near.policy, starts);
-    let mut solution = problem.at_cost(average).solve_from(near);
+    let mut solution = problem.at_cost(average).solve_near(near);
     for _ in 0..ROUNDS {
         let next = gain(problem, &solution.policy, starts);
         if next <= average + 1e-12 * (1.0 + average.abs()) {
             break;
         }
         average = next;
-        let near = match problem.is_large() {
-            true => solution,
-            false => problem.unsolved(),
-        };
-        solution = problem.at_cost(average).solve_from(near);
+        solution = problem.at_cost(average).solve_near(solution);
     }
     (average, solution)
 }

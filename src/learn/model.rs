@@ -77,13 +77,10 @@ impl Model {
         }
     }
 
-    /// What the search for the solution begins with: where the problem is large, the solution of the round before.
-    fn begun(&self, problem: &Problem) -> Solution {
-        let mut begun = problem.unsolved();
-        if !problem.is_large() {
-            return begun;
-        }
-        let rows = problem.states.iter().zip(&mut begun.policy).enumerate();
+    /// The solution of the round before, as one of this problem.
+    fn before(&self, problem: &Problem) -> Solution {
+        let mut solution = problem.unsolved();
+        let rows = problem.states.iter().zip(&mut solution.policy).enumerate();
         for (row, (choices, taken)) in rows {
             let before = self.policy.get(row).copied().flatten();
             let place = choices
@@ -91,9 +88,9 @@ impl Model {
                 .position(|(choice, _)| Some(*choice) == before);
             *taken = place.or(*taken);
         }
-        let values = begun.values.iter_mut().enumerate();
+        let values = solution.values.iter_mut().enumerate();
         values.for_each(|(row, value)| *value = self.table.best_value(row));
-        begun
+        solution
     }
 }
 
@@ -153,14 +150,14 @@ impl Method for Model {
 
     fn refit(&mut self) {
         let mut problem = self.problem();
-        let begun = self.begun(&problem);
+        let before = self.before(&problem);
         let solution = if self.average {
-            let (gain, solution) = average::solve(&problem, &self.starts, begun);
+            let (gain, solution) = average::solve(&problem, &self.starts, before);
             self.table.gain = gain;
             problem = problem.at_cost(gain);
             solution
         } else {
-            problem.solve_from(begun)
+            problem.solve_near(before)
         };
         for (row, choices) in problem.states.iter().enumerate() {
             for (choice, outlook) in choices {

@@ -26,6 +26,13 @@ impl Outlook {
         back.map(|(_, weight)| weight).sum()
     }
 
+    /// What follows where it leads away from a state is worth.
+    fn leaves(&self, state: usize, values: &[f64], unknown: f64) -> f64 {
+        let away = self.next.iter().filter(|(to, _)| *to != state);
+        let value = |to: usize| values.get(to).copied().unwrap_or(unknown);
+        away.map(|&(to, weight)| weight * value(to)).sum()
+    }
+
     /// The means of these sums over `count` decisions.
     pub fn over(&self, count: f64) -> Self {
         let next = self.next.iter();
@@ -85,10 +92,8 @@ impl Problem {
 
     /// What a choice is worth that is taken again whenever it leads back to its own state, under the values of the others.
     pub fn lasting(&self, state: usize, outlook: &Outlook, values: &[f64]) -> f64 {
-        let back = outlook.back(state);
-        let value = values.get(state).copied().unwrap_or(self.unknown);
-        let leaves = self.worth(outlook, values) - back * value;
-        leaves / (1.0 - back).max(1e-6)
+        let leaves = outlook.reward + outlook.leaves(state, values, self.unknown);
+        leaves / (1.0 - outlook.back(state)).max(1e-6)
     }
 
     /// A low value among those of states with choices: one in ten is lower. For states of which nothing is known.
@@ -127,7 +132,7 @@ impl Problem {
         problem
     }
 
-    /// Whether there are so many states that it pays to begin near the solution.
+    /// Whether there are so many states that policies are evaluated by sweeps.
     pub fn is_large(&self) -> bool {
         self.states.len() > ELIMINATED
     }
@@ -145,6 +150,15 @@ impl Problem {
         }
     }
 
+    /// The same from a solution that may be near. Where states are few it is sought from nothing, which costs little: then it does
+    /// not hang on what was solved before which of two equal choices is taken.
+    pub fn solve_near(&self, near: Solution) -> Solution {
+        match self.is_large() {
+            true => self.solve_from(near),
+            false => self.solve(),
+        }
+    }
+
     /// The same from the solution of a problem with the same states and choices.
     pub fn solve_from(&self, near: Solution) -> Solution {
         let Solution { mut policy, values } = near;
@@ -152,8 +166,10 @@ impl Problem {
         let mut rough = if self.is_large() { ROUGH } else { 0.0 };
         let mut values = self.evaluate_from(&policy, values, rough);
         for at in 0..IMPROVEMENTS {
-            let better = match rough > 0.0 {
-                true => ROUGHLY_BETTER * largest(&values),
+            // Sweeps leave a part of the greatest value, elimination next to nothing.
+            let better = match self.is_large() {
+                true if rough > 0.0 => ROUGHLY_BETTER * largest(&values),
+                true => BETTER * largest(&values).max(1.0),
                 false => BETTER,
             };
             let improved = self.improve(&mut policy, &values, better);

@@ -304,6 +304,9 @@ pub const UNITS: [&str; 14] = [
     "m", "cm", "mm", "km", "s", "ms", "min", "h", "tick", "ticks", "deg", "rad", "Hz", "%",
 ];
 
+/// Those of time.
+pub const TIMES: [&str; 6] = ["s", "ms", "min", "h", "tick", "ticks"];
+
 /// The words of composites and decorators.
 pub const NODES: [(&str, Word); 9] = [
     ("selector", Word::Selector),

@@ -14,6 +14,7 @@ use crate::ir::{Id, Name};
 use crate::source::Span;
 use crate::syntax::ast::{self, Expr, ExprKind, Ref};
 use crate::syntax::print;
+use std::collections::BTreeMap;
 
 /// The tree that a test ticks.
 struct Tested {
@@ -27,12 +28,10 @@ struct Tested {
 }
 
 impl<'a> Checker<'a> {
-    /// `test "title" of tree { … }`
-    pub fn test(&mut self, test: &'a ast::Test) {
+    /// `test "title" of tree { … }`. `lost`: it was not understood what a robot runs, so nobody knows which robot a script is read by.
+    pub fn test(&mut self, test: &'a ast::Test, lost: bool) {
         self.context = Context::new(Region::Tree);
         let (tested, told) = self.captured(|checker| checker.tested(test));
-        // Where it was not understood what a robot runs, nobody knows which robot a script is read by.
-        let lost = self.a_script_is_lost();
         let told = told
             .into_iter()
             .filter(|found| !(lost && of_a_robot(found)));
@@ -59,15 +58,15 @@ impl<'a> Checker<'a> {
     }
 
     /// Whether a mistake was told of what another robot runs, or of a robot that runs nothing.
-    fn a_script_is_lost(&self) -> bool {
+    pub fn a_script_is_lost(&self) -> bool {
+        let scripts = self.scripts.iter().map(|(_, runs)| runs.span);
+        let scripts: BTreeMap<_, Span> = scripts.map(|at| ((at.file, at.start), at)).collect();
         self.diagnostics.iter().any(|found| {
             let place = found.span();
-            let holds = |script: Span| {
-                script.file == place.file && script.start <= place.start && place.end <= script.end
-            };
-            let mut scripts = self.scripts.iter();
+            let before = scripts.range(..=(place.file, place.start)).next_back();
+            let within = |script: &Span| script.file == place.file && place.end <= script.end;
             found.code == Code::E0408
-                || found.is_error() && scripts.any(|(_, script)| holds(script.span))
+                || found.is_error() && before.is_some_and(|(_, script)| within(script))
         })
     }
 

@@ -12,7 +12,8 @@ const DIRECTIONS: usize = 40;
 const SEEMS: f64 = 0.1;
 /// A direction of which a sweep leaves all but this part leads nowhere.
 const LEADS: f64 = 1e-14;
-/// What is left to change is rounding where directions leave more than this part of it, and it is at most this part of the greatest value.
+/// What is left to change is rounding where all directions leave more than this part of it, and it is at most this part of the
+/// greatest value.
 const SHRINKS: f64 = 0.9;
 const ROUNDING: f64 = 1e-13;
 

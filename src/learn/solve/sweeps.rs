@@ -1,12 +1,12 @@
 //! Values of a policy by sweeps over the states, each from the newest values of the others.
 
-use super::{Outlook, Problem, largest, rest};
+use super::{Problem, largest, rest};
 
 /// The most sweeps, and the change below which they end.
 pub(super) const SWEEPS: usize = 20_000;
 const SETTLED: f64 = 1e-12;
 
-/// How often all directions are gone while values are rough, and at most.
+/// How often directions are begun anew: while values are rough, and at most.
 const ROUGHLY: usize = 2;
 const EXACTLY: usize = 120;
 
@@ -53,25 +53,30 @@ impl Problem {
         (most, settled): (usize, f64),
     ) -> Vec<f64> {
         for _ in 0..most {
-            if self.sweep_once(&taken, &mut values, unknown) < settled {
+            if self.sweep_once(&taken, &mut values, (unknown, 1.0)) < settled {
                 break;
             }
         }
         values
     }
 
-    /// One sweep; the greatest change.
+    /// One sweep; the greatest change. Rewards count so many times: where `values` are a change of values, not at all.
     fn sweep_once(
         &self,
         taken: impl Fn(usize) -> Option<usize>,
         values: &mut [f64],
-        unknown: f64,
+        (unknown, paid): (f64, f64),
     ) -> f64 {
         let mut change: f64 = 0.0;
         for state in 0..self.states.len() {
             let outlook = self.outlook(state, taken(state));
             let worth = outlook.map_or(unknown, |outlook| {
-                swept(state, outlook, outlook.reward, values, unknown)
+                let leaves = outlook.leaves(state, values, unknown) + paid * outlook.reward;
+                let back = outlook.back(state);
+                match back < STAYS {
+                    true => leaves / (1.0 - back),
+                    false => leaves + back * values.get(state).copied().unwrap_or(unknown),
+                }
             });
             if let Some(value) = values.get_mut(state) {
                 change = change.max((worth - *value).abs());
@@ -89,38 +94,14 @@ impl Problem {
         settled: f64,
     ) -> Vec<f64> {
         let sweep = |values: &mut [f64]| {
-            self.sweep_once(&taken, values, self.unknown);
+            self.sweep_once(&taken, values, (self.unknown, 1.0));
         };
-        let change = |change: &mut [f64]| self.sweep_change(&taken, change);
+        let change = |change: &mut [f64]| {
+            self.sweep_once(&taken, change, (0.0, 0.0));
+        };
         let least = |values: &[f64]| SETTLED.max(settled.max(ROUNDING) * largest(values));
         let times = if settled > 0.0 { ROUGHLY } else { EXACTLY };
         rest::found(values, sweep, change, least, times)
-    }
-
-    /// What a sweep makes of a change of the values.
-    fn sweep_change(&self, taken: impl Fn(usize) -> Option<usize>, change: &mut [f64]) {
-        for state in 0..self.states.len() {
-            let outlook = self.outlook(state, taken(state));
-            let changed = outlook.map_or(0.0, |outlook| swept(state, outlook, 0.0, change, 0.0));
-            if let Some(change) = change.get_mut(state) {
-                *change = changed;
-            }
-        }
-    }
-}
-
-/// What a choice is worth that brings this reward at once and is taken again whenever it leads back to its own state.
-fn swept(state: usize, outlook: &Outlook, reward: f64, values: &[f64], unknown: f64) -> f64 {
-    let (mut leaves, mut back) = (reward, 0.0);
-    for &(to, weight) in &outlook.next {
-        match to == state {
-            true => back += weight,
-            false => leaves += weight * values.get(to).copied().unwrap_or(unknown),
-        }
-    }
-    match back < STAYS {
-        true => leaves / (1.0 - back),
-        false => leaves + back * values.get(state).copied().unwrap_or(unknown),
     }
 }
 

@@ -7,7 +7,7 @@ use crate::syntax::ast::{Arg, ArgKind, Expr, ExprKind, Ident, Ref};
 use crate::syntax::diagnose::no_such_unit;
 use crate::syntax::grammar::{Node, Parts, Rule};
 use crate::syntax::tokens::{Kind, is_blank};
-use crate::syntax::words::{RANGING, RATE};
+use crate::syntax::words::{RANGING, RATE, TIMES};
 
 /// What comes next of a range whose `..` is another word.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -217,11 +217,9 @@ impl<'i> Builder<'i> {
     /// Whether the next token is a unit of time, or a number.
     fn time_follows(&self, end: usize) -> bool {
         self.token_at(end).is_some_and(|next| {
-            next.kind == Kind::Number
-                || matches!(
-                    next.of(self.text),
-                    "tick" | "ticks" | "ms" | "s" | "min" | "h" | "second" | "minute" | "hour"
-                )
+            let word = next.of(self.text);
+            let spelt = matches!(word, "second" | "minute" | "hour");
+            next.kind == Kind::Number || spelt || TIMES.contains(&word)
         })
     }
 

@@ -7,6 +7,7 @@ use crate::syntax::ast::{
     Params, Predicate, State, Trigger, TypeExpr, Use, UseWhat,
 };
 use crate::syntax::grammar::{Node, Parts, Rule};
+use crate::syntax::words::TIMES;
 
 /// The type that a default likely has, as far as it is written.
 fn type_of(default: &Expr) -> &'static str {
@@ -17,7 +18,7 @@ fn type_of(default: &Expr) -> &'static str {
         ExprKind::Number(literal) => match literal.unit.as_ref().map(|unit| unit.text.as_str()) {
             None => "number",
             Some("%") => "ratio",
-            Some("s" | "ms" | "min" | "h" | "tick" | "ticks") => "time",
+            Some(unit) if TIMES.contains(&unit) => "time",
             Some("deg" | "rad") => "angle",
             Some("Hz") => "frequency",
             Some("rad/s" | "deg/s") => "turn_rate",
