@@ -1,6 +1,6 @@
 //! Values of a policy by sweeps over the states, each from the newest values of the others.
 
-use super::{Problem, largest, rest};
+use super::{Outlook, Problem, largest, rest};
 
 /// The most sweeps, and the change below which they end.
 pub(super) const SWEEPS: usize = 20_000;
@@ -52,32 +52,27 @@ impl Problem {
         unknown: f64,
         (most, settled): (usize, f64),
     ) -> Vec<f64> {
+        let worth = |_, outlook: &Outlook, values: &[f64]| self.worth(outlook, values);
         for _ in 0..most {
-            if self.sweep_once(&taken, &mut values, (unknown, 1.0)) < settled {
+            if self.sweep_once(&taken, &mut values, unknown, worth) < settled {
                 break;
             }
         }
         values
     }
 
-    /// One sweep; the greatest change. Rewards count so many times: where `values` are a change of values, not at all.
+    /// One sweep by the worth of the choice that is taken in a state under the values so far; the greatest change.
     fn sweep_once(
         &self,
         taken: impl Fn(usize) -> Option<usize>,
         values: &mut [f64],
-        (unknown, paid): (f64, f64),
+        unknown: f64,
+        worth: impl Fn(usize, &Outlook, &[f64]) -> f64,
     ) -> f64 {
         let mut change: f64 = 0.0;
         for state in 0..self.states.len() {
             let outlook = self.outlook(state, taken(state));
-            let worth = outlook.map_or(unknown, |outlook| {
-                let leaves = outlook.leaves(state, values, unknown) + paid * outlook.reward;
-                let back = outlook.back(state);
-                match back < STAYS {
-                    true => leaves / (1.0 - back),
-                    false => leaves + back * values.get(state).copied().unwrap_or(unknown),
-                }
-            });
+            let worth = outlook.map_or(unknown, |outlook| worth(state, outlook, values));
             if let Some(value) = values.get_mut(state) {
                 change = change.max((worth - *value).abs());
                 *value = worth;
@@ -93,11 +88,24 @@ impl Problem {
         values: Vec<f64>,
         settled: f64,
     ) -> Vec<f64> {
+        // What a choice is worth that is taken again whenever it leads back to its own state.
+        let worth = |state: usize, outlook: &Outlook, (reward, unknown), values: &[f64]| {
+            let leaves = reward + outlook.leaves(state, values, unknown);
+            let back = outlook.back(state);
+            match back < STAYS {
+                true => leaves / (1.0 - back),
+                false => leaves + back * values.get(state).copied().unwrap_or(unknown),
+            }
+        };
         let sweep = |values: &mut [f64]| {
-            self.sweep_once(&taken, values, (self.unknown, 1.0));
+            self.sweep_once(&taken, values, self.unknown, |state, outlook, values| {
+                worth(state, outlook, (outlook.reward, self.unknown), values)
+            });
         };
         let change = |change: &mut [f64]| {
-            self.sweep_once(&taken, change, (0.0, 0.0));
+            self.sweep_once(&taken, change, 0.0, |state, outlook, values| {
+                worth(state, outlook, (0.0, 0.0), values)
+            });
         };
         let least = |values: &[f64]| SETTLED.max(settled.max(ROUNDING) * largest(values));
         let times = if settled > 0.0 { ROUGHLY } else { EXACTLY };
