@@ -55,7 +55,7 @@ codes! {
     E0113 "a blank between a name and its `(`",
     E0114 "no such unit",
     E0115 "a blank inside a unit",
-    E0116 "`->` where `=>` guards",
+    E0116 "`=>` is missing after a guard",
     E0117 "`elif` is `else if`",
     E0118 "a mark that nothing needs",
     E0119 "`true` and `false` are small",

@@ -97,6 +97,15 @@ impl Name {
         }
     }
 
+    /// The same of the acting robot.
+    #[must_use]
+    pub fn of_acting(&self) -> Self {
+        Self {
+            robot: None,
+            ..self.clone()
+        }
+    }
+
     /// The robot whose it is, where it is not the acting one's.
     pub fn robot(&self) -> Option<&str> {
         self.robot.as_deref()

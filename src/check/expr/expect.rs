@@ -78,6 +78,7 @@ impl<'a> Checker<'a> {
             .this_is(&typed.ty)
             .help_if(help)
             .unit_for(expr, wanted.dim().filter(|_| typed.ty.dim().is_some()))
+            .minutes(expr, wanted.dim())
             .unit_of_gain(expr, &typed.ty, wanted)
             .units_within(expr, wanted.dim().filter(|_| typed.ty == Type::NUMBER));
         if place {
@@ -370,6 +371,9 @@ fn conversion(typed: &Typed, expr: &Expr, wanted: &Type, is_variant: bool) -> Op
     }
     // What a rate comes to is said by `in_each_tick`.
     if wanted == Dim::NONE && !is_rate(is) {
+        if let Some(literal) = literal {
+            return Some(format!("a plain number has no unit: `{}`", literal.digits));
+        }
         let unit = is.unit()?;
         return Some(format!(
             "divided by a unit it is a plain number: `… / (1 {unit})`"
@@ -462,6 +466,24 @@ impl Draft<'_> {
         let right = format!("{}({})", name.name, values.join(", "));
         self.fix(
             format!("give each its unit: `{right}`"),
+            expr.span,
+            right,
+            Applicability::Unsafe,
+        )
+    }
+
+    /// Offers to write `min` after a number of minutes.
+    pub fn minutes(self, expr: &Expr, wanted: Option<Dim>) -> Self {
+        let ExprKind::Number(literal) = &expr.kind else {
+            return self;
+        };
+        let metres = literal.unit.as_ref().is_some_and(|unit| unit.text == "m");
+        if !metres || wanted != Some(Dim::TIME) {
+            return self;
+        }
+        let right = format!("{} min", literal.digits);
+        self.fix(
+            format!("minutes are `min`: write `{right}`"),
             expr.span,
             right,
             Applicability::Unsafe,

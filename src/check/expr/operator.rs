@@ -393,6 +393,7 @@ impl<'a> Checker<'a> {
             .this_is(&wrong.ty)
             .also(fine.span, format!("this is {}", fine.ty))
             .unit_for(expr, Some(dim))
+            .minutes(expr, Some(dim))
             .emit();
         self.clashes(left, at, &b.ty);
         self.clashes(right, at, &a.ty);

@@ -51,7 +51,11 @@ impl Checker<'_> {
                 self.error(Code::E0611, first, format!("`{name}` never {verb}"))
                     .note(format!("it has {clause}"))
             } else if run.as_ref().is_some_and(|run| !run.contains(&behavior)) {
-                let message = format!("no task chooses `{name}`, and no tree runs it");
+                let own = name.of_acting();
+                let message = match name.robot() {
+                    Some(robot) => format!("the robot `{robot}` never runs `{own}`"),
+                    None => format!("no task chooses `{name}`, and no tree runs it"),
+                };
                 let relatives = run
                     .iter()
                     .flatten()
@@ -62,10 +66,21 @@ impl Checker<'_> {
                 // Of the same place, or else any.
                 let alike = |run: &&&Name| run.arguments.first() == name.arguments.first();
                 let relative = relatives.iter().find(alike).or(relatives.first());
+                let mut everywhere = run
+                    .iter()
+                    .flatten()
+                    .map(|id| &self.program.behaviors[*id].name);
+                let elsewhere = everywhere.find(|run| run.of_acting() == own);
+                let elsewhere = elsewhere.and_then(|run| run.robot());
                 let help = match (relative, name.robot()) {
+                    _ if elsewhere.is_some() => {
+                        let robot = elsewhere.unwrap_or_default();
+                        format!("the robot `{robot}` runs it: that is asked with `by = {robot}`")
+                    }
                     (Some(relative), _) => {
                         format!(
-                            "`{relative}` is run, which is another behaviour: ask that, or add `{name}`"
+                            "`{}` is run, which is another behaviour: ask that, or add `{own}`",
+                            relative.of_acting()
                         )
                     }
                     (None, Some(robot)) => {

@@ -401,7 +401,7 @@ fn hint(name: &str, what: &str) -> Option<String> {
         "timeout" | "retry" | "repeat" | "parallel" => {
             format!("the children of a node stand in braces: `{name}(…) {{ … }}`")
         }
-        "selector" | "sequence" | "invert" => {
+        "selector" | "sequence" | "invert" | "succeed" | "fail" => {
             format!("the children of a node stand in braces: `{name} {{ … }}`")
         }
         _ if matches!(what, "predicate" | "event") => {

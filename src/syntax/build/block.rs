@@ -54,7 +54,7 @@ impl<'i> Builder<'i> {
     }
 
     /// Whether two places stand on one line.
-    fn on_one_line(&self, before: Span, after: Span) -> bool {
+    pub(super) fn on_one_line(&self, before: Span, after: Span) -> bool {
         let gap = self.text.get(before.range().end..after.range().start);
         gap.is_some_and(|gap| !gap.contains('\n'))
     }
@@ -299,6 +299,17 @@ impl<'i> Builder<'i> {
             ));
             return;
         }
+        if let Some(clause) = clause_in_control(name, found).filter(|_| same_line || found == "}") {
+            let diagnostic = Diagnostic::new(
+                Code::E0123,
+                span,
+                format!("`{name}` is no statement: how a behaviour ends stands beside `control`"),
+            )
+            .label("not in a block of statements")
+            .help(format!("a clause of the behaviour: `{clause}`"));
+            self.report(diagnostic);
+            return;
+        }
         let spare = [
             "set", "return", "then", "do", "call", "run", "assign", "begin",
         ];
@@ -388,6 +399,20 @@ fn misspelt(name: &str, rest: &str) -> Option<&'static str> {
         "while" | "unless" => "if",
         word => word,
     })
+}
+
+/// The clause of a behaviour that is meant by a word among the statements of its control law.
+fn clause_in_control(name: &str, next: &str) -> Option<&'static str> {
+    let ends = |word| matches!(word, "success" | "succeed" | "SUCCESS" | "true");
+    let fails = |word| matches!(word, "failure" | "fail" | "FAILURE" | "false");
+    match (name, next) {
+        ("requires", _) => Some("requires CONDITION"),
+        ("succeed" | "success", _) => Some("succeed when CONDITION"),
+        ("fail" | "failure", _) => Some("fail when CONDITION"),
+        ("return", next) if ends(next) => Some("succeed when CONDITION"),
+        ("return", next) if fails(next) => Some("fail when CONDITION"),
+        _ => None,
+    }
 }
 
 /// The assignment for `x++`, `x--`.

@@ -7,7 +7,7 @@ use crate::syntax::ast::{Arg, ArgKind, Expr, ExprKind, Ident, Ref};
 use crate::syntax::diagnose::no_such_unit;
 use crate::syntax::grammar::{Node, Parts, Rule};
 use crate::syntax::tokens::{Kind, is_blank};
-use crate::syntax::words::{RANGING, RATE, TIMES};
+use crate::syntax::words::{RANGING, RATE, TIMES, UNITS};
 
 /// What comes next of a range whose `..` is another word.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -202,9 +202,17 @@ impl<'i> Builder<'i> {
         match gap.unwrap_or_default().trim_matches(is_blank) {
             "" if word.of(self.text) == "per" && self.time_follows(word.end) => {
                 let span = Span::new(self.file, word.start, word.end);
-                let diagnostic = Diagnostic::new(Code::E0101, span, "`per` cannot stand here")
-                    .label("a value ends before this")
-                    .help(RATE);
+                let diagnostic = match self.quotient(before.span, word.end) {
+                    Some((place, right)) => {
+                        let message = "a unit is divided by `/`, not by `per`";
+                        Diagnostic::new(Code::E0101, span, message)
+                            .label("between two units")
+                            .fix("write `/`", place, right, Applicability::Unsafe)
+                    }
+                    None => Diagnostic::new(Code::E0101, span, "`per` cannot stand here")
+                        .label("a value ends before this")
+                        .help(RATE),
+                };
                 self.report(diagnostic);
                 true
             }
@@ -212,6 +220,15 @@ impl<'i> Builder<'i> {
             "per" => true,
             _ => false,
         }
+    }
+
+    /// What to write for `m per s`, where the word `per` ends at byte `end` behind `before`, and the place of ` per s`.
+    fn quotient(&self, before: Span, end: usize) -> Option<(Span, String)> {
+        let below = self.token_at(end)?;
+        let unit = self.slice(before).rsplit(' ').next()?;
+        let both = UNITS.contains(&unit) && UNITS.contains(&below.of(self.text));
+        let place = Span::new(self.file, before.range().end, below.end);
+        both.then(|| (place, format!("/{}", below.of(self.text))))
     }
 
     /// Whether the next token is a unit of time, or a number.
@@ -336,11 +353,18 @@ impl<'i> Builder<'i> {
         if let (Some(sign), true) = (&colon, self.ranging) {
             self.unbound = true;
             let mark = self.span(sign);
-            let right = format!("x in {}", name.name);
             let message = "what ranges over a kind binds a name: `x in KIND: …`";
-            self.report(
-                Diagnostic::new(Code::E0127, name.span.to(mark), message)
-                    .label(format!("write `{right}:`"))
+            let diagnostic = Diagnostic::new(Code::E0127, name.span.to(mark), message);
+            // `any(r: robot, …)`
+            let kind = self.kind_after(colon.as_ref());
+            let right = match &kind {
+                Some(kind) => format!("{} in {kind}", name.name),
+                None => format!("x in {}", name.name),
+            };
+            let diagnostic = diagnostic.label(format!("write `{right}:`"));
+            self.report(match kind {
+                Some(_) => diagnostic,
+                None => diagnostic
                     .help(format!("each `{}` behind it is called `x` then", name.name))
                     .fix(
                         format!("write `{right}`"),
@@ -348,7 +372,7 @@ impl<'i> Builder<'i> {
                         right,
                         Applicability::Unsafe,
                     ),
-            );
+            });
         } else if let (Some(sign), Some(kind)) = (&colon, self.kind_after(colon.as_ref())) {
             self.unbound = true;
             let span = self.span(sign);

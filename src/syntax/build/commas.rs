@@ -3,9 +3,11 @@
 use super::Builder;
 use crate::diagnostic::{Applicability, Code, Diagnostic, suggest};
 use crate::source::Span;
+use crate::spelling::RESERVED;
+use crate::syntax::diagnose::{no_such_unit, one_unit};
 use crate::syntax::grammar::Node;
 use crate::syntax::tokens::is_blank;
-use crate::syntax::words::{CALLED, NODES, UNITS};
+use crate::syntax::words::{CALLED, DRIVING, NODES, SHARED, UNITS};
 
 /// What the commas of a history part.
 pub(super) const HISTORY: &str = "the ends of a history";
@@ -43,7 +45,9 @@ fn behind_a_node(word: &str) -> Option<&'static str> {
             "what a node is done with goes around it: `timeout(10 s) { … }`, `retry(2) { … }`"
         }
         "until" | "unless" => "a condition goes before its node: `not CONDITION => NODE`",
-        "while" | "when" | "provided" => "a condition goes before its node: `CONDITION => NODE`",
+        "while" | "when" | "provided" | "if" => {
+            "a condition goes before its node: `CONDITION => NODE`"
+        }
         _ => return None,
     })
 }
@@ -150,15 +154,22 @@ impl<'i> Builder<'i> {
         }
         if what == "the children of a node"
             && let Some(help) = behind_a_node(self.slice(place))
-            && before.is_some_and(|before| {
-                let gap = self.text.get(before.range().end..place.range().start);
-                gap.is_some_and(|gap| !gap.contains('\n'))
-            })
+            && before.is_some_and(|before| self.on_one_line(before, place))
         {
             let message = format!("`{}` does not go on with a node", self.slice(place));
             let diagnostic = Diagnostic::new(Code::E0101, place, message)
                 .label("this is not said here")
                 .help(help);
+            self.report(diagnostic);
+            return;
+        }
+        if what == "the children of a node" && self.missing_arrow(before, place) {
+            return;
+        }
+        if what == "arguments"
+            && let Some(diagnostic) =
+                before.and_then(|before| self.unit_behind_number(before, place))
+        {
             self.report(diagnostic);
             return;
         }
@@ -173,9 +184,8 @@ impl<'i> Builder<'i> {
             let letters = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
             !word.is_empty() && word.chars().all(letters)
         };
-        let gap = before.and_then(|before| self.text.get(before.range().end..place.range().start));
         if let Some(name) = name.filter(|name| is_word(name) && is_word(self.slice(place)))
-            && gap.is_some_and(|gap| !gap.contains('\n'))
+            && before.is_some_and(|before| self.on_one_line(before, place))
             && self.slice(place) != "not"
             && what != HISTORY
             && what != "variants"
@@ -188,13 +198,67 @@ impl<'i> Builder<'i> {
         self.report(diagnostic);
     }
 
+    /// Reports a `=>` that is missing on one line between a condition and what it guards, which begins with `next`.
+    fn missing_arrow(&mut self, before: Option<Span>, next: Span) -> bool {
+        let Some(before) = before.filter(|before| self.on_one_line(*before, next)) else {
+            return false;
+        };
+        let (asked, runs) = (self.slice(before), self.slice(next));
+        let head = asked.split('(').next().unwrap_or_default();
+        let is_joined = (asked.split(' ')).any(|word| matches!(word, "and" | "or" | "not"));
+        let is_condition = is_joined || self.glance().declares_by(&["predicate"], head);
+        let is_node = runs == "memory" || NODES.iter().any(|(node, _)| *node == runs);
+        let is_leaf = CALLED.contains(&runs)
+            || SHARED.contains(&runs)
+            || DRIVING.contains(&runs)
+            || self.glance().declares_by(&LEAVES, runs);
+        if asked.contains(['=', '{']) || !is_condition || !(is_node || is_leaf) {
+            return false;
+        }
+        let message = format!("`=>` is missing before `{runs}`");
+        let diagnostic = Diagnostic::new(Code::E0116, next, message)
+            .label(format!("what `{asked}` guards"))
+            .fix("put `=>`", before.after(), " =>", Applicability::Unsafe)
+            .help("two children of their own are parted by a comma");
+        self.report(diagnostic);
+        true
+    }
+
+    /// What is said of a word behind the number that an argument ends with: it is no unit, or one too many.
+    fn unit_behind_number(&self, before: Span, next: Span) -> Option<Diagnostic> {
+        let word = self.slice(next);
+        let is_word = word.chars().all(|c| c.is_ascii_alphabetic());
+        let rest = self.text.get(next.range().end..).unwrap_or_default();
+        let rest = rest.trim_start_matches(is_blank);
+        let named = rest.starts_with(['=', '(', ':', '.']);
+        if !is_word || named || RESERVED.contains(&word) || !self.on_one_line(before, next) {
+            return None;
+        }
+        let amount = self.slice(before);
+        let (number, unit) = amount.rsplit_once(' ').unwrap_or(("", amount));
+        if unit.ends_with(|c: char| c.is_ascii_digit()) {
+            return Some(no_such_unit(next, word, &[]));
+        }
+        let counts = number.ends_with(|c: char| c.is_ascii_digit());
+        let known = UNITS.contains(&unit) && UNITS.contains(&word);
+        (counts && known).then(|| {
+            let end = next.range().end;
+            let exponent = rest.starts_with("^-1").then_some("^-1".len());
+            let whole = Span::new(
+                self.file,
+                before.range().end - unit.len(),
+                end + exponent.unwrap_or_default(),
+            );
+            one_unit(next, unit, whole, exponent.map(|_| word))
+        })
+    }
+
     /// Reports a word between two parts of a child that is nearly one of the language: `memroy sequence`, `low adn full`.
     fn misspelt_joint(&mut self, before: Option<Span>, next: Span) -> bool {
         let Some(before) = before else {
             return false;
         };
-        let gap = self.text.get(before.range().end..next.range().start);
-        if gap.is_none_or(|gap| gap.contains('\n')) {
+        if !self.on_one_line(before, next) {
             return false;
         }
         let word = self.slice(before).rsplit([' ', '(']).next();
@@ -229,8 +293,7 @@ impl<'i> Builder<'i> {
 
     /// Reports an argument without parentheses or a child without braces, at `next`, after the word `name`.
     fn missing_brackets(&mut self, name: &str, before: Span, next: Span, what: &str) -> bool {
-        let gap = self.text.get(before.range().end..next.range().start);
-        if gap.is_none_or(|gap| gap.contains('\n')) {
+        if !self.on_one_line(before, next) {
             return false;
         }
         let word = name.split('(').next().unwrap_or(name);
@@ -305,8 +368,7 @@ impl<'i> Builder<'i> {
         let next = self.slice(place);
         // Of `full => wait 2 s` the last word lacks its arguments.
         let name = self.slice(before).rsplit(' ').next().unwrap_or_default();
-        let gap = self.text.get(before.range().end..place.range().start);
-        if gap.is_none_or(|gap| gap.contains('\n')) {
+        if !self.on_one_line(before, place) {
             return false;
         }
         if matches!(name, "then" | "xor") {

@@ -246,7 +246,7 @@ impl<'i> Builder<'i> {
         let counted = matches!(word, "retry" | "repeat" | "timeout" | "parallel");
         if counted && same_line && next.kind == Kind::Number {
             let rest = self.text.get(next.start..)?.lines().next()?;
-            let amount = rest.split('{').next()?.trim();
+            let amount = rest.split(['{', '}', ',', ')']).next()?.trim();
             return Some(format!("{word}({amount}) {{ … }}"));
         }
         let waits = line.trim_start().starts_with("on ") && next.of(self.text) == "if";

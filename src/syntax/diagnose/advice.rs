@@ -57,6 +57,11 @@ impl Place<'_> {
                 _ => diagnostic.help(help),
             };
         }
+        if found == ":" && self.line_begins_with("end") {
+            return diagnostic.help(
+                "what an end is worth is said among the rewards: `reward { on EVENT: NUMBER }`",
+            );
+        }
         if is_mark && wants_value {
             let before = self.before();
             return diagnostic.fix(

@@ -43,14 +43,13 @@ impl Place<'_> {
             return Some(comma_before(self.span(), word, self.before));
         }
         if after_unit && expected::words(&[Rule::wrong_unit]).is_empty() && is_unit_word(word) {
-            let drop = self.before.map_or(self.span(), |before| {
-                Span::new(self.file, before.end, self.found.end)
-            });
-            return Some(
-                Diagnostic::new(Code::E0114, self.span(), "a number has one unit")
-                    .label(format!("`{}` says it already", self.before()))
-                    .fix(format!("drop `{word}`"), drop, "", Applicability::Unsafe),
-            );
+            let rest = self.text.get(self.found.end..).unwrap_or_default();
+            let exponent = rest.starts_with("^-1").then_some("^-1".len());
+            let end = self.found.end + exponent.unwrap_or_default();
+            let start = self.before.map_or(self.found.start, |before| before.start);
+            let whole = Span::new(self.file, start, end);
+            let below = exponent.map(|_| word);
+            return Some(one_unit(self.span(), self.before(), whole, below));
         }
         // `2 m = true`: a unit before `=` is taken for the beginning of the next line.
         let next = self.next().filter(|next| next.of(self.text) == "=");
@@ -101,6 +100,38 @@ fn is_unit_word(word: &str) -> bool {
         )
 }
 
+/// The message for a second unit at `second`, behind `unit`; `whole` is both, with what belongs to them, and `below` what the
+/// unit is divided by.
+pub(in crate::syntax) fn one_unit(
+    second: Span,
+    unit: &str,
+    whole: Span,
+    below: Option<&str>,
+) -> Diagnostic {
+    let diagnostic = Diagnostic::new(Code::E0114, second, "a number has one unit");
+    match below {
+        Some(below) => {
+            let right = format!("{unit}/{below}");
+            diagnostic.label("a unit is divided by `/`").fix(
+                format!("write `{right}`"),
+                whole,
+                right,
+                Applicability::Unsafe,
+            )
+        }
+        None => {
+            let start = whole.range().start + unit.len();
+            let spare = Span::new(whole.file, start, whole.range().end);
+            diagnostic.label(format!("`{unit}` says it already")).fix(
+                "drop it",
+                spare,
+                "",
+                Applicability::Unsafe,
+            )
+        }
+    }
+}
+
 /// The message for a comma that is missing before a word of arguments.
 fn comma_before(span: Span, word: &str, before: Option<Token>) -> Diagnostic {
     let at = before.map_or(span.before(), |before| Span {
@@ -146,6 +177,11 @@ pub(in crate::syntax) fn no_such_unit(span: Span, word: &str, others: &[&str]) -
             .label("this follows a number")
             .help("there are lengths, times and angles, and what is made of them: no masses, no forces, no currents")
             .note(units_note());
+    }
+    if matches!(word, "k" | "K") {
+        return diagnostic
+            .label("this follows a number")
+            .help("thousands are written out: `4_000`");
     }
     if matches!(word, "rpm" | "RPM" | "rps") {
         let turns = if word == "rps" {
