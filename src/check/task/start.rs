@@ -36,14 +36,14 @@ impl<'a> Checker<'a> {
                 );
             match first {
                 Some((first, _)) => {
+                    let message = match first.name == name.name {
+                        true => format!("`{}` is set twice", name.name),
+                        false => format!("`{}` sets `{}` as well", name.name, first.name),
+                    };
                     let first = first.span;
-                    self.error(
-                        Code::E0503,
-                        name.span,
-                        format!("`{}` is set twice", name.name),
-                    )
-                    .label("this line would undo the first")
-                    .also(first, "first set here");
+                    self.error(Code::E0503, name.span, message)
+                        .label("this line would undo the first")
+                        .also(first, "first set here");
                 }
                 None => set.push((name, built.clone())),
             }
