@@ -64,8 +64,8 @@ pub struct Checker<'a> {
     pub again: BTreeMap<Span, Again>,
     /// The states that a value of a block hides.
     pub hidden: BTreeSet<&'a str>,
-    /// Where episodes start, as far as that is constant.
-    pub positions: Vec<(Span, Point)>,
+    /// Where robots start, as far as that is constant.
+    pub positions: Vec<(Span, Id<Robot>, Point)>,
     /// The parameter that the expression at hand is given to, with what it is a parameter of.
     pub given: Option<(&'a str, &'a str)>,
     /// The type of which the name at hand is to be a value.

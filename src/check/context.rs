@@ -250,9 +250,12 @@ impl<'a> Checker<'a> {
                 format!("nothing reads the {what} `{name}`"),
             )
             .label("bound here, and never read")
-            .help(match bound.needed {
-                true => format!("call it `_{name}` if nothing is to be done with it"),
-                false => format!("take it away, or call it `_{name}` if it is to stay"),
+            .help(match (what, bound.needed) {
+                ("member", _) => {
+                    format!("ask or do something of `{name}`, or call it `_{name}`")
+                }
+                (_, true) => format!("call it `_{name}` if nothing is to be done with it"),
+                (_, false) => format!("take it away, or call it `_{name}` if it is to stay"),
             });
         }
     }

@@ -166,7 +166,7 @@ codes! {
     W0202 "a state that is set and never read",
     W0203 "a program that has changed since",
     W0204 "a value that hides a state",
-    W0205 "a state that never changes",
+    W0205 "a state or a local that never changes",
     W0301 "a plain number for a ratio",
     W0302 "a region that is never reached",
     W0303 "one thing said twice",

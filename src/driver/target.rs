@@ -8,7 +8,9 @@ use crate::ir::task::{Learner, Task};
 use crate::ir::tree::Tree;
 use crate::ir::{Id, Program};
 use crate::source::Span;
-use crate::syntax::ast::{self, AspectKind, Item, ItemKind, LearnEntry, Start, StartLine};
+use crate::syntax::ast::{
+    self, ArgKind, AspectKind, Expr, ExprKind, Item, ItemKind, LearnEntry, Start, StartLine,
+};
 
 /// The end of the main file: where something is missing.
 pub fn end_of_file(loaded: &Loaded) -> Span {
@@ -46,13 +48,25 @@ pub fn place_of(loaded: &Loaded, word: &str) -> Span {
     found.unwrap_or_else(|| end_of_file(loaded))
 }
 
-/// Where the program says at which position episodes start.
-pub fn positions(loaded: &Loaded) -> Vec<Span> {
+/// Where the program says at which position a robot starts: another than the acting one by its name.
+pub fn positions(loaded: &Loaded, robot: Option<&Name>) -> Vec<Span> {
+    let acting = loaded.program.world.as_ref().map(|world| &world.robot.name);
+    let is_own = |line: &&StartLine| match line.target.args.as_deref() {
+        None => robot.is_none(),
+        Some([arg]) => match &arg.kind {
+            ArgKind::Positional(Expr {
+                kind: ExprKind::Ref(named),
+                ..
+            }) => (robot.or(acting)).is_some_and(|robot| robot.is(&named.name.name)),
+            _ => false,
+        },
+        Some(_) => false,
+    };
     let mut found = Vec::new();
     let mut lines = |start: &Start| {
         let lines = start.lines.iter();
         let at = |line: &&StartLine| matches!(line.target.name.name.as_str(), "position" | "pose");
-        let positions = lines.filter(at).filter(|line| line.target.args.is_none());
+        let positions = lines.filter(at).filter(is_own);
         found.extend(positions.map(|line| line.value.span));
     };
     for item in loaded.asts().flat_map(|ast| &ast.items) {

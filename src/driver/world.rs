@@ -11,7 +11,9 @@ use crate::world::BuildError;
 pub(super) fn unbuilt(loaded: &Loaded, error: &BuildError) -> Diagnostic {
     let message = format!("the world cannot be built: {error}");
     // Of one place to start at it is clear which one is meant.
-    if let (BuildError::StartBlocked(_), [at]) = (error, target::positions(loaded).as_slice()) {
+    if let BuildError::StartBlocked(_, robot) = error
+        && let [at] = target::positions(loaded, robot.as_ref()).as_slice()
+    {
         return Diagnostic::new(Code::E0409, *at, message).label("no room here");
     }
     Diagnostic::new(Code::E0409, target::world_span(loaded), message).label("this world")

@@ -141,7 +141,15 @@ impl StartLine {
 
     /// Whether a later line of the same start would undo this one. Of two that draw their member, each may set another.
     pub fn undone_by(&self, later: &Self) -> bool {
-        !matches!(later, StartLine::Member(..)) && self.replaced_by(later)
+        let anew = match (self, later) {
+            (StartLine::Member(..), _) => return false,
+            (StartLine::Position(..) | StartLine::Heading(_), StartLine::Anywhere(_)) => true,
+            (StartLine::Other(a, one), StartLine::Other(b, Placing::Anywhere(_))) => {
+                a == b && !matches!(one, Placing::Anywhere(_))
+            }
+            _ => false,
+        };
+        anew || self.replaced_by(later)
     }
 
     /// Whether a line of a learner replaces this line of its task: it sets the same thing.

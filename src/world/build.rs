@@ -129,7 +129,10 @@ impl Simulator {
                 ..Start::default()
             };
             if !trial.start(start) {
-                return Err(BuildError::StartBlocked(lines));
+                let other = trial.blocked(lines).checked_sub(1);
+                let other = other.and_then(|other| world.others.values().nth(other));
+                let name = other.map(|other| other.robot.name.clone());
+                return Err(BuildError::StartBlocked(lines, name));
             }
         }
         Ok(simulator)

@@ -23,8 +23,9 @@ pub enum BuildError {
     OpenArena,
     /// The robot fits nowhere, or nearly nowhere.
     NoFreeArea,
-    /// The robot does not fit where this list of start lines, counted from zero, puts it.
-    StartBlocked(usize),
+    /// A robot does not fit where this list of start lines, counted from zero, puts it: another than the acting one by its
+    /// name.
+    StartBlocked(usize, Option<Name>),
 }
 
 impl fmt::Display for BuildError {
@@ -43,7 +44,12 @@ impl fmt::Display for BuildError {
             Self::TooManyAtoms(n) => write!(f, "a minterm holds 128 atoms, the task has {n}"),
             Self::OpenArena => f.write_str("the arena is not an area"),
             Self::NoFreeArea => f.write_str("the robot fits nowhere in the arena"),
-            Self::StartBlocked(_) => f.write_str("the robot does not fit where it is to start"),
+            Self::StartBlocked(_, None) => {
+                f.write_str("the robot does not fit where it is to start")
+            }
+            Self::StartBlocked(_, Some(name)) => {
+                write!(f, "the robot `{name}` does not fit where it is to start")
+            }
         }
     }
 }

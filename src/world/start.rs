@@ -41,6 +41,9 @@ impl Default for Start {
 /// How often the start lines are run until the robot is free where they put it.
 const TRIES: u32 = 10_000;
 
+/// How often they are run to see which robot is not.
+const LOOKED: u32 = 1_000;
+
 /// Where the number of a place is held while the robot is put there, which sets it anew.
 const WHICH: Fixed = Fixed::X;
 
@@ -209,6 +212,26 @@ impl Simulation<'_> {
         free
     }
 
+    /// The robot, by its place among all, for which these start lines leave no room most often.
+    pub(super) fn blocked(&mut self, lines: usize) -> usize {
+        let mut counts = vec![0_usize; self.robots().len()];
+        for _ in 0..LOOKED {
+            self.run_start(lines);
+            self.doors_as_wanted();
+            let robots = self.robots();
+            let scene = self.body.scene();
+            for (at, (&(p, radius), count)) in robots.iter().zip(&mut counts).enumerate() {
+                // Of two in one place the later one is told.
+                let mut before = robots.iter().take(at);
+                let alone = before.all(|&(q, other)| apart((p, radius), (q, other)));
+                *count += usize::from(!alone || !scene.is_free(p, radius));
+            }
+        }
+        let most = counts.iter().copied().max();
+        let found = counts.iter().position(|&count| Some(count) == most);
+        found.unwrap_or_default()
+    }
+
     fn run_start(&mut self, lines: usize) {
         for &(register, value) in &self.simulator.states {
             self.registers.set(register, value);
@@ -290,6 +313,19 @@ impl Simulation<'_> {
 
     /// Whether every robot is free where it stands, of what stands and of all others.
     fn is_free(&mut self) -> bool {
+        self.doors_as_wanted();
+        let robots = self.robots();
+        let scene = self.body.scene();
+        let free = robots.iter().all(|&(p, radius)| scene.is_free(p, radius));
+        let alone = |(at, one): (usize, &(Point, f64))| {
+            let mut others = robots.iter().skip(at + 1);
+            others.all(|other| apart(*one, *other))
+        };
+        free && robots.iter().enumerate().all(alone)
+    }
+
+    /// Opens and closes the doors as the state wants them.
+    fn doors_as_wanted(&mut self) {
         if self.scene.is_some() {
             let wanted = self.wanted_doors();
             let doors = &self.simulator.doors;
@@ -299,16 +335,6 @@ impl Simulation<'_> {
                 self.publish_scene();
             }
         }
-        let robots = self.robots();
-        let scene = self.body.scene();
-        let free = robots.iter().all(|&(p, radius)| scene.is_free(p, radius));
-        let apart = |(at, &(p, one)): (usize, &(Point, f64))| {
-            robots.iter().skip(at + 1).all(|&(q, other)| {
-                let gap = minus(q, p);
-                dot(gap, gap) >= (one + other) * (one + other)
-            })
-        };
-        free && robots.iter().enumerate().all(apart)
     }
 
     /// The place of the number that this sets, if there is one.
@@ -357,4 +383,10 @@ impl Simulation<'_> {
             self.publish_others();
         }
     }
+}
+
+/// Whether two bodies, each a centre with its radius, do not overlap.
+fn apart((p, one): (Point, f64), (q, other): (Point, f64)) -> bool {
+    let gap = minus(q, p);
+    dot(gap, gap) >= (one + other) * (one + other)
 }

@@ -66,6 +66,7 @@ impl<'a> Checker<'a> {
         block: &'a ast::Block,
     ) -> Option<Vec<Stmt>> {
         let ty = self.named_type(domain);
+        self.binds(name, "member");
         self.binds_member(name, &ty);
         let members = self.members_of(&ty, domain.span, &domain.name);
         // Once for itself, so that a mistake is told once.

@@ -68,6 +68,9 @@ impl<'a> Checker<'a> {
                 .none();
         };
         let of = self.named_type(domain);
+        if body.is_some() {
+            self.binds(name, "member");
+        }
         self.binds_member(name, &of);
         let members = self.members_of(&of, domain.span, &domain.name)?;
         if function == Function::Nearest {

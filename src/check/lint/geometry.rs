@@ -38,14 +38,16 @@ impl<'a> Checker<'a> {
                 }
             }
         }
-        for (span, at) in std::mem::take(&mut self.positions) {
-            if let Some(what) = obstacle(&world, at, world.robot.radius) {
-                self.error(
-                    Code::E0404,
-                    span,
-                    "the robot does not fit where it is to start",
-                )
-                .label(what);
+        for (span, robot, at) in std::mem::take(&mut self.positions) {
+            let is_acting = robot == World::acting();
+            let robot = world.robot_of(robot);
+            if let Some(what) = obstacle(&world, at, robot.radius) {
+                let who = match is_acting {
+                    true => "the robot".to_owned(),
+                    false => format!("the robot `{}`", robot.name),
+                };
+                let message = format!("{who} does not fit where it is to start");
+                self.error(Code::E0404, span, message).label(what);
             }
         }
     }

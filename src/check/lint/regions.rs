@@ -1,16 +1,17 @@
 //! Regions of a behaviour that it never gets to: what `requires`, `succeed when` and `fail when` leave of one another.
 
 use super::apart::because;
-use super::cases::of_expr;
+use super::cases::{About, Case, Cases, Says, of_expr};
+use super::interval::Interval;
 use super::view::View;
 use crate::check::Checker;
 use crate::diagnostic::Code;
-use crate::ir::expr::ExprId;
+use crate::ir::expr::{Expr, ExprId, Local};
 use crate::ir::law::{Behavior, Law};
-use crate::ir::{Id, Name};
+use crate::ir::{Id, Name, Pool};
 use crate::source::Span;
 use crate::syntax::ast::{AspectKind, BehaviorBody, Clause, ClauseKind, Item, ItemKind, Ref};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A `fail when` of a behaviour, with what is looked at before it.
 #[derive(Clone, Copy, Debug)]
@@ -23,6 +24,47 @@ pub struct FailClause {
     pub before: ExprId,
     /// What it asks.
     pub when: ExprId,
+}
+
+/// What has a known value as a behaviour starts.
+#[derive(Debug, Default)]
+struct Starting {
+    /// Each expression that is the time since then.
+    elapsed: Option<ExprId>,
+    /// The expression that is each variable of a behaviour.
+    locals: BTreeMap<Id<Local>, ExprId>,
+}
+
+impl Starting {
+    /// Of all behaviours of a pool.
+    fn of(pool: &Pool) -> Self {
+        let mut found = Self::default();
+        for (id, expr) in pool.iter() {
+            match expr {
+                Expr::Elapsed => found.elapsed = Some(id),
+                Expr::Local(local) => {
+                    found.locals.insert(local, id);
+                }
+                _ => {}
+            }
+        }
+        found
+    }
+
+    /// What is known as a behaviour starts: no time has passed, and its variables have the values that they start with.
+    fn case(&self, pool: &Pool, law: &Law) -> Cases {
+        let elapsed = self.elapsed.map(|id| (id, Expr::Num(0.0)));
+        let locals = law.locals.iter();
+        let locals = locals
+            .filter_map(|(local, it)| Some((*self.locals.get(&local)?, pool.get(it.initial))));
+        let known = elapsed.into_iter().chain(locals);
+        let says = |(id, initial)| match initial {
+            Expr::Num(value) => Some((About::Number(id), Says::Within(Interval::just(value)))),
+            Expr::Bool(value) => Some((About::Truth(id), Says::Is(value))),
+            _ => None,
+        };
+        Cases::Some(vec![known.filter_map(says).collect::<Case>()])
+    }
 }
 
 impl<'a> Checker<'a> {
@@ -110,6 +152,7 @@ impl<'a> Checker<'a> {
 
     /// Warns of regions that no instance of a behaviour gets to.
     pub fn regions_without_effect(&mut self, items: impl Iterator<Item = &'a Item>) {
+        let starting = Starting::of(&self.program.pool);
         for item in items {
             let ItemKind::Behavior(behavior) = &item.kind else {
                 continue;
@@ -123,12 +166,12 @@ impl<'a> Checker<'a> {
                 .filter_map(|other| Some((other.name.clone(), other.law.clone()?)))
                 .collect();
             if !laws.is_empty() {
-                self.regions_of(clauses, &laws);
+                self.regions_of(clauses, &laws, &starting);
             }
         }
     }
 
-    fn regions_of(&mut self, clauses: &'a [Clause], laws: &[(Name, Law)]) {
+    fn regions_of(&mut self, clauses: &'a [Clause], laws: &[(Name, Law)], starting: &Starting) {
         let first = |wanted: fn(&ClauseKind) -> bool| {
             let mut clauses = clauses.iter();
             clauses.find(|clause| wanted(&clause.kind)).map(place)
@@ -158,6 +201,15 @@ impl<'a> Checker<'a> {
             let goes_on = allowed.and(&of_expr(view, law.succeed, false));
             goes_on.implies(&of_expr(view, law.fail, true))
         });
+        let as_it_starts = |asked: fn(&Law) -> ExprId| {
+            every(&|view, law| {
+                let starts = starting.case(&program.pool, law);
+                let waits = program.pool.constant(asked(law)).is_none();
+                waits && starts.implies(&of_expr(view, asked(law), true))
+            })
+        };
+        let succeeds_as_it_starts = as_it_starts(|law| law.succeed);
+        let fails_as_it_starts = as_it_starts(|law| law.fail);
         if let (true, Some(at)) = (requires_never, requires) {
             self.warning(Code::W0302, at, "this behaviour never runs")
                 .label("what it requires never holds, so it fails at once");
@@ -168,6 +220,8 @@ impl<'a> Checker<'a> {
                     at,
                     "this holds from the start, so the behaviour succeeds at once",
                 );
+        } else if let (true, Some(at)) = (succeeds_as_it_starts, succeed) {
+            self.over_as_it_starts("succeeds", at);
         } else if let (true, Some(at), Some(before)) = (shadowed, fail, succeed) {
             self.warning(Code::W0302, at, "this behaviour never fails here")
                 .label("wherever this holds, it has succeeded already")
@@ -179,6 +233,9 @@ impl<'a> Checker<'a> {
                     at,
                     "this holds from the start, so the behaviour fails at once",
                 );
+        } else if let (true, Some(fail)) = (fails_as_it_starts, fail) {
+            let at = self.failing(clauses, laws, starting).unwrap_or(fail);
+            self.over_as_it_starts("fails", at);
         } else if let (true, Some(at)) = (never_succeeds, succeed) {
             let law = laws.first();
             let why = law.and_then(|(name, law)| because(View::of(program, name), law.succeed));
@@ -188,6 +245,38 @@ impl<'a> Checker<'a> {
         } else {
             self.fails_without_effect(clauses);
         }
+    }
+
+    /// The first `fail when` that holds as the behaviour starts.
+    fn failing(
+        &self,
+        clauses: &[Clause],
+        laws: &[(Name, Law)],
+        starting: &Starting,
+    ) -> Option<Span> {
+        let pool = &self.program.pool;
+        let (_, law) = laws.first()?;
+        let starts = starting.case(pool, law);
+        let holds = |clause: &&Clause| {
+            let ClauseKind::Fail(test) = &clause.kind else {
+                return false;
+            };
+            let found = self.fails.get(&test.span).and_then(|found| found.first());
+            found.is_some_and(|it| starts.implies(&of_expr(&self.program, it.when, true)))
+        };
+        clauses.iter().find(holds).map(place)
+    }
+
+    /// Warns of a clause that ends a behaviour in the tick in which it starts.
+    fn over_as_it_starts(&mut self, ends: &str, at: Span) {
+        self.warning(
+            Code::W0302,
+            at,
+            format!("this behaviour {ends} as soon as it starts"),
+        )
+        .label("this holds from the start")
+        .note("as it starts, `elapsed` is 0, and each local has the value of its declaration")
+        .help("what is waited for holds later only, such as `elapsed >= 2 s`");
     }
 
     /// Warns of behaviours of the library that a task chooses and that never succeed as they are called.

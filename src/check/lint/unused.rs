@@ -1,11 +1,13 @@
 //! Declarations that nothing uses.
 
 use super::mentions::Mentions;
+use crate::check::names::Decl;
 use crate::check::{Checker, Input};
 use crate::diagnostic::{Code, suggest};
 use crate::spelling::spelled;
 use crate::syntax::ast::{
-    BehaviorBody, Ident, Item, ItemKind, RobotEntryKind, State, World, WorldEntryKind,
+    Behavior, BehaviorBody, ClauseKind, Ident, Item, ItemKind, RobotEntryKind, State, World,
+    WorldEntryKind,
 };
 
 impl<'a> Checker<'a> {
@@ -59,6 +61,7 @@ impl<'a> Checker<'a> {
             ItemKind::Behavior(behavior) if !matches!(behavior.body, BehaviorBody::Declared) => {
                 let help = "let a task choose it or a tree run it";
                 self.unused(&behavior.name, "behaviour", help, mentions);
+                self.unset_locals(item, behavior);
             }
             ItemKind::Enum(of) if !of.variants.iter().any(|one| mentioned(one, mentions)) => {
                 self.unused(&of.name, "enum", "take it away", mentions);
@@ -162,19 +165,47 @@ impl<'a> Checker<'a> {
         if set || is_table || !mentioned(name, mentions) || name.name.starts_with('_') {
             return;
         }
-        let shown = quoted(&spelled(&name.name));
-        let draft = self
-            .warning(
-                Code::W0205,
-                name.span,
-                format!("nothing ever sets the state {shown}"),
-            )
-            .label("it stays as it is declared here");
-        match params.count() {
-            0 => draft.help("set it in an effect, or name a constant by `let`"),
-            _ => draft.help("set it in an effect or in `start`"),
+        let help = match params.count() {
+            0 => "set it in an effect, or name a constant by `let`",
+            _ => "set it in an effect or in `start`",
+        };
+        self.never_set(name, "state", help);
+    }
+
+    /// The locals of a behaviour that start with a constant and that its control law does not set.
+    fn unset_locals(&mut self, item: &'a Item, behavior: &'a Behavior) {
+        let BehaviorBody::Clauses(clauses) = &behavior.body else {
+            return;
+        };
+        let mut mentions = Mentions::default();
+        mentions.item(item);
+        for clause in clauses {
+            let ClauseKind::Local { name, value, .. } = &clause.kind else {
+                continue;
+            };
+            // What has a name already is kept under another one.
+            let mut of = Mentions::default();
+            of.expr(value);
+            let mut named = of.read.iter().map(|name| self.names.value(name, false));
+            let is_literal =
+                named.all(|decl| matches!(decl, Some((Decl::Variant(..) | Decl::Place(..), _))));
+            let set = mentions.set.contains(name.name.as_str());
+            if is_literal && !set && mentioned(name, &mentions) && !name.name.starts_with('_') {
+                self.never_set(
+                    name,
+                    "local",
+                    "set it in `control`, or name a constant by `let`",
+                );
+            }
         }
-        .emit();
+    }
+
+    fn never_set(&mut self, name: &Ident, what: &str, help: &str) {
+        let shown = quoted(&spelled(&name.name));
+        let message = format!("nothing ever sets the {what} {shown}");
+        self.warning(Code::W0205, name.span, message)
+            .label("it stays as it is declared here")
+            .help(help);
     }
 }
 

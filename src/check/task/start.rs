@@ -7,8 +7,10 @@ use crate::check::names::{Decl, START_WORDS};
 use crate::check::task::history::is_no_end;
 use crate::check::types::{Type, Value};
 use crate::diagnostic::Code;
+use crate::ir::Id;
 use crate::ir::expr::ExprId;
 use crate::ir::task::{History, Placing, StartLine};
+use crate::ir::world::Robot;
 use crate::syntax::{ast, print};
 
 impl<'a> Checker<'a> {
@@ -34,14 +36,14 @@ impl<'a> Checker<'a> {
                 );
             match first {
                 Some((first, _)) => {
+                    let message = match first.name == name.name {
+                        true => format!("`{}` is set twice", name.name),
+                        false => format!("`{}` sets `{}` as well", name.name, first.name),
+                    };
                     let first = first.span;
-                    self.error(
-                        Code::E0503,
-                        name.span,
-                        format!("`{}` is set twice", name.name),
-                    )
-                    .label("this line would undo the first")
-                    .also(first, "first set here");
+                    self.error(Code::E0503, name.span, message)
+                        .label("this line would undo the first")
+                        .also(first, "first set here");
                 }
                 None => set.push((name, built.clone())),
             }
@@ -70,10 +72,7 @@ impl<'a> Checker<'a> {
             }
             "position" => match self.expect(value, &Type::Point, "`position`").value {
                 Value::Point(x, y) => {
-                    let constant = |id| self.program.pool.constant(id);
-                    if let (Some(x), Some(y)) = (constant(x), constant(y)) {
-                        self.positions.push((value.span, [x, y]));
-                    }
+                    self.starts_at(value, self.subject, (x, y));
                     Some(vec![StartLine::Position(x, y)])
                 }
                 _ => None,
@@ -105,6 +104,14 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Notes where a robot starts, if that is constant.
+    fn starts_at(&mut self, value: &ast::Expr, robot: Id<Robot>, (x, y): (ExprId, ExprId)) {
+        let constant = |id| self.program.pool.constant(id);
+        if let (Some(x), Some(y)) = (constant(x), constant(y)) {
+            self.positions.push((value.span, robot, [x, y]));
+        }
+    }
+
     /// `pose(robot) = …` and its like.
     fn other_line(&mut self, line: &'a ast::StartLine) -> Option<Vec<StartLine>> {
         let target = &line.target;
@@ -133,6 +140,9 @@ impl<'a> Checker<'a> {
         let Value::Robot(id) = robot.value else {
             return None;
         };
+        if let (true, &[Placing::Position(x, y)]) = (word == "position", placings.as_slice()) {
+            self.starts_at(value, id, (x, y));
+        }
         let line = |placing| match (id == self.subject, placing) {
             (false, placing) => StartLine::Other(id, placing),
             (true, Placing::Anywhere(within)) => StartLine::Anywhere(within),

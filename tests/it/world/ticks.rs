@@ -374,7 +374,7 @@ fn what_cannot_run_is_refused_when_it_is_built() {
             };
             p.world.as_mut().unwrap().walls.push(wall);
         }),
-        Some(BuildError::StartBlocked(0))
+        Some(BuildError::StartBlocked(0, None))
     );
     assert_eq!(
         edit(|p| {
