@@ -13,7 +13,7 @@ use crate::syntax::words::{CALLED, DRIVING, NODES, SHARED, UNITS};
 pub(super) const HISTORY: &str = "the ends of a history";
 
 /// What declares the leaves of trees.
-const LEAVES: [&str; 2] = ["behavior", "tree"];
+pub(super) const LEAVES: [&str; 2] = ["behavior", "tree"];
 
 /// What other notations put before the nodes of a tree.
 const BEFORE_NODES: [&str; 16] = [

@@ -1,12 +1,14 @@
 //! Expressions.
 
 use super::Builder;
+use super::commas::LEAVES;
 use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::source::Span;
 use crate::spelling::spelled;
 use crate::syntax::ast::{Axis, BinaryOp, Expr, ExprKind, Spanned, UnaryOp, chain};
 use crate::syntax::diagnose::unclosed_quote;
 use crate::syntax::grammar::{Node, Parts, Rule};
+use crate::syntax::words::DRIVING;
 
 impl<'i> Builder<'i> {
     /// The next part as an expression; pest has made sure that it is there.
@@ -212,7 +214,21 @@ impl<'i> Builder<'i> {
             "+" => (UnaryOp::Pos, "+"),
             _ => (UnaryOp::Neg, "-"),
         };
-        if written == "!" {
+        if written == "!" && self.is_leaf(&operand) {
+            let whole = self.span(&sign).to(operand.span);
+            let right = format!("invert {{ {} }}", self.slice(operand.span));
+            let message = "`!` negates conditions, and this is a node";
+            self.report(
+                Diagnostic::new(Code::E0110, self.span(&sign), message)
+                    .label("a node is turned round by `invert`")
+                    .fix(
+                        format!("write `{right}`"),
+                        whole,
+                        right,
+                        Applicability::Unsafe,
+                    ),
+            );
+        } else if written == "!" {
             let place = self.span(&sign);
             let right = if operand.span.start == place.end {
                 "not "
@@ -230,6 +246,15 @@ impl<'i> Builder<'i> {
             },
             span,
         }
+    }
+
+    /// Whether an expression is a behaviour or a subtree, as far as the text shows.
+    fn is_leaf(&self, expr: &Expr) -> bool {
+        let ExprKind::Ref(reference) = &expr.kind else {
+            return false;
+        };
+        let name = reference.name.name.as_str();
+        DRIVING.contains(&name) || self.glance().declares_by(&LEAVES, name)
     }
 
     fn power(&mut self, node: Node<'i>) -> Expr {
