@@ -56,37 +56,34 @@ impl Checker<'_> {
                     Some(robot) => format!("the robot `{robot}` never runs `{own}`"),
                     None => format!("no task chooses `{name}`, and no tree runs it"),
                 };
-                let relatives = run
+                let family = run
                     .iter()
                     .flatten()
                     .map(|id| &self.program.behaviors[*id].name);
-                let relatives = relatives
-                    .filter(|run| run.family == name.family && run.robot() == name.robot());
-                let relatives: Vec<&Name> = relatives.collect();
+                let family: Vec<&Name> = family.filter(|run| run.family == name.family).collect();
+                let mut same = family.iter().filter(|run| run.arguments == name.arguments);
+                let elsewhere = same.find_map(|run| run.robot());
+                let relatives = family.iter().filter(|run| run.robot() == name.robot());
+                let relatives: Vec<&&Name> = relatives.collect();
                 // Of the same place, or else any.
-                let alike = |run: &&&Name| run.arguments.first() == name.arguments.first();
+                let alike = |run: &&&&Name| run.arguments.first() == name.arguments.first();
                 let relative = relatives.iter().find(alike).or(relatives.first());
-                let mut everywhere = run
-                    .iter()
-                    .flatten()
-                    .map(|id| &self.program.behaviors[*id].name);
-                let elsewhere = everywhere.find(|run| run.of_acting() == own);
-                let elsewhere = elsewhere.and_then(|run| run.robot());
-                let help = match (relative, name.robot()) {
-                    _ if elsewhere.is_some() => {
-                        let robot = elsewhere.unwrap_or_default();
+                let help = match (elsewhere, relative, name.robot()) {
+                    (Some(robot), ..) => {
                         format!("the robot `{robot}` runs it: that is asked with `by = {robot}`")
                     }
-                    (Some(relative), _) => {
+                    (None, Some(relative), _) => {
                         format!(
                             "`{}` is run, which is another behaviour: ask that, or add `{own}`",
                             relative.of_acting()
                         )
                     }
-                    (None, Some(robot)) => {
+                    (None, None, Some(robot)) => {
                         format!("let the tree that `{robot}` runs do it, or ask another behaviour")
                     }
-                    (None, None) => format!("add `{name}` to `choose`, or ask another behaviour"),
+                    (None, None, None) => {
+                        format!("add `{name}` to `choose`, or ask another behaviour")
+                    }
                 };
                 self.error(Code::E0611, first, message).help(help)
             } else {

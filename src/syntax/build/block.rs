@@ -299,7 +299,7 @@ impl<'i> Builder<'i> {
             ));
             return;
         }
-        if let Some(clause) = clause_in_control(name, found).filter(|_| same_line || found == "}") {
+        if let Some(clause) = clause_in_control(name, if same_line { found } else { "" }) {
             let diagnostic = Diagnostic::new(
                 Code::E0123,
                 span,

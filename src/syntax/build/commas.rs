@@ -7,13 +7,13 @@ use crate::spelling::RESERVED;
 use crate::syntax::diagnose::{no_such_unit, one_unit};
 use crate::syntax::grammar::Node;
 use crate::syntax::tokens::is_blank;
-use crate::syntax::words::{CALLED, DRIVING, NODES, SHARED, UNITS};
+use crate::syntax::words::{CALLED, DRIVING, NODES, UNITS};
 
 /// What the commas of a history part.
 pub(super) const HISTORY: &str = "the ends of a history";
 
 /// What declares the leaves of trees.
-pub(super) const LEAVES: [&str; 2] = ["behavior", "tree"];
+const LEAVES: [&str; 2] = ["behavior", "tree"];
 
 /// What other notations put before the nodes of a tree.
 const BEFORE_NODES: [&str; 16] = [
@@ -208,11 +208,8 @@ impl<'i> Builder<'i> {
         let is_joined = (asked.split(' ')).any(|word| matches!(word, "and" | "or" | "not"));
         let is_condition = is_joined || self.glance().declares_by(&["predicate"], head);
         let is_node = runs == "memory" || NODES.iter().any(|(node, _)| *node == runs);
-        let is_leaf = CALLED.contains(&runs)
-            || SHARED.contains(&runs)
-            || DRIVING.contains(&runs)
-            || self.glance().declares_by(&LEAVES, runs);
-        if asked.contains(['=', '{']) || !is_condition || !(is_node || is_leaf) {
+        let is_child = is_node || self.names_leaf(runs);
+        if asked.contains(['=', '{']) || !is_condition || !is_child {
             return false;
         }
         let message = format!("`=>` is missing before `{runs}`");
@@ -222,6 +219,11 @@ impl<'i> Builder<'i> {
             .help("two children of their own are parted by a comma");
         self.report(diagnostic);
         true
+    }
+
+    /// Whether a name is that of a behaviour or a subtree, as far as the text shows.
+    pub(super) fn names_leaf(&self, name: &str) -> bool {
+        DRIVING.contains(&name) || self.glance().declares_by(&LEAVES, name)
     }
 
     /// What is said of a word behind the number that an argument ends with: it is no unit, or one too many.
@@ -241,16 +243,9 @@ impl<'i> Builder<'i> {
         }
         let counts = number.ends_with(|c: char| c.is_ascii_digit());
         let known = UNITS.contains(&unit) && UNITS.contains(&word);
-        (counts && known).then(|| {
-            let end = next.range().end;
-            let exponent = rest.starts_with("^-1").then_some("^-1".len());
-            let whole = Span::new(
-                self.file,
-                before.range().end - unit.len(),
-                end + exponent.unwrap_or_default(),
-            );
-            one_unit(next, unit, whole, exponent.map(|_| word))
-        })
+        let end = before.range().end;
+        let first = Span::new(self.file, end - unit.len(), end);
+        (counts && known).then(|| one_unit(self.text, first, next))
     }
 
     /// Reports a word between two parts of a child that is nearly one of the language: `memroy sequence`, `low adn full`.

@@ -1,14 +1,12 @@
 //! Expressions.
 
 use super::Builder;
-use super::commas::LEAVES;
 use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::source::Span;
 use crate::spelling::spelled;
 use crate::syntax::ast::{Axis, BinaryOp, Expr, ExprKind, Spanned, UnaryOp, chain};
 use crate::syntax::diagnose::unclosed_quote;
 use crate::syntax::grammar::{Node, Parts, Rule};
-use crate::syntax::words::DRIVING;
 
 impl<'i> Builder<'i> {
     /// The next part as an expression; pest has made sure that it is there.
@@ -253,8 +251,7 @@ impl<'i> Builder<'i> {
         let ExprKind::Ref(reference) = &expr.kind else {
             return false;
         };
-        let name = reference.name.name.as_str();
-        DRIVING.contains(&name) || self.glance().declares_by(&LEAVES, name)
+        self.names_leaf(&reference.name.name)
     }
 
     fn power(&mut self, node: Node<'i>) -> Expr {

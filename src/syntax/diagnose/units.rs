@@ -43,13 +43,10 @@ impl Place<'_> {
             return Some(comma_before(self.span(), word, self.before));
         }
         if after_unit && expected::words(&[Rule::wrong_unit]).is_empty() && is_unit_word(word) {
-            let rest = self.text.get(self.found.end..).unwrap_or_default();
-            let exponent = rest.starts_with("^-1").then_some("^-1".len());
-            let end = self.found.end + exponent.unwrap_or_default();
-            let start = self.before.map_or(self.found.start, |before| before.start);
-            let whole = Span::new(self.file, start, end);
-            let below = exponent.map(|_| word);
-            return Some(one_unit(self.span(), self.before(), whole, below));
+            let first = self
+                .before
+                .map_or(self.span(), |before| self.span_of(before));
+            return Some(one_unit(self.text, first, self.span()));
         }
         // `2 m = true`: a unit before `=` is taken for the beginning of the next line.
         let next = self.next().filter(|next| next.of(self.text) == "=");
@@ -100,36 +97,31 @@ fn is_unit_word(word: &str) -> bool {
         )
 }
 
-/// The message for a second unit at `second`, behind `unit`; `whole` is both, with what belongs to them, and `below` what the
-/// unit is divided by.
-pub(in crate::syntax) fn one_unit(
-    second: Span,
-    unit: &str,
-    whole: Span,
-    below: Option<&str>,
-) -> Diagnostic {
+/// The message for a number with two units, at these places: `m s^-1` is `m/s`, and in `% percent` one is spare.
+pub(in crate::syntax) fn one_unit(text: &str, first: Span, second: Span) -> Diagnostic {
+    const BELOW: &str = "^-1";
+    let slice = |span: Span| text.get(span.range()).unwrap_or_default();
+    let (unit, below) = (slice(first), slice(second));
     let diagnostic = Diagnostic::new(Code::E0114, second, "a number has one unit");
-    match below {
-        Some(below) => {
-            let right = format!("{unit}/{below}");
-            diagnostic.label("a unit is divided by `/`").fix(
-                format!("write `{right}`"),
-                whole,
-                right,
-                Applicability::Unsafe,
-            )
-        }
-        None => {
-            let start = whole.range().start + unit.len();
-            let spare = Span::new(whole.file, start, whole.range().end);
-            diagnostic.label(format!("`{unit}` says it already")).fix(
-                "drop it",
-                spare,
-                "",
-                Applicability::Unsafe,
-            )
-        }
+    let end = second.range().end;
+    if text.get(end..).is_some_and(|rest| rest.starts_with(BELOW)) {
+        let whole = Span::new(first.file, first.range().start, end + BELOW.len());
+        let right = format!("{unit}/{below}");
+        let title = format!("write `{right}`");
+        return diagnostic.label("a unit is divided by `/`").fix(
+            title,
+            whole,
+            right,
+            Applicability::Unsafe,
+        );
     }
+    let spare = Span::new(first.file, first.range().end, end);
+    diagnostic.label(format!("`{unit}` says it already")).fix(
+        format!("drop `{below}`"),
+        spare,
+        "",
+        Applicability::Unsafe,
+    )
 }
 
 /// The message for a comma that is missing before a word of arguments.
