@@ -11,10 +11,12 @@ mod regrouped;
 mod rule;
 mod table;
 mod tidy;
+mod top_down;
 
 pub use grouped::{Grouped, Part, grouped};
 pub use rebuild::{Known, lists};
 pub use regrouped::Regroup;
+pub use top_down::top_down;
 
 use super::account::Account;
 use super::bits::Bits;

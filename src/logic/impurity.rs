@@ -33,7 +33,7 @@ fn by_its_logarithm(n: u32) -> f64 {
 }
 
 /// n log n.
-fn n_log_n(n: u32) -> f64 {
+pub(super) fn n_log_n(n: u32) -> f64 {
     let known = SMALL.get(n as usize);
     known.copied().unwrap_or_else(|| by_its_logarithm(n))
 }

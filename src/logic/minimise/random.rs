@@ -30,7 +30,7 @@ impl Random {
 
 /// `size` of the numbers, spread evenly, or all if there are no more. Of each stretch one is taken at random, so that no
 /// period in the numbers shows.
-pub(super) fn sample(
+pub(in crate::logic) fn sample(
     numbers: impl Iterator<Item = usize>,
     count: usize,
     size: usize,

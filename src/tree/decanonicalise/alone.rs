@@ -14,7 +14,7 @@ use super::problem::Problem;
 use super::share::shared;
 use super::subunit::behaviors;
 use crate::ir::tree::Node;
-use crate::logic::covering::{Known, List, grouped, lists};
+use crate::logic::covering::{Known, List, grouped, lists, top_down};
 use crate::logic::impurity::Impurity;
 use crate::logic::partition::{Classified, Partition};
 use crate::logic::{Account, Cover, Cube, Order};
@@ -92,10 +92,10 @@ pub(super) fn trees(
         found.extend(searched(problem, known, tight, account));
         return found;
     }
+    let mut found = from_the_top(problem, tight, core, known, account);
     let part = account.part(4);
     let listed = core.lists(known, &part);
     account.settle(&part);
-    let mut found: Vec<Node> = Vec::new();
     let rows = core.rows.count();
     let list = known
         .list
@@ -108,14 +108,15 @@ pub(super) fn trees(
         let grouped = tight.then(|| in_groups(problem, lists, known, account));
         found.extend(grouped.flatten().map(|(node, _)| node));
     }
-    // A list of classes looks at a core of its own for each class.
-    let minimiser = Minimiser::new(problem, account.part(3));
-    let subunits = behaviors(problem);
-    let list = in_order(&minimiser, &subunits, Order::Learned);
-    found.extend(list.map(|list| shared(in_place(&minimiser, &subunits, &list))));
-    account.settle(&minimiser.account);
     let least = |trees: &[Node]| trees.iter().map(|tree| Size::of(tree).nodes).min();
-    if least(&found).is_none_or(|own| least(&held.trees).is_none_or(|held| held <= CLEAR * own)) {
+    let is_clear = least(&found).zip(least(&held.trees));
+    if is_clear.is_none_or(|(own, held)| held <= CLEAR * own) {
+        // A list of classes looks at a core of its own for each class.
+        let minimiser = Minimiser::new(problem, account.part(3));
+        let subunits = behaviors(problem);
+        let list = in_order(&minimiser, &subunits, Order::Learned);
+        found.extend(list.map(|list| shared(in_place(&minimiser, &subunits, &list))));
+        account.settle(&minimiser.account);
         found.extend(divided(problem, held, account));
     }
     if listed.is_none() {
@@ -142,6 +143,27 @@ pub(super) fn trees(
             return found;
         }
     }
+    found
+}
+
+/// A list with groups that is made from the top, and what it comes to where its parts are sought anew.
+fn from_the_top(
+    problem: &Problem,
+    tight: bool,
+    core: &mut Core,
+    known: &mut Known,
+    account: &Account,
+) -> Vec<Node> {
+    let part = account.part(4);
+    let made = tight.then(|| top_down(problem.columns(), &problem.classes(), &part));
+    account.settle(&part);
+    let Some(list) = made.flatten() else {
+        return Vec::new();
+    };
+    let mut found = vec![Children::grouped(problem, &list).node()];
+    let part = account.part(3);
+    found.extend(core.groups(list, QUICK, known, &part));
+    account.settle(&part);
     found
 }
 
