@@ -20,6 +20,9 @@ mod regions;
 mod repaid;
 mod rewards;
 mod same;
+mod sizes;
+mod starts;
+mod stays;
 mod subtrees;
 mod tree;
 mod unused;
@@ -47,6 +50,7 @@ impl<'a> Checker<'a> {
         if self.has_errors() {
             return;
         }
+        self.values_of_states();
         self.unread_names();
         self.unused_declarations(files);
         self.same_on_both_sides();
@@ -58,11 +62,13 @@ impl<'a> Checker<'a> {
         self.predicates_without_effect(items());
         self.rewards_without_effect(items());
         self.moments_that_last(items());
+        self.ends_at_starts(items());
         self.nodes_without_effect(items());
         self.subtrees_without_effect(items());
         self.claims_beyond_episodes(items());
         self.sides_without_effect();
         self.world_without_effect(items());
+        self.sizes_out_of_proportion(items());
     }
 
     fn has_errors(&self) -> bool {

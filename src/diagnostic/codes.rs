@@ -172,6 +172,7 @@ codes! {
     W0303 "one thing said twice",
 
     W0401 "a part of the world that does nothing",
+    W0402 "a size out of proportion",
 
     W0501 "a setting without effect",
     W0502 "a behaviour that never succeeded",
@@ -194,6 +195,7 @@ codes! {
     W0519 "a reward that is paid in every tick",
     W0520 "a claim that allows most of what it denies",
     W0521 "a moment that is taken for a time",
+    W0522 "an episode that ends as it starts",
 
     W0601 "a condition that always or never holds",
     W0602 "a node that is never reached",

@@ -12,6 +12,7 @@ use crate::learn::simulated::Purpose;
 use crate::learn::statistics::Mean;
 use crate::math;
 use crate::tree::Size;
+use crate::tree::prune::asked_once;
 use crate::trial::paired::{Trials, error};
 use serde::{Deserialize, Serialize};
 
@@ -130,6 +131,10 @@ pub(super) fn choose<W: World>(
             break chosen;
         }
     };
+    for entrant in entrants.iter_mut().take(exact) {
+        entrant.root = asked_once(&entrant.root);
+        entrant.nodes = Size::of(&entrant.root).nodes;
+    }
     let harms = |entrant: &Entrant| judge.harms(entrant);
     let front = points(&entrants, chosen, &harms);
     let root = entrants

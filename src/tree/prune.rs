@@ -5,6 +5,7 @@
 
 mod guards;
 mod memory;
+mod once;
 mod plain;
 mod tidy;
 mod units;
@@ -16,6 +17,7 @@ use crate::ir::tree::{Atom, Node};
 use std::collections::BTreeSet;
 use std::fmt;
 
+pub use once::asked_once;
 pub use plain::{Cost, negated_literals, plainer};
 pub use tidy::tidy;
 

@@ -366,8 +366,12 @@ fn what_a_missing_file_may_declare_is_not_missed_as_well() {
 #[test]
 fn a_world_that_cannot_be_built_is_a_mistake_of_the_program() {
     let text = fs::read_to_string(SMALL).unwrap();
-    let vast = text.replace("disc(17 cm)", "disc(17 m)");
-    let output = piped(&["check", "-"], vast.as_bytes());
+    let wide = text.replace("disc(17 cm)", "disc(60 cm)");
+    let full = wide.replace(
+        "    robot create2",
+        "    wall pile = rect((1 m, 1 m), (5 m, 3 m))\n    robot create2",
+    );
+    let output = piped(&["check", "-"], full.as_bytes());
     assert_eq!(output.status.code(), Some(1));
     assert!(err(&output).contains("fits nowhere"), "{}", err(&output));
     let declared = text.replace(

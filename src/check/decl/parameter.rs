@@ -94,7 +94,13 @@ impl<'a> Checker<'a> {
                 true => Type::Error,
                 false => self.in_library(library, |checker| checker.type_expr(&param.ty)),
             };
+            let again = |arg: &Arg| matches!(&arg.kind, ArgKind::Named(again, value) if again.name == param.name.name && given.is_some_and(|given| given.span != value.span));
             let value = match (given, &param.default) {
+                // That it is given twice has been told.
+                (Some(_), _) if args.iter().any(again) => {
+                    fine = false;
+                    continue;
+                }
                 (Some(value), _) => {
                     let to = makes_instance.then_some((name.as_str(), param.name.name.as_str()));
                     let outer = std::mem::replace(&mut self.given, to);

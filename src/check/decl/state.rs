@@ -8,7 +8,7 @@ use crate::check::types::{Type, Typed, Value};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::expr::{Expr, ExprId};
 use crate::ir::name::Coordinate;
-use crate::ir::program::{State, ValueKind};
+use crate::ir::program::{State, Stays, ValueKind};
 use crate::ir::{Id, Name};
 use crate::syntax::ast::{self, Ref};
 
@@ -127,6 +127,7 @@ impl<'a> Checker<'a> {
                 name,
                 kind: kind.clone(),
                 initial,
+                stays: Stays::ANY,
             }));
         }
         Some((value.ty, ids))

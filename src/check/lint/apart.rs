@@ -10,7 +10,7 @@ const SLACK: f64 = 1e-6;
 
 /// The least distance that an expression can be, in metres, if it is one from a robot's centre to a wall or to
 /// another robot.
-pub fn least(View { program, robot }: View, id: ExprId) -> Option<f64> {
+pub fn least(View { program, robot, .. }: View, id: ExprId) -> Option<f64> {
     let world = program.world.as_ref()?;
     let radius = |id| world.robot_of(id).radius;
     let bound = match program.pool.get(id) {

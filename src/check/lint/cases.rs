@@ -4,11 +4,13 @@
 //! possible. What is not a number is left out of account, unless the reading is [strict](Numbers::Any).
 
 use super::interval::Interval;
-use super::ranges::{range, values};
+use super::ranges::{may_be, range, values};
 use super::view::View;
 use crate::ir::expr::{Binary, Expr, ExprId, Unary};
+use crate::ir::program::Stays;
 use crate::ir::tree::{Atom, Guard};
-use crate::ir::{Pool, Program};
+use crate::ir::world::Place;
+use crate::ir::{Id, Pool, Program};
 use std::collections::BTreeMap;
 
 /// How many cases a condition may have.
@@ -19,6 +21,10 @@ const LONGEST: usize = 64;
 
 /// How deeply a condition may nest.
 const DEEPEST: usize = 64;
+
+/// The bits of a state that is never true, and of one that always is.
+const FALSE: u64 = 0b01;
+const TRUE: u64 = 0b10;
 
 /// What a literal is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -220,12 +226,23 @@ impl Reader<'_> {
                 let is = truth(pool, b) == Some(op == Binary::Eq);
                 of(a, wanted == is)
             }
+            Expr::State(state) => match self.view.program.states[state].stays {
+                Stays::Among(FALSE) => Cases::constant(!wanted),
+                Stays::Among(TRUE) => Cases::constant(wanted),
+                _ => Cases::one(About::Truth(id), Says::Is(wanted)),
+            },
+            Expr::Inside(place) if self.is_in(place) => Cases::constant(wanted),
             Expr::Binary(op, a, b) => {
                 let compared = self.compared(op, a, b, wanted);
                 compared.unwrap_or_else(|| Cases::one(About::Truth(id), Says::Is(wanted)))
             }
             _ => Cases::one(About::Truth(id), Says::Is(wanted)),
         }
+    }
+
+    fn is_in(&self, place: Id<Place>) -> bool {
+        let world = self.view.program.world.as_ref();
+        world.is_some_and(|world| self.view.is_in(&world.places[place].shape))
     }
 
     /// When a comparison holds, or does not, as far as that is known.
@@ -242,10 +259,12 @@ impl Reader<'_> {
         let (of, within) = comparison(&self.view.program.pool, op, a, b, wanted)?;
         let holds = |value: f64| within.iter().flatten().any(|part| part.contains(value));
         if let Some(count) = values(self.view.program, of) {
-            let among = (0..count).filter(|index| holds(*index as f64));
+            let may = may_be(self.view.program, of);
+            let may = (0..count).filter(|index| *index >= 64 || may & 1 << index != 0);
+            let among = may.clone().filter(|index| holds(*index as f64));
             return match among.clone().count() {
                 0 => Some(Cases::constant(false)),
-                all if all == count => Some(Cases::constant(true)),
+                all if all == may.count() => Some(Cases::constant(true)),
                 _ if count > u64::BITS as usize => None,
                 _ => {
                     let bits = among.fold(0, |bits, index| bits | 1 << index);

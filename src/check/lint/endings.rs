@@ -21,6 +21,11 @@ pub struct Asked {
 }
 
 impl Checker<'_> {
+    /// The behaviours that the robots beside the learning one run.
+    pub fn run_by_others(&self) -> BTreeSet<Id<Behavior>> {
+        by_others(&self.program)
+    }
+
     /// `success(b)`, `failure(b)`, `done(b)`, `failed(b)` of a behaviour that never ends so, or that nothing runs: one
     /// message for each behaviour and outcome. Where one text stands for a family, one member that may end so is enough.
     pub fn endings_that_never_come(&mut self) {
@@ -120,12 +125,23 @@ fn run(program: &Program) -> Option<BTreeSet<Id<Behavior>>> {
                 .filter_map(|learner| learner.unseen),
         )
         .collect();
-    let others = program.world.iter().flat_map(|world| world.others.values());
-    let scripts = others.filter_map(|other| other.script.as_ref());
-    for root in program.trees.values().map(|tree| &tree.root).chain(scripts) {
-        root.visit_behaviors(&mut |id| {
+    for tree in program.trees.values() {
+        tree.root.visit_behaviors(&mut |id| {
             run.insert(id);
         });
     }
+    run.extend(by_others(program));
     Some(run)
+}
+
+/// The behaviours that other robots run.
+fn by_others(program: &Program) -> BTreeSet<Id<Behavior>> {
+    let mut run = BTreeSet::new();
+    let others = program.world.iter().flat_map(|world| world.others.values());
+    for script in others.filter_map(|other| other.script.as_ref()) {
+        script.visit_behaviors(&mut |id| {
+            run.insert(id);
+        });
+    }
+    run
 }

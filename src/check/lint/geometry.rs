@@ -2,10 +2,10 @@
 
 use crate::check::Checker;
 use crate::diagnostic::Code;
-use crate::geometry::{Point, Shape, dot};
+use crate::geometry::{Point, Shape, dot, minus};
 use crate::ir::Name;
 use crate::ir::world::{Wall, World};
-use crate::syntax::ast::{Item, ItemKind, WorldEntryKind};
+use crate::syntax::ast::{self, Item, ItemKind, RobotEntryKind, WorldEntryKind};
 
 /// What a length may be off.
 const SLACK: f64 = 1e-6;
@@ -20,6 +20,9 @@ impl<'a> Checker<'a> {
             let ItemKind::World(declared) = &item.kind else {
                 continue;
             };
+            if self.bodies_too_large(declared, &world) {
+                return;
+            }
             for entry in &declared.entries {
                 let WorldEntryKind::Place { name, shape, .. } = &entry.kind else {
                     continue;
@@ -50,6 +53,37 @@ impl<'a> Checker<'a> {
                 self.error(Code::E0404, span, message).label(what);
             }
         }
+    }
+}
+
+impl<'a> Checker<'a> {
+    /// Reports robots that are wider than the arena, and says whether there are any.
+    fn bodies_too_large(&mut self, declared: &'a ast::World, world: &World) -> bool {
+        let (low, high) = world.arena.bounds();
+        let [width, height] = minus(high, low);
+        let mut any = false;
+        for entry in &declared.entries {
+            let WorldEntryKind::Robot { name, entries, .. } = &entry.kind else {
+                continue;
+            };
+            let mut robots = world.robots();
+            let robot = robots.find(|robot| robot.name.is(&name.name));
+            let body = entries.iter().find_map(|entry| match &entry.kind {
+                RobotEntryKind::Field(field) if field.name.name == "body" => Some(&field.value),
+                _ => None,
+            });
+            let Some((robot, body)) = robot.zip(body) else {
+                continue;
+            };
+            if 2.0 * robot.radius >= width.min(height) {
+                let message = format!("the robot `{}` does not fit into the arena", name.name);
+                self.error(Code::E0409, body.span, message)
+                    .label(format!("it is {} m wide", 2.0 * robot.radius))
+                    .note(format!("the arena is {width} m × {height} m"));
+                any = true;
+            }
+        }
+        any
     }
 }
 

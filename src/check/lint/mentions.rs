@@ -2,7 +2,7 @@
 
 use crate::syntax::ast::{
     Arg, ArgKind, AspectKind, AssignOp, Behavior, BehaviorBody, Binding, Block, Branch, Choice,
-    ClaimWhat, ClauseKind, Else, Expr, ExprKind, Item, ItemKind, LearnEntry, LetBody, Node,
+    ClaimWhat, ClauseKind, Else, Expr, ExprKind, Ident, Item, ItemKind, LearnEntry, LetBody, Node,
     NodeKind, Otherwise, Paid, Params, Ref, RobotEntryKind, Start, StmtKind, Task, Trigger,
     TypeExpr, World, WorldEntryKind, Yield,
 };
@@ -15,6 +15,8 @@ pub struct Mentions<'a> {
     pub read: BTreeSet<&'a str>,
     /// Those that something sets.
     pub set: BTreeSet<&'a str>,
+    /// Those of kinds and enums whose members something goes through, or takes any of.
+    pub ranged: BTreeSet<&'a str>,
 }
 
 impl<'a> Mentions<'a> {
@@ -191,7 +193,7 @@ impl<'a> Mentions<'a> {
             match &stmt.kind {
                 StmtKind::Let(binding) => self.binding(binding),
                 StmtKind::For { domain, block, .. } => {
-                    self.read.insert(&domain.name);
+                    self.goes_through(domain);
                     self.block(block);
                 }
                 StmtKind::Branch(branch) => self.branch(branch),
@@ -279,7 +281,7 @@ impl<'a> Mentions<'a> {
                     self.expr(high);
                 }
                 ArgKind::Binder { domain, body, .. } => {
-                    self.read.insert(&domain.name);
+                    self.goes_through(domain);
                     self.exprs(body);
                 }
             }
@@ -289,8 +291,16 @@ impl<'a> Mentions<'a> {
     fn params(&mut self, params: Option<&'a Params>) {
         for param in params.iter().flat_map(|params| &params.params) {
             self.ty(Some(&param.ty));
+            let factors = param.ty.factors.iter();
+            self.ranged
+                .extend(factors.map(|(name, _)| name.name.as_str()));
             self.exprs(&param.default);
         }
+    }
+
+    fn goes_through(&mut self, domain: &'a Ident) {
+        self.read.insert(&domain.name);
+        self.ranged.insert(&domain.name);
     }
 
     fn ty(&mut self, ty: Option<&'a TypeExpr>) {

@@ -3,9 +3,9 @@
 use super::apart;
 use super::interval::Interval;
 use super::view::View;
-use crate::ir::expr::{Binary, Echo, Expr, ExprId, Pose, Unary};
+use crate::ir::expr::{Binary, Draw, Echo, Expr, ExprId, Pose, Unary};
 use crate::ir::input::InputKind;
-use crate::ir::program::ValueKind;
+use crate::ir::program::{Stays, ValueKind};
 use crate::ir::world::{Sensor, SensorKind};
 use crate::ir::{Id, Name, Program};
 use crate::math::hypot;
@@ -34,6 +34,17 @@ pub fn values(program: &Program, id: ExprId) -> Option<usize> {
             InputKind::Number { .. } => None,
         },
         _ => None,
+    }
+}
+
+/// Which of the values of an enum an expression may have, as bits, of the first 64.
+pub fn may_be(program: &Program, id: ExprId) -> u64 {
+    match program.pool.get(id) {
+        Expr::State(state) => match program.states[state].stays {
+            Stays::Among(values) => values,
+            Stays::Within(_) => u64::MAX,
+        },
+        _ => u64::MAX,
     }
 }
 
@@ -71,7 +82,16 @@ impl Ranges<'_> {
         self.left = left;
         match self.view.program.pool.get(id) {
             Expr::Num(value) => hull([value]),
-            Expr::Pose(pose) | Expr::Robot(_, pose) => self.pose(pose),
+            Expr::State(state) => match &self.view.program.states[state].stays {
+                Stays::Within(within) => hull([*within.start(), *within.end()]),
+                Stays::Among(_) => Interval::ALL,
+            },
+            Expr::Draw(_, Draw::Uniform(a, b)) => {
+                let ((a, b), (c, d)) = (self.of(a).ends(), self.of(b).ends());
+                hull([a, b, c, d])
+            }
+            Expr::Pose(pose) => self.near(pose).unwrap_or_else(|| self.pose(pose)),
+            Expr::Robot(_, pose) => self.pose(pose),
             Expr::Elapsed | Expr::Visits => LENGTH,
             Expr::Progress => Interval::between(0.0, 1.0),
             Expr::NearestWall(Echo::Distance) | Expr::Wall(_, Echo::Distance) => {
@@ -93,6 +113,15 @@ impl Ranges<'_> {
                 hull([a, b, c, d])
             }
             _ => Interval::ALL,
+        }
+    }
+
+    fn near(&self, pose: Pose) -> Option<Interval> {
+        let [x, y] = self.view.near?;
+        match pose {
+            Pose::X => Some(x),
+            Pose::Y => Some(y),
+            Pose::Heading => None,
         }
     }
 

@@ -1,10 +1,11 @@
 //! Rewards that are never paid, ends that count for nothing, and times that never pass.
 
-use super::cases::{Cases, of_expr};
+use super::cases::{About, Case, Cases, Says, of_expr};
 use crate::check::Checker;
 use crate::check::expr::plain_ref;
 use crate::diagnostic::Code;
 use crate::ir::expr::{Expr, ExprId};
+use crate::ir::law::Behavior;
 use crate::ir::task::{Discount, Learner, Objective, Task};
 use crate::ir::{Id, Name};
 use crate::source::Span;
@@ -47,7 +48,7 @@ impl<'a> Checker<'a> {
         for aspect in &task.aspects {
             match &aspect.kind {
                 AspectKind::Reward { lines, otherwise } => {
-                    self.lines_without_effect(lines, &checked);
+                    self.lines_without_effect(lines, id, &checked);
                     self.prices_twice(lines);
                     let values = checked.reward.iter().map(|line| line.value);
                     let prices = checked.prices.iter().map(|price| price.per_second);
@@ -81,7 +82,7 @@ impl<'a> Checker<'a> {
     }
 
     /// The first line whose event happens gives the reward.
-    fn lines_without_effect(&mut self, lines: &'a [RewardLine], checked: &Task) {
+    fn lines_without_effect(&mut self, lines: &'a [RewardLine], id: Id<Task>, checked: &Task) {
         let mut before: Vec<(Span, Cases)> = Vec::new();
         let ends: Vec<Cases> = self.cases_of(&checked.end_on);
         let ends = ends.get(..MOST).unwrap_or(&ends);
@@ -117,10 +118,49 @@ impl<'a> Checker<'a> {
                 self.pays_again_and_again(condition);
                 self.pays_for_standing(condition.span, checked, place);
             }
+            self.pays_for_others(here, id, &cases);
             if before.len() < MOST {
                 before.extend(cases.into_iter().map(|cases| (here, cases)));
             }
         }
+    }
+
+    /// Warns of a line that waits for the end of a behaviour which what is learned does not run.
+    fn pays_for_others(&mut self, here: Span, id: Id<Task>, cases: &[Cases]) {
+        let task = &self.program.tasks[id];
+        let learners = self.program.learners.values();
+        let mut learners = learners.filter(|learner| learner.task == id).peekable();
+        if learners.peek().is_none() {
+            return;
+        }
+        let mut run = self.run_by_others();
+        run.extend(&task.choose);
+        run.extend(learners.filter_map(|learner| learner.unseen));
+        let missing = |case: &Case| {
+            case.iter().find_map(|(about, says)| match about {
+                About::Truth(asked) if *says == Says::Is(true) => {
+                    match self.program.pool.get(*asked) {
+                        Expr::Ended(behavior, _) if !run.contains(&behavior) => Some(behavior),
+                        _ => None,
+                    }
+                }
+                _ => None,
+            })
+        };
+        let cases = cases.iter().map(|cases| match cases {
+            Cases::Some(cases) => cases.iter().map(missing).collect(),
+            Cases::Unknown => None,
+        });
+        let missing: Option<Vec<Vec<Id<Behavior>>>> = cases.collect();
+        let Some(&behavior) = missing.iter().flatten().flatten().next() else {
+            return;
+        };
+        let name = self.program.behaviors[behavior].name.clone();
+        self.warning(Code::W0509, here, "what is learned never gets this reward")
+            .label(format!(
+                "it waits for `{name}`, which `choose` does not list"
+            ))
+            .help(format!("add `{name}` to `choose`"));
     }
 
     /// Two lines for the same time are added up: whoever writes the same one twice hardly means that.

@@ -66,6 +66,11 @@ impl<'a> Checker<'a> {
             ItemKind::Enum(of) if !of.variants.iter().any(|one| mentioned(one, mentions)) => {
                 self.unused(&of.name, "enum", "take it away", mentions);
             }
+            ItemKind::Enum(of) if !mentions.ranged.contains(of.name.name.as_str()) => {
+                for variant in &of.variants {
+                    self.unused(variant, "variant", "set a state to it", mentions);
+                }
+            }
             ItemKind::Tree(tree) if tree.params.is_some() => {
                 self.unused(&tree.name, "subtree", "use it in a tree", mentions);
             }

@@ -1,5 +1,7 @@
 //! A program as one of its robots reads it.
 
+use super::interval::Interval;
+use crate::geometry::Shape;
 use crate::ir::world::{Robot, World};
 use crate::ir::{Id, Name, Program};
 
@@ -10,6 +12,8 @@ pub struct View<'p> {
     pub program: &'p Program,
     /// The robot.
     pub robot: Id<Robot>,
+    /// Where it is; `None` for anywhere in the arena.
+    pub near: Option<[Interval; 2]>,
 }
 
 impl<'p> View<'p> {
@@ -21,7 +25,18 @@ impl<'p> View<'p> {
         Self {
             program,
             robot: at.map_or_else(World::acting, Id::new),
+            near: None,
         }
+    }
+
+    /// Whether the robot is in a shape, as far as that is known.
+    pub fn is_in(&self, shape: &Shape) -> bool {
+        let Some([x, y]) = self.near else {
+            return false;
+        };
+        let ((left, right), (bottom, top)) = (x.ends(), y.ends());
+        let corners = [[left, bottom], [right, bottom], [left, top], [right, top]];
+        shape.is_convex() && corners.into_iter().all(|corner| shape.contains(corner))
     }
 }
 
@@ -31,6 +46,7 @@ impl<'p> From<&'p Program> for View<'p> {
         Self {
             program,
             robot: World::acting(),
+            near: None,
         }
     }
 }

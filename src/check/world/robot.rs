@@ -4,12 +4,16 @@ use crate::check::Checker;
 use crate::check::builtin::Function;
 use crate::check::context::{Context, Region};
 use crate::check::expr::plain_ref;
+use crate::check::names::Decl;
 use crate::check::types::Type;
 use crate::diagnostic::Code;
 use crate::ir::table::Table;
+use crate::ir::tree::Node;
 use crate::ir::world::{Contact, Drive, DriveKind, Robot, Scripted};
 use crate::ir::{Id, Name};
-use crate::syntax::ast::{self, Expr, ExprKind, Ref, RobotEntry, RobotEntryKind, WorldEntryKind};
+use crate::syntax::ast::{
+    self, Expr, ExprKind, Ident, Ref, RobotEntry, RobotEntryKind, WorldEntryKind,
+};
 
 impl<'a> Checker<'a> {
     /// The robot that learns, and those that run trees of their own.
@@ -89,19 +93,43 @@ impl<'a> Checker<'a> {
                 self.not_named(runs, "a tree", "tree NAME = …");
                 continue;
             }
-            self.asked.clear();
             self.context = Context::new(Region::Tree);
-            let script = self.as_robot(robot, |checker| checker.leaf_node(runs));
-            if let Some((span, _)) = self.asked.first().copied() {
-                let message = format!("the robot `{}` keeps no history", name.name);
-                self.error(Code::E0607, span, message)
-                    .label("this could never hold")
-                    .help("only the robot that learns keeps one");
+            let (script, told) = self.captured(|checker| checker.script(robot, name, runs));
+            // Of the tree of another robot, one mistake says that it is the wrong one.
+            let named = plain_ref(runs).map(|tree| tree.name.name.as_str());
+            let tree = named.and_then(|tree| self.names.value(tree, false));
+            let task = match tree {
+                Some((Decl::Tree(tree), _)) => tree.task.as_ref(),
+                _ => None,
+            };
+            let mut mistakes = told.iter().filter(|found| found.is_error());
+            match task.zip(mistakes.next()) {
+                Some((task, first)) => {
+                    let (who, task) = (&name.name, &task.name);
+                    let help = format!(
+                        "this tree is for the task `{task}` of the robot that learns: let `{who}` run one of its own"
+                    );
+                    self.diagnostics.push(first.clone().help(help));
+                }
+                None => self.diagnostics.extend(told),
             }
             if let Some(world) = &mut self.program.world {
                 world.others[Id::new(index)].script = script;
             }
         }
+    }
+
+    /// What a robot runs.
+    fn script(&mut self, robot: Id<Robot>, name: &Ident, runs: &'a Expr) -> Option<Node> {
+        self.asked.clear();
+        let script = self.as_robot(robot, |checker| checker.leaf_node(runs));
+        if let Some((span, _)) = self.asked.first().copied() {
+            let message = format!("the robot `{}` keeps no history", name.name);
+            self.error(Code::E0607, span, message)
+                .label("this could never hold")
+                .help("only the robot that learns keeps one");
+        }
+        script
     }
 
     fn robot(&mut self, name: &'a ast::Ident, entries: &'a [RobotEntry]) -> Option<Robot> {

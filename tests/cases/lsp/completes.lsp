@@ -28,7 +28,7 @@ predicate low = charge < 30%
 predicate near(p: place, reach: length = 50 cm) = distance(p) <= reach
 
 each tick { charge -= 0.1% }
-on arrived { loaded = false }
+on arrived { loaded = true }
 
 /// Backs off for a while.
 behavior back_off(pace: speed = 10 cm/s) {

@@ -5,7 +5,9 @@ use super::lockstep::Lockstep;
 use super::random::Random;
 use btc::ir::task::History;
 use btc::ir::tree::Node;
+use btc::tree::Size;
 use btc::tree::equivalence::{Environment, Onward, Side, Verdict, compare_onward};
+use btc::tree::prune::asked_once;
 
 /// The most states that are enumerated.
 const STATES: usize = 400;
@@ -31,6 +33,12 @@ pub fn holds(bytes: &[u8]) {
     let right = soil.tree(random, 3);
     agrees(&left, &right, history);
     agrees(&left, &left, history);
+    let once = asked_once(&left);
+    assert!(Size::of(&once).nodes <= Size::of(&left).nodes);
+    if let Some((verdict, onward)) = agrees(&left, &once, history) {
+        assert!(matches!(verdict, Verdict::Equal(_)), "{left:?}\n{once:?}");
+        assert!(matches!(onward, Onward::Alike), "{left:?}\n{once:?}");
+    }
 }
 
 /// The verdict, where enumeration ends; it is that of enumeration, and so is how the trees go on where all may fail.

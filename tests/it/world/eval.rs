@@ -4,7 +4,7 @@ use btc::eval::{Compiler, Fixed, Host, Layout, Reading, compile, run};
 use btc::geometry::Shape;
 use btc::ir::expr::{Binary, Draw, Echo, Kind, Local, Pose, Temp, Unary};
 use btc::ir::law::{Behavior, Block, Law, Stmt};
-use btc::ir::program::{State, ValueKind};
+use btc::ir::program::{State, Stays, ValueKind};
 use btc::ir::world::{Contact, Drive, DriveKind, Robot, Sensor, SensorKind, Wall, World};
 use btc::ir::{Expr, ExprId, Id, Name, Program, Table};
 use btc::random::Random;
@@ -386,6 +386,7 @@ fn invent(seed: u64) -> (Program, Law) {
             name: Name::default(),
             kind: ValueKind::Quantity,
             initial: zero,
+            stays: Stays::ANY,
         });
     }
     program.world = Some(World {

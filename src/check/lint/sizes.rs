@@ -1,0 +1,85 @@
+//! Sizes out of proportion to the arena or to the robot: most are written in a wrong unit.
+
+use crate::check::Checker;
+use crate::diagnostic::Code;
+use crate::geometry::{Shape, minus};
+use crate::ir::Name;
+use crate::ir::world::{Robot, SensorKind, World};
+use crate::syntax::ast::{self, Item, ItemKind, RobotEntryKind, WorldEntryKind};
+
+impl<'a> Checker<'a> {
+    /// Warns of robots that cross the arena in a tick, of sensors that see no wall, and of places that are everywhere.
+    pub fn sizes_out_of_proportion(&mut self, items: impl Iterator<Item = &'a Item>) {
+        let Some(world) = self.program.world.clone() else {
+            return;
+        };
+        for item in items {
+            let ItemKind::World(declared) = &item.kind else {
+                continue;
+            };
+            for entry in &declared.entries {
+                match &entry.kind {
+                    WorldEntryKind::Robot { name, entries, .. } => {
+                        let named = |robot: &&Robot| robot.name.is(&name.name);
+                        if let Some(robot) = world.robots().find(named) {
+                            self.sizes_of(&world, robot, entries);
+                        }
+                    }
+                    WorldEntryKind::Place { name, shape, .. } => {
+                        let place = world.places.named(&Name::word(&name.name));
+                        if place.is_some_and(|place| covers(&world.places[place].shape, &world)) {
+                            let message = format!("the place `{}` is the whole arena", name.name);
+                            self.warning(Code::W0402, shape.span, message)
+                                .label("the robot is always in it");
+                        }
+                    }
+                    _ => {}
+                }
+            }
+        }
+    }
+
+    fn sizes_of(&mut self, world: &World, robot: &Robot, entries: &'a [ast::RobotEntry]) {
+        let (low, high) = world.arena.bounds();
+        let [width, height] = minus(high, low);
+        for entry in entries {
+            match &entry.kind {
+                RobotEntryKind::Field(field) if field.name.name == "drive" => {
+                    let step = robot.drive.max_speed * world.tick;
+                    if step >= width.min(height) {
+                        let message = "the robot may cross the arena in one tick";
+                        let label = format!("{step} m in a tick of {} s", world.tick);
+                        self.warning(Code::W0402, field.value.span, message)
+                            .label(label)
+                            .help("make it slower, or the tick shorter");
+                    }
+                }
+                RobotEntryKind::Sensor { name, value } => {
+                    let mut sensors = robot.sensors.values();
+                    let sensor = sensors.find(|sensor| sensor.name.is(&name.name));
+                    let range = match sensor.map(|sensor| &sensor.kind) {
+                        Some(
+                            SensorKind::Scanner { range, .. }
+                            | SensorKind::RangeFinder { range, .. },
+                        ) => *range,
+                        _ => continue,
+                    };
+                    if range <= robot.radius {
+                        let message = format!("the sensor `{}` never sees anything", name.name);
+                        self.warning(Code::W0402, value.span, message)
+                            .label("it sees no farther than the robot's own body reaches")
+                            .note("its range begins at the robot's centre");
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+}
+
+/// Whether a place has all of the arena in it, as far as its bounds show.
+fn covers(place: &Shape, world: &World) -> bool {
+    let ([left, bottom], [right, top]) = world.arena.bounds();
+    let corners = [[left, bottom], [right, bottom], [left, top], [right, top]];
+    place.is_convex() && corners.into_iter().all(|corner| place.contains(corner))
+}

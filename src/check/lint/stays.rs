@@ -1,0 +1,209 @@
+//! Which values states may have: what they start with, and what anything sets them to.
+
+use super::ranges::range;
+use super::view::View;
+use crate::check::Checker;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::ir::expr::{Expr, ExprId};
+use crate::ir::law::{Block, Stmt};
+use crate::ir::program::{State, Stays, ValueKind};
+use crate::ir::task::StartLine;
+use crate::ir::world::{Robot, World};
+use crate::ir::{Id, Program};
+use std::collections::BTreeMap;
+
+/// What sets a state: the robot that reads it, and the value.
+type Setting = (Id<Robot>, ExprId);
+
+/// What sets each state.
+type Set = BTreeMap<Id<State>, Vec<Setting>>;
+
+impl Checker<'_> {
+    /// Finds out which values the states of the program may have.
+    ///
+    /// Of a state that nothing sets, or that is set to itself, nothing is found out: that is told where it stands. Nor is
+    /// anything where a value may be another one than it says.
+    pub fn values_of_states(&mut self) {
+        let unsure = |found: &Diagnostic| matches!(found.code, Code::W0204 | Code::W0301);
+        if self.diagnostics.iter().any(unsure) {
+            return;
+        }
+        let mut set = BTreeMap::new();
+        set_at_starts(&self.program, &mut set);
+        set_in_ticks(&self.program, &mut set);
+        for effect in &self.program.effects {
+            of_block(&effect.block, World::acting(), &mut set);
+        }
+        let to_itself =
+            |state, (_, value): &Setting| self.program.pool.get(*value) == Expr::State(state);
+        set.retain(|state, settings| !settings.iter().any(|it| to_itself(*state, it)));
+        for (state, settings) in set {
+            let stays = match self.program.states[state].kind {
+                ValueKind::Quantity => self.numbers_of(state, &settings),
+                ValueKind::Bool | ValueKind::Enum(_) => {
+                    let initial = (World::acting(), self.program.states[state].initial);
+                    self.one_of_these(state, &[settings.as_slice(), &[initial]].concat())
+                }
+            };
+            self.program.states[state].stays = stays;
+        }
+    }
+
+    /// Lets states have the values that they have in the first tick of an episode, and gives back those that they may have at
+    /// any time.
+    ///
+    /// What is done where something happens is left out of account.
+    pub fn starts_with(&mut self, start: &[StartLine]) -> Vec<(Id<State>, Stays)> {
+        let kept = self.program.states.iter();
+        let kept: Vec<_> = kept.map(|(id, state)| (id, state.stays.clone())).collect();
+        let mut given = Set::new();
+        of_start(start, &mut given);
+        let mut changed = Set::new();
+        set_in_ticks(&self.program, &mut changed);
+        for (id, stays) in &kept {
+            let initial = [(World::acting(), self.program.states[*id].initial)];
+            let given = given.get(id).map_or(initial.as_slice(), Vec::as_slice);
+            let first = self.one_of_these(*id, given);
+            // More than a few changes in a tick may come to anything.
+            self.program.states[*id].stays = match changed.get(id).map_or(0, Vec::len) {
+                0..=CHANGES => first,
+                _ => stays.clone(),
+            };
+        }
+        for _ in 0..CHANGES {
+            let next = changed.iter().map(|(id, settings)| {
+                let now = self.program.states[*id].stays.clone();
+                (*id, now.or(&self.one_of_these(*id, settings)))
+            });
+            let next: Vec<_> = next.collect();
+            for (id, stays) in next {
+                self.program.states[id].stays = stays;
+            }
+        }
+        kept
+    }
+
+    /// The values of these settings.
+    fn one_of_these(&self, state: Id<State>, settings: &[Setting]) -> Stays {
+        match self.program.states[state].kind {
+            ValueKind::Quantity => {
+                let none = f64::INFINITY..=f64::NEG_INFINITY;
+                let ranges = settings.iter().map(|(robot, value)| {
+                    let view = View {
+                        robot: *robot,
+                        ..View::from(&self.program)
+                    };
+                    let (low, high) = range(view, *value).ends();
+                    Stays::Within(low..=high)
+                });
+                ranges.fold(Stays::Within(none), |all, one| all.or(&one))
+            }
+            ValueKind::Bool | ValueKind::Enum(_) => {
+                let mut values = settings.iter().map(|(_, value)| *value);
+                let among = values.try_fold(0, |all, value| {
+                    Some(all | one_of(&self.program, state, value)?)
+                });
+                Stays::Among(among.unwrap_or(u64::MAX))
+            }
+        }
+    }
+
+    /// The numbers from the least to the greatest that a state comes to.
+    ///
+    /// An end that a setting moves is moved for ever, unless the bounds that other settings have hold it.
+    fn numbers_of(&mut self, state: Id<State>, settings: &[Setting]) -> Stays {
+        let initial = [(World::acting(), self.program.states[state].initial)];
+        let first = self.one_of_these(state, &initial);
+        let step = |checker: &mut Self, stays: &Stays| {
+            checker.program.states[state].stays = stays.clone();
+            first.clone().or(&checker.one_of_these(state, settings))
+        };
+        let once = step(self, &first);
+        let widened = first.widened(&once);
+        let mut bounded = first.clone();
+        self.program.states[state].stays = widened.clone();
+        for setting in settings {
+            let its = self.one_of_these(state, &[*setting]);
+            bounded = bounded.or_finite(&its);
+        }
+        let halves = [bounded.endless(true, false), bounded.endless(false, true)];
+        for stays in [bounded].into_iter().chain(halves).chain([widened]) {
+            let next = step(self, &stays);
+            if stays.clone().or(&next) == stays {
+                return next;
+            }
+        }
+        step(self, &Stays::ANY)
+    }
+}
+
+/// The most changes of a state in a tick that are followed.
+const CHANGES: usize = 4;
+
+/// The values that an expression may have, as bits; none of its own for the state itself. `None`: any.
+fn one_of(program: &Program, state: Id<State>, value: ExprId) -> Option<u64> {
+    match program.pool.get(value) {
+        Expr::Num(index) => bit(index),
+        Expr::Bool(value) => bit(f64::from(value)),
+        Expr::State(own) if own == state => Some(0),
+        Expr::Select(_, one, other) => {
+            Some(one_of(program, state, one)? | one_of(program, state, other)?)
+        }
+        _ => None,
+    }
+}
+
+fn bit(index: f64) -> Option<u64> {
+    let fits = index >= 0.0 && index < f64::from(u64::BITS);
+    fits.then(|| 1 << index as u32)
+}
+
+/// What sets each state as an episode starts.
+fn set_at_starts(program: &Program, found: &mut Set) {
+    let tasks = program.tasks.values().map(|task| &task.start);
+    let learners = program.learners.values().map(|learner| &learner.start);
+    tasks
+        .chain(learners)
+        .for_each(|start| of_start(start, found));
+}
+
+/// What sets each state in a tick, whether or not anything happens in it.
+fn set_in_ticks(program: &Program, found: &mut Set) {
+    of_block(&program.each_tick, World::acting(), found);
+    for behavior in program.behaviors.values() {
+        if let Some(law) = &behavior.law {
+            let robot = View::of(program, &behavior.name).robot;
+            of_block(&law.control, robot, found);
+        }
+    }
+}
+
+fn of_start(start: &[StartLine], found: &mut Set) {
+    for line in start {
+        match line {
+            StartLine::State(values) => {
+                for (state, value) in values {
+                    let settings = found.entry(*state).or_default();
+                    settings.push((World::acting(), *value));
+                }
+            }
+            StartLine::Member(_, block) => of_block(block, World::acting(), found),
+            _ => {}
+        }
+    }
+}
+
+fn of_block(block: &Block, robot: Id<Robot>, found: &mut Set) {
+    for statement in &block.0 {
+        match statement {
+            Stmt::SetState(state, value) => {
+                found.entry(*state).or_default().push((robot, *value));
+            }
+            Stmt::If(_, then, otherwise) => {
+                of_block(then, robot, found);
+                of_block(otherwise, robot, found);
+            }
+            Stmt::Let(..) | Stmt::SetLocal(..) | Stmt::Drive { .. } => {}
+        }
+    }
+}
