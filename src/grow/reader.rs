@@ -11,6 +11,7 @@ use crate::tree::batch::{Answers, Batch, Rows};
 use crate::tree::guard::or;
 use crate::tree::unit::{guarded, selector};
 use rustc_hash::FxHashMap;
+use std::borrow::Cow;
 
 /// What a tree does in a minterm.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -62,7 +63,10 @@ impl<'w> Reader<'w> {
 
     /// What a tree does in each minterm, its memory fresh.
     pub fn drives(&self, root: &Node) -> Option<Vec<Drive>> {
-        let root = without_memory(root, self.atoms);
+        let root = match is_plain(root) {
+            true => Cow::Borrowed(root),
+            false => Cow::Owned(without_memory(root, self.atoms)),
+        };
         let mut drives = vec![Drive::default(); self.minterms];
         let mut leaf = |block: usize, behavior: Id<Behavior>, rows: Rows| {
             let choice = self.numbers.get(&behavior).copied();
@@ -110,6 +114,15 @@ pub fn alike<W: World>(ground: &Ground<W>, trees: [&Node; 2], keys: &[Key]) -> u
     pairs
         .filter(|(own, other)| own.choice == other.choice)
         .count()
+}
+
+/// Whether a tree has neither memory nodes nor decorators.
+fn is_plain(node: &Node) -> bool {
+    let keeps = matches!(
+        node,
+        Node::Composite { memory: true, .. } | Node::Decorator { .. }
+    );
+    !keeps && node.children().iter().all(is_plain)
 }
 
 /// A tree whose memory nodes ask the history instead: a sequence goes on behind the last child that has succeeded, a

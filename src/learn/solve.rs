@@ -1,9 +1,10 @@
 //! Finite semi-Markov decision problems, solved exactly (Howard 1960; Puterman 1994, chapters 6 and 11).
 
+mod elimination;
 mod rest;
 mod sweeps;
 
-use nalgebra::{DMatrix, DVector};
+use elimination::solved;
 use serde::{Deserialize, Serialize};
 use sweeps::SWEEPS;
 
@@ -226,26 +227,27 @@ impl Problem {
         Some(outlook)
     }
 
-    /// (I − P) v = r, by LU decomposition with partial pivoting.
+    /// (I − P) v = r, by elimination.
     fn eliminate(&self, policy: &[Option<usize>]) -> Option<Vec<f64>> {
-        let n = self.states.len();
-        if n == 0 {
-            return Some(Vec::new());
-        }
-        let mut matrix = DMatrix::<f64>::identity(n, n);
-        let mut rewards = DVector::from_element(n, self.unknown);
-        for (state, taken) in policy.iter().enumerate() {
-            let Some(outlook) = self.outlook(state, *taken) else {
-                continue;
+        let count = self.states.len();
+        let equation = |state: usize| {
+            let mut equation = vec![0.0; count + 1];
+            *equation.get_mut(state)? = 1.0;
+            let taken = policy.get(state).copied().flatten();
+            let Some(outlook) = self.outlook(state, taken) else {
+                *equation.last_mut()? = self.unknown;
+                return Some(equation);
             };
-            *rewards.get_mut(state)? = outlook.reward;
             for &(to, weight) in &outlook.next {
-                *matrix.get_mut((state, to))? -= weight;
+                *equation.get_mut(..count)?.get_mut(to)? -= weight;
             }
-        }
-        let values = matrix.lu().solve(&rewards)?;
+            *equation.last_mut()? = outlook.reward;
+            Some(equation)
+        };
+        let equations = (0..count).map(equation);
+        let values = solved(equations.collect::<Option<_>>()?)?;
         let finite = values.iter().all(|value| value.is_finite());
-        finite.then(|| values.iter().copied().collect())
+        finite.then_some(values)
     }
 
     /// How often each state is met under a policy that begins in these, discounted: u = d + Pᵀ u.

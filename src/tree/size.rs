@@ -1,6 +1,6 @@
 //! The size of a tree, the figure in every report.
 
-use super::drawing::{Drawing, Shape, joins_guards};
+use super::drawing::joins_guards;
 use super::guard::View;
 use crate::ir::tree::{Composite, Guard, Node};
 use serde::{Deserialize, Serialize};
@@ -23,23 +23,7 @@ pub struct Size {
 impl Size {
     /// The size of a tree.
     pub fn of(node: &Node) -> Self {
-        Self::drawn(&Drawing::of(node))
-    }
-
-    fn drawn(drawing: &Drawing) -> Self {
-        let own = Self {
-            nodes: 1,
-            literals: usize::from(matches!(drawing.shape, Shape::Literal(..))),
-            depth: 1,
-        };
-        drawing.children.iter().fold(own, |all, child| {
-            let below = Self::drawn(child);
-            Self {
-                nodes: all.nodes + below.nodes,
-                literals: all.literals + below.literals,
-                depth: all.depth.max(below.depth + 1),
-            }
-        })
+        Children::of(node, None).size
     }
 
     /// The nodes and literals.
@@ -48,6 +32,83 @@ impl Size {
             nodes: self.nodes,
             literals: self.literals,
         }
+    }
+}
+
+/// What is drawn under a composite for one of its children: the child, or the parts of a guard that joins them alike.
+#[derive(Clone, Copy, Debug, Default)]
+struct Children {
+    /// How many there are.
+    count: usize,
+    /// The size of all of them, as deep as the deepest.
+    size: Size,
+}
+
+impl Children {
+    const fn leaf(literals: usize) -> Self {
+        Self {
+            count: 1,
+            size: Size {
+                nodes: 1,
+                literals,
+                depth: 1,
+            },
+        }
+    }
+
+    fn of(node: &Node, under: Option<Composite>) -> Self {
+        match node {
+            Node::Behavior(_) => Self::leaf(0),
+            Node::Condition(guard) => Self::of_view(View::of(guard, true), under),
+            node => {
+                let joins = joins_guards(node).then_some(Composite::Sequence);
+                let children = node.children().iter();
+                children
+                    .map(|child| Self::of(child, joins))
+                    .sum::<Self>()
+                    .under_a_node()
+            }
+        }
+    }
+
+    fn of_view(view: View, under: Option<Composite>) -> Self {
+        match view {
+            View::Const(_) => Self::leaf(0),
+            View::Literal(..) => Self::leaf(1),
+            View::Join(kind, parts, positive) => {
+                let parts = parts.iter().map(|part| View::of(part, positive));
+                let parts: Self = parts.map(|part| Self::of_view(part, Some(kind))).sum();
+                match Some(kind) == under || parts.count == 1 {
+                    true => parts,
+                    false => parts.under_a_node(),
+                }
+            }
+        }
+    }
+
+    /// These under a node of their own.
+    fn under_a_node(self) -> Self {
+        Self {
+            count: 1,
+            size: Size {
+                nodes: self.size.nodes + 1,
+                depth: self.size.depth + 1,
+                ..self.size
+            },
+        }
+    }
+}
+
+impl Sum for Children {
+    fn sum<I: Iterator<Item = Self>>(all: I) -> Self {
+        all.fold(Self::default(), |all, one| Self {
+            count: all.count + one.count,
+            size: Size {
+                nodes: all.size.nodes + one.size.nodes,
+                literals: all.size.literals + one.size.literals,
+                depth: all.size.depth.max(one.size.depth),
+            },
+        })
     }
 }
 
@@ -78,9 +139,10 @@ impl Price {
     /// A node without what stands under it, as it is drawn under its parent; a guard is drawn as all that it asks.
     pub fn of_node(node: &Node, parent: Option<&Node>) -> Self {
         match node {
-            Node::Condition(guard) => {
+            Node::Condition(_) => {
                 let joins = parent.is_some_and(joins_guards);
-                Self::of_view(View::of(guard, true), joins.then_some(Composite::Sequence))
+                let under = joins.then_some(Composite::Sequence);
+                Children::of(node, under).size.price()
             }
             _ => Self::COMPOSITE,
         }
@@ -88,25 +150,9 @@ impl Price {
 
     /// A guard as it is drawn under a composite of this kind.
     pub fn of_guard(guard: &Guard, under: Composite) -> Self {
-        Self::of_view(View::of(guard, true), Some(under))
-    }
-
-    fn of_view(view: View, under: Option<Composite>) -> Self {
-        match view {
-            View::Const(_) => Self {
-                nodes: 1,
-                literals: 0,
-            },
-            View::Literal(..) => Self::literals(1),
-            View::Join(kind, parts, positive) => {
-                let parts = parts.iter().map(|part| View::of(part, positive));
-                let parts = parts.map(|part| Self::of_view(part, Some(kind))).sum();
-                match Some(kind) == under {
-                    true => parts,
-                    false => Self::COMPOSITE + parts,
-                }
-            }
-        }
+        Children::of_view(View::of(guard, true), Some(under))
+            .size
+            .price()
     }
 }
 

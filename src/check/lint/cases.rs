@@ -80,6 +80,11 @@ impl Cases {
         matches!(self, Self::Some(cases) if cases.is_empty())
     }
 
+    /// Whether it holds whatever else does.
+    pub fn is_always(&self) -> bool {
+        matches!(self, Self::Some(cases) if cases.iter().any(BTreeMap::is_empty))
+    }
+
     /// Both hold.
     #[must_use]
     pub fn and(&self, other: &Self) -> Self {

@@ -107,6 +107,12 @@ impl<'a> Checker<'a> {
                     .label("this never happens");
             } else if let Some((earlier, _)) = earlier.filter(|_| cases.iter().all(covered)) {
                 let earlier = *earlier;
+                // Of a condition that always holds it has been told.
+                let told = self.diagnostics.iter().any(|it| it.code == Code::W0601);
+                let mut before = before.iter().filter(|(at, _)| *at == earlier);
+                if told && before.any(|(_, cases)| cases.is_always()) {
+                    continue;
+                }
                 self.warning(Code::W0509, here, "this reward is never paid")
                     .label("whenever this happens, an earlier line pays")
                     .also(earlier, "this line comes first");

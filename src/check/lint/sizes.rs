@@ -7,6 +7,9 @@ use crate::ir::Name;
 use crate::ir::world::{Robot, SensorKind, World};
 use crate::syntax::ast::{self, Item, ItemKind, RobotEntryKind, WorldEntryKind};
 
+/// A robot hardly moves that does not get so part of the way through the arena.
+const NEAR: f64 = 5.0;
+
 impl<'a> Checker<'a> {
     /// Warns of robots that cross the arena in a tick, of sensors that see no wall, and of places that are everywhere.
     pub fn sizes_out_of_proportion(&mut self, items: impl Iterator<Item = &'a Item>) {
@@ -52,6 +55,17 @@ impl<'a> Checker<'a> {
                         self.warning(Code::W0402, field.value.span, message)
                             .label(label)
                             .help("make it slower, or the tick shorter");
+                    }
+                    let ticks = self.program.tasks.values().map(|task| task.end_after).max();
+                    let far = ticks.map(|ticks| step * ticks as f64);
+                    let learns = robot.name == world.robot.name;
+                    if let Some(far) = far.filter(|far| learns && *far < width.min(height) / NEAR) {
+                        let message = "the robot hardly moves in an episode";
+                        let label =
+                            format!("it gets {far} m far, in an arena of {width} m × {height} m");
+                        self.warning(Code::W0402, field.value.span, message)
+                            .label(label)
+                            .help("make it faster, or the episodes longer");
                     }
                 }
                 RobotEntryKind::Sensor { name, value } => {

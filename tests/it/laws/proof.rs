@@ -6,6 +6,7 @@ use super::random::Random;
 use btc::ir::task::History;
 use btc::ir::tree::Node;
 use btc::tree::Size;
+use btc::tree::drawing::{Drawing, Shape};
 use btc::tree::equivalence::{Environment, Onward, Side, Verdict, compare_onward};
 use btc::tree::prune::asked_once;
 
@@ -33,12 +34,30 @@ pub fn holds(bytes: &[u8]) {
     let right = soil.tree(random, 3);
     agrees(&left, &right, history);
     agrees(&left, &left, history);
+    assert_eq!(Size::of(&left), drawn(&Drawing::of(&left)), "{left:?}");
     let once = asked_once(&left);
     assert!(Size::of(&once).nodes <= Size::of(&left).nodes);
     if let Some((verdict, onward)) = agrees(&left, &once, history) {
         assert!(matches!(verdict, Verdict::Equal(_)), "{left:?}\n{once:?}");
         assert!(matches!(onward, Onward::Alike), "{left:?}\n{once:?}");
     }
+}
+
+/// The size of a tree as it is drawn.
+fn drawn(drawing: &Drawing) -> Size {
+    let own = Size {
+        nodes: 1,
+        literals: usize::from(matches!(drawing.shape, Shape::Literal(..))),
+        depth: 1,
+    };
+    drawing.children.iter().fold(own, |all, child| {
+        let below = drawn(child);
+        Size {
+            nodes: all.nodes + below.nodes,
+            literals: all.literals + below.literals,
+            depth: all.depth.max(below.depth + 1),
+        }
+    })
 }
 
 /// The verdict, where enumeration ends; it is that of enumeration, and so is how the trees go on where all may fail.
