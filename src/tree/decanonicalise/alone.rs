@@ -154,7 +154,7 @@ fn from_the_top(
     known: &mut Known,
     account: &Account,
 ) -> Vec<Node> {
-    let part = account.part(4);
+    let part = account.part(3);
     let made = tight.then(|| top_down(problem.columns(), &problem.classes(), &part));
     account.settle(&part);
     let Some(list) = made.flatten() else {
