@@ -13,7 +13,7 @@ use crate::syntax::ast::{
     self, AspectKind, BinaryOp, ExprKind, Item, ItemKind, LearnEntry, Paid, RewardLine,
 };
 use crate::syntax::print;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// How many lines of a task are held against each line; of what comes after them, nothing is said.
 const MOST: usize = 128;
@@ -86,6 +86,7 @@ impl<'a> Checker<'a> {
         let mut before: Vec<(Span, Cases)> = Vec::new();
         let ends: Vec<Cases> = self.cases_of(&checked.end_on);
         let ends = ends.get(..MOST).unwrap_or(&ends);
+        let run = self.run_in_learning(id);
         for (place, line) in lines.iter().enumerate() {
             let here = line.paid.span();
             // A line for the members of a kind is one for each.
@@ -124,24 +125,28 @@ impl<'a> Checker<'a> {
                 self.pays_again_and_again(condition);
                 self.pays_for_standing(condition.span, checked, place);
             }
-            self.pays_for_others(here, id, &cases);
+            if let Some(run) = &run {
+                self.pays_for_others(here, run, &cases);
+            }
             if before.len() < MOST {
                 before.extend(cases.into_iter().map(|cases| (here, cases)));
             }
         }
     }
 
-    /// Warns of a line that waits for the end of a behaviour which what is learned does not run.
-    fn pays_for_others(&mut self, here: Span, id: Id<Task>, cases: &[Cases]) {
-        let task = &self.program.tasks[id];
+    /// The behaviours that end where a task is learned: those of its policies, and of other robots. `None` if nobody learns it.
+    fn run_in_learning(&self, id: Id<Task>) -> Option<BTreeSet<Id<Behavior>>> {
         let learners = self.program.learners.values();
         let mut learners = learners.filter(|learner| learner.task == id).peekable();
-        if learners.peek().is_none() {
-            return;
-        }
+        learners.peek()?;
         let mut run = self.run_by_others();
-        run.extend(&task.choose);
+        run.extend(&self.program.tasks[id].choose);
         run.extend(learners.filter_map(|learner| learner.unseen));
+        Some(run)
+    }
+
+    /// Warns of a line that waits for the end of a behaviour which what is learned does not run.
+    fn pays_for_others(&mut self, here: Span, run: &BTreeSet<Id<Behavior>>, cases: &[Cases]) {
         let missing = |case: &Case| {
             case.iter().find_map(|(about, says)| match about {
                 About::Truth(asked) if *says == Says::Is(true) => {
