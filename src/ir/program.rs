@@ -74,64 +74,6 @@ pub enum Stays {
 impl Stays {
     /// Any number.
     pub const ANY: Self = Self::Within(f64::NEG_INFINITY..=f64::INFINITY);
-
-    /// One of these, or one of those.
-    #[must_use]
-    pub fn or(self, other: &Self) -> Self {
-        match (self, other) {
-            (Self::Within(one), Self::Within(other)) => {
-                let low = one.start().min(*other.start());
-                Self::Within(low..=one.end().max(*other.end()))
-            }
-            (Self::Among(one), Self::Among(other)) => Self::Among(one | other),
-            _ => Self::ANY,
-        }
-    }
-
-    /// One of these numbers, or one up to an end of those that is finite.
-    #[must_use]
-    pub fn or_finite(self, other: &Self) -> Self {
-        let Self::Within(ends) = other else {
-            return Self::ANY;
-        };
-        let ends = [*ends.start(), *ends.end()].into_iter();
-        ends.filter(|end| end.is_finite())
-            .fold(self, |all, end| all.or(&Self::Within(end..=end)))
-    }
-
-    /// These numbers, with all that is less, or all that is greater.
-    #[must_use]
-    pub fn endless(&self, less: bool, greater: bool) -> Self {
-        let Self::Within(ends) = self else {
-            return Self::ANY;
-        };
-        let low = if less {
-            f64::NEG_INFINITY
-        } else {
-            *ends.start()
-        };
-        let high = if greater { f64::INFINITY } else { *ends.end() };
-        Self::Within(low..=high)
-    }
-
-    /// These numbers, without an end in a direction in which the other ones go on.
-    #[must_use]
-    pub fn widened(&self, other: &Self) -> Self {
-        let (Self::Within(one), Self::Within(other)) = (self, other) else {
-            return Self::ANY;
-        };
-        let low = if other.start() < one.start() {
-            f64::NEG_INFINITY
-        } else {
-            *one.start()
-        };
-        let high = if other.end() > one.end() {
-            f64::INFINITY
-        } else {
-            *one.end()
-        };
-        Self::Within(low..=high)
-    }
 }
 
 /// How a number is to be read.

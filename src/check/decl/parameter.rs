@@ -94,7 +94,13 @@ impl<'a> Checker<'a> {
                 true => Type::Error,
                 false => self.in_library(library, |checker| checker.type_expr(&param.ty)),
             };
-            let again = |arg: &Arg| matches!(&arg.kind, ArgKind::Named(again, value) if again.name == param.name.name && given.is_some_and(|given| given.span != value.span));
+            let again = |arg: &Arg| match &arg.kind {
+                ArgKind::Named(name, value) => {
+                    let other = given.is_some_and(|given| given.span != value.span);
+                    name.name == param.name.name && other
+                }
+                _ => false,
+            };
             let value = match (given, &param.default) {
                 // That it is given twice has been told.
                 (Some(_), _) if args.iter().any(again) => {

@@ -3,7 +3,7 @@
 use super::cases::{About, Case, Cases, Says, of_expr};
 use crate::check::Checker;
 use crate::check::expr::plain_ref;
-use crate::diagnostic::Code;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::expr::{Expr, ExprId};
 use crate::ir::law::Behavior;
 use crate::ir::task::{Discount, Learner, Objective, Task};
@@ -109,9 +109,9 @@ impl<'a> Checker<'a> {
             } else if let Some((earlier, _)) = earlier.filter(|_| cases.iter().all(covered)) {
                 let earlier = *earlier;
                 // Of a condition that always holds it has been told.
-                let told = self.diagnostics.iter().any(|it| it.code == Code::W0601);
                 let mut before = before.iter().filter(|(at, _)| *at == earlier);
-                if told && before.any(|(_, cases)| cases.is_always()) {
+                let told = |it: &Diagnostic| it.code == Code::W0601;
+                if before.any(|(_, cases)| cases.is_always()) && self.diagnostics.iter().any(told) {
                     continue;
                 }
                 self.warning(Code::W0509, here, "this reward is never paid")

@@ -51,7 +51,7 @@ impl<'a> Checker<'a> {
                     let step = robot.drive.max_speed * world.tick;
                     if step >= width.min(height) {
                         let message = "the robot may cross the arena in one tick";
-                        let label = format!("{step} m in a tick of {} s", world.tick);
+                        let label = format!("{} m in a tick of {} s", short(step), world.tick);
                         self.warning(Code::W0402, field.value.span, message)
                             .label(label)
                             .help("make it slower, or the tick shorter");
@@ -61,6 +61,7 @@ impl<'a> Checker<'a> {
                     let learns = robot.name == world.robot.name;
                     if let Some(far) = far.filter(|far| learns && *far < width.min(height) / NEAR) {
                         let message = "the robot hardly moves in an episode";
+                        let far = short(far);
                         let label =
                             format!("it gets {far} m far, in an arena of {width} m × {height} m");
                         self.warning(Code::W0402, field.value.span, message)
@@ -89,6 +90,11 @@ impl<'a> Checker<'a> {
             }
         }
     }
+}
+
+/// A length to the millimetre.
+fn short(length: f64) -> f64 {
+    (length * 1000.0).round() / 1000.0
 }
 
 /// Whether a place has all of the arena in it, as far as its bounds show.

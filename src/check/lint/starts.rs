@@ -2,6 +2,7 @@
 
 use super::cases::of_expr;
 use super::interval::Interval;
+use super::stays::{Set, set_in_ticks};
 use super::view::View;
 use crate::check::Checker;
 use crate::diagnostic::{Code, Diagnostic};
@@ -23,6 +24,7 @@ impl<'a> Checker<'a> {
         if self.program.tasks.len() * self.program.states.len() > MOST {
             return;
         }
+        let changed = set_in_ticks(&self.program);
         for item in items {
             let ItemKind::Task(task) = &item.kind else {
                 continue;
@@ -30,7 +32,7 @@ impl<'a> Checker<'a> {
             let Some(id) = self.program.tasks.named(&Name::word(&task.name.name)) else {
                 continue;
             };
-            let held = self.held_at_starts(id);
+            let held = self.held_at_starts(id, &changed);
             let ends = task.aspects.iter().filter_map(|aspect| match &aspect.kind {
                 AspectKind::EndOn(event) => Some(event),
                 _ => None,
@@ -56,7 +58,7 @@ impl<'a> Checker<'a> {
 
     /// Of each end of a task, whether it holds after the first tick, whatever the robot does. What holds always has been
     /// told already.
-    fn held_at_starts(&mut self, id: Id<Task>) -> Vec<bool> {
+    fn held_at_starts(&mut self, id: Id<Task>, changed: &Set) -> Vec<bool> {
         let task = self.program.tasks[id].clone();
         let near = self.near_the_start(&task.start);
         let holds = |checker: &Self, end: ExprId, near| {
@@ -68,7 +70,7 @@ impl<'a> Checker<'a> {
         };
         let always = task.end_on.iter().map(|end| holds(self, *end, None));
         let always: Vec<bool> = always.collect();
-        let kept = self.starts_with(&task.start);
+        let kept = self.starts_with(&task.start, changed);
         let ends = task.end_on.iter().zip(always);
         let held = ends.map(|(end, always)| !always && holds(self, *end, near));
         let held = held.collect();

@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 type Setting = (Id<Robot>, ExprId);
 
 /// What sets each state.
-type Set = BTreeMap<Id<State>, Vec<Setting>>;
+pub type Set = BTreeMap<Id<State>, Vec<Setting>>;
 
 impl Checker<'_> {
     /// Finds out which values the states of the program may have.
@@ -28,9 +28,8 @@ impl Checker<'_> {
         if self.diagnostics.iter().any(unsure) {
             return;
         }
-        let mut set = BTreeMap::new();
+        let mut set = set_in_ticks(&self.program);
         set_at_starts(&self.program, &mut set);
-        set_in_ticks(&self.program, &mut set);
         for effect in &self.program.effects {
             of_block(&effect.block, World::acting(), &mut set);
         }
@@ -52,14 +51,13 @@ impl Checker<'_> {
     /// Lets states have the values that they have in the first tick of an episode, and gives back those that they may have at
     /// any time.
     ///
-    /// What is done where something happens is left out of account.
-    pub fn starts_with(&mut self, start: &[StartLine]) -> Vec<(Id<State>, Stays)> {
+    /// What is done where something happens is left out of account: `changed` is what sets states [in every
+    /// tick](set_in_ticks).
+    pub fn starts_with(&mut self, start: &[StartLine], changed: &Set) -> Vec<(Id<State>, Stays)> {
         let kept = self.program.states.iter();
         let kept: Vec<_> = kept.map(|(id, state)| (id, state.stays.clone())).collect();
         let mut given = Set::new();
         of_start(start, &mut given);
-        let mut changed = Set::new();
-        set_in_ticks(&self.program, &mut changed);
         for (id, stays) in &kept {
             let initial = [(World::acting(), self.program.states[*id].initial)];
             let given = given.get(id).map_or(initial.as_slice(), Vec::as_slice);
@@ -137,6 +135,66 @@ impl Checker<'_> {
     }
 }
 
+impl Stays {
+    /// One of these, or one of those.
+    #[must_use]
+    fn or(self, other: &Self) -> Self {
+        match (self, other) {
+            (Self::Within(one), Self::Within(other)) => {
+                let low = one.start().min(*other.start());
+                Self::Within(low..=one.end().max(*other.end()))
+            }
+            (Self::Among(one), Self::Among(other)) => Self::Among(one | other),
+            _ => Self::ANY,
+        }
+    }
+
+    /// One of these numbers, or one up to an end of those that is finite.
+    #[must_use]
+    fn or_finite(self, other: &Self) -> Self {
+        let Self::Within(ends) = other else {
+            return Self::ANY;
+        };
+        let ends = [*ends.start(), *ends.end()].into_iter();
+        ends.filter(|end| end.is_finite())
+            .fold(self, |all, end| all.or(&Self::Within(end..=end)))
+    }
+
+    /// These numbers, with all that is less, or all that is greater.
+    #[must_use]
+    fn endless(&self, less: bool, greater: bool) -> Self {
+        let Self::Within(ends) = self else {
+            return Self::ANY;
+        };
+        let low = if less {
+            f64::NEG_INFINITY
+        } else {
+            *ends.start()
+        };
+        let high = if greater { f64::INFINITY } else { *ends.end() };
+        Self::Within(low..=high)
+    }
+
+    /// These numbers, without an end in a direction in which the other ones go on.
+    #[must_use]
+    fn widened(&self, other: &Self) -> Self {
+        let (Self::Within(one), Self::Within(other)) = (self, other) else {
+            return Self::ANY;
+        };
+        let low = if other.start() < one.start() {
+            f64::NEG_INFINITY
+        } else {
+            *one.start()
+        };
+        let high = if other.end() > one.end() {
+            f64::INFINITY
+        } else {
+            *one.end()
+        };
+        Self::Within(low..=high)
+    }
+}
+
 /// The most changes of a state in a tick that are followed.
 const CHANGES: usize = 4;
 
@@ -168,14 +226,16 @@ fn set_at_starts(program: &Program, found: &mut Set) {
 }
 
 /// What sets each state in a tick, whether or not anything happens in it.
-fn set_in_ticks(program: &Program, found: &mut Set) {
-    of_block(&program.each_tick, World::acting(), found);
+pub fn set_in_ticks(program: &Program) -> Set {
+    let mut found = Set::new();
+    of_block(&program.each_tick, World::acting(), &mut found);
     for behavior in program.behaviors.values() {
         if let Some(law) = &behavior.law {
             let robot = View::of(program, &behavior.name).robot;
-            of_block(&law.control, robot, found);
+            of_block(&law.control, robot, &mut found);
         }
     }
+    found
 }
 
 fn of_start(start: &[StartLine], found: &mut Set) {
