@@ -19,7 +19,9 @@ use super::types::Type;
 use super::{Checked, Input};
 use crate::diagnostic::{self, Diagnostic};
 use crate::geometry::Point;
+use crate::ir::expr::Local;
 use crate::ir::law::Behavior;
+use crate::ir::table::Table;
 use crate::ir::task::History;
 use crate::ir::world::{Robot, World};
 use crate::ir::{Id, Name, Program};
@@ -68,6 +70,8 @@ pub struct Checker<'a> {
     pub positions: Vec<(Span, Id<Robot>, Point)>,
     /// The parameter that the expression at hand is given to, with what it is a parameter of.
     pub given: Option<(&'a str, &'a str)>,
+    /// The arguments that an alias holds from its start, for the behaviour that it stands for.
+    pub held: Table<Local>,
     /// The type of which the name at hand is to be a value.
     pub wanted: Option<Type>,
     /// The numbers that may be tuned.
@@ -136,6 +140,7 @@ impl<'a> Checker<'a> {
             hidden: BTreeSet::new(),
             positions: Vec::new(),
             given: None,
+            held: Table::default(),
             wanted: None,
             tunes: Tunes::default(),
             bound: BTreeMap::new(),

@@ -41,7 +41,7 @@ pub(super) struct Arguments {
     /// A table gives the order of its columns of values, or else that in which its rows name the behaviours.
     #[arg(long, value_name = "ORDER", default_value = "learned")]
     order: Order,
-    /// How much work the search may take, in units of about a tenth of a second; the tree is the same on every machine.
+    /// How much work the search may take, in units of about a twentieth of a second; the tree is the same on every machine.
     ///
     /// Work is counted, not timed. A tree is found whatever the effort; `--report` says what it left unfinished.
     #[arg(long, value_name = "N", default_value_t = decanonicalise::Options::default().effort)]

@@ -4,7 +4,7 @@ use super::load::Loaded;
 use super::refused::Refused;
 use super::text::Text;
 use super::verify::{assumed, within};
-use super::{table as tables, target};
+use super::{allowed, table as tables, target};
 use crate::check::exclusions;
 use crate::ir::law::Behavior;
 use crate::ir::program::Predicate;
@@ -14,6 +14,7 @@ use crate::ir::{Id, Program};
 use crate::learn::episode::Episode;
 use crate::learn::simulated::Purpose;
 use crate::learn::statistics::Mean;
+use crate::policy::table::Table;
 use crate::policy::{Policy, decisions};
 use crate::report::difference::{Difference, Figures, Outcome};
 use crate::report::verdict;
@@ -38,7 +39,8 @@ pub enum Side<'a> {
 /// A side in the program of both.
 enum Read {
     Tree(Node, Option<Id<Task>>),
-    Table(Policy),
+    /// A policy, and the table that it was read from.
+    Table(Box<Policy>, Box<Table>),
 }
 
 /// Compares an old side with a new one; where both have a world in common they also play `episodes` there.
@@ -51,8 +53,27 @@ pub fn diff(old: Side, new: Side, episodes: u64, seed: u64) -> Result<Difference
         Side::Table(_) => None,
     });
     let mut program = base.map_or_else(Program::default, |loaded| loaded.program.clone());
-    let after = read(new, base, &mut program)?;
-    let before = read(old, base, &mut program)?;
+    let mut after = read(new, base, &mut program)?;
+    let mut before = read(old, base, &mut program)?;
+    let several = |side: Side<'_>, read: &Read| match (side, read) {
+        (Side::Table(_), Read::Table(_, table)) => table.has_sets().then(|| table.header.clone()),
+        _ => None,
+    };
+    let headers = [several(old, &before), several(new, &after)];
+    let several = [old, new]
+        .into_iter()
+        .zip(headers)
+        .find_map(|(side, header)| match side {
+            Side::Table(text) => Some((text, header?)),
+            _ => None,
+        });
+    if let Some((text, header)) = several {
+        settle(&mut before, &mut after).ok_or_else(|| {
+            let message = "rows that allow several behaviours are compared minterm by minterm, with trees without memory \
+                           and with tables of the same predicates";
+            allowed::refused(text, header, message)
+        })?;
+    }
     let names = [called(old)?, called(new)?];
     let history = history(&program, &before, &after);
     let (outcome, by_predicates) = outcome(&program, &before, &after, history, &names);
@@ -67,6 +88,21 @@ pub fn diff(old: Side, new: Side, episodes: u64, seed: u64) -> Result<Difference
         figures,
         program,
     })
+}
+
+/// Where a row allows several behaviours, takes the one that the other side takes there, if it is among them; `None` if that cannot
+/// be told.
+fn settle(before: &mut Read, after: &mut Read) -> Option<()> {
+    match (before, after) {
+        (Read::Tree(root, _), Read::Table(policy, table))
+        | (Read::Table(policy, table), Read::Tree(root, _)) => {
+            allowed::as_tree((policy, table), root)
+        }
+        (Read::Table(old, before), Read::Table(new, after)) => {
+            allowed::as_both((old, before), (new, after))
+        }
+        (Read::Tree(..), Read::Tree(..)) => Some(()),
+    }
 }
 
 /// The tree that a file is about: the one of that name, the only one that it declares, or the only one of all.
@@ -117,7 +153,8 @@ fn read(side: Side, base: Option<&Loaded>, program: &mut Program) -> Result<Read
         Side::Tree(loaded, tree) => (loaded, tree),
         Side::Table(text) => {
             let table = tables::of_truths(text)?;
-            return Ok(Read::Table(decisions::joined(&table, program)));
+            let policy = decisions::joined(&table, program);
+            return Ok(Read::Table(Box::new(policy), Box::new(table)));
         }
     };
     let is_base = base.is_some_and(|base| std::ptr::eq(base, loaded));
@@ -214,7 +251,7 @@ fn history(program: &Program, before: &Read, after: &Read) -> History {
             Some(task) if program.tasks.len() == 1 => task.history,
             _ => assumed(&[root]),
         },
-        Read::Table(policy) => policy.history,
+        Read::Table(policy, _) => policy.history,
     };
     let (a, b) = (of(before), of(after));
     History {
@@ -286,14 +323,14 @@ impl Read {
     fn atoms(&self) -> BTreeSet<Atom> {
         match self {
             Read::Tree(root, _) => atoms(root),
-            Read::Table(policy) => policy.atoms.iter().copied().collect(),
+            Read::Table(policy, _) => policy.atoms.iter().copied().collect(),
         }
     }
 
     fn decider(&self) -> Compared<'_> {
         match self {
             Read::Tree(root, _) => Compared::Tree(root),
-            Read::Table(policy) => Compared::Policy(policy),
+            Read::Table(policy, _) => Compared::Policy(policy),
         }
     }
 }
@@ -309,7 +346,7 @@ fn played(
     program.world.as_ref()?;
     let of = |side: &Read| match side {
         Read::Tree(_, task) => *task,
-        Read::Table(_) => None,
+        Read::Table(..) => None,
     };
     let only = program
         .tasks
@@ -320,7 +357,7 @@ fn played(
     let start = Purpose::Run.start(seed, program.tasks[task].end_after);
     let play = |side: &Read| match side {
         Read::Tree(root, _) => play::tree(program, task, root, episodes, start).ok(),
-        Read::Table(_) => None,
+        Read::Table(..) => None,
     };
     let (old, new) = (play(before)?, play(after)?);
     let totals =

@@ -2,6 +2,7 @@
 //!
 //! [`load`], [`table`] and [`target`] read what a command is given; [`Refused`] is why it has no result.
 
+mod allowed;
 pub mod canonicalize;
 pub mod check;
 pub mod compile;

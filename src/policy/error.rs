@@ -140,7 +140,8 @@ impl fmt::Display for TableError {
             TableErrorKind::NoText => write!(f, "this is not text (UTF-8)"),
             TableErrorKind::Empty => write!(f, "the table has no rows"),
             TableErrorKind::Ragged { found, expected } => {
-                write!(f, "this row has {found} cells, the header has {expected}")
+                let cells = if *found == 1 { "cell" } else { "cells" };
+                write!(f, "this row has {found} {cells}, the header has {expected}")
             }
             TableErrorKind::MissingKey(name) => write!(f, "this row does not say `{name}`"),
             TableErrorKind::UnknownKey(name) => {
@@ -198,6 +199,9 @@ impl fmt::Display for TableError {
             TableErrorKind::Undeclared { name, numbers, .. } => {
                 let what = if *numbers { "numbers" } else { "words" };
                 write!(f, "`{name}` holds {what}, and the header does not say so")
+            }
+            TableErrorKind::UnknownKind { name, found } if found.is_empty() => {
+                write!(f, "`{name}:` has no kind behind it")
             }
             TableErrorKind::UnknownKind { name, found } => {
                 write!(f, "`{found}` is not a kind of column, as `{name}` would be")

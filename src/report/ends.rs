@@ -4,6 +4,9 @@ use crate::learn::binomial::{lower95, upper95};
 use crate::learn::statistics::Summary;
 use serde::Serialize;
 
+/// The share of episodes that one end may take before a headline says so.
+const OFTEN: f64 = 0.01;
+
 /// The episodes that one line of `end on` ended.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Ended {
@@ -43,6 +46,18 @@ impl Ended {
     /// is only an upper one.
     pub fn is_goal(&self) -> bool {
         self.reward > 0.0
+    }
+
+    /// What a headline says of ends that are no goals and are not seldom.
+    pub fn often(ends: &[Self]) -> impl Iterator<Item = String> {
+        let often = |end: &&Self| {
+            let share = end.count as f64 / end.episodes.max(1) as f64;
+            !end.is_goal() && share > OFTEN
+        };
+        ends.iter().filter(often).map(|end| {
+            let share = end.count as f64 / end.episodes.max(1) as f64;
+            format!("{:.1} % of them ended by {}", 100.0 * share, end.name)
+        })
     }
 
     /// The bound that is of interest, in words.

@@ -83,15 +83,20 @@ fn change(gain: Mean, over: f64) -> String {
 }
 
 /// What the best tree of the file does on the same episodes: `hand, of 18 nodes, returns 137.240; against it, a loss of …`.
-pub fn beside(grown: &Grown) -> Option<String> {
+pub fn beside(grown: &Grown, program: &Program, task: &Task) -> Option<String> {
     let beside = grown.beside.as_ref()?;
     let figures = &beside.figures;
     let total = &figures.summary.total;
+    let ends = ended(program, task, figures);
+    let often: Vec<String> = Ended::often(&ends)
+        .map(|often| format!(", {often}"))
+        .collect();
     Some(format!(
-        "`{}`, of {}, returns {:.3}; against it, {}",
+        "`{}`, of {}, returns {:.3}{}; against it, {}",
         beside.name,
         numbered(figures.size.nodes as u64, "node"),
         total.mean,
+        often.concat(),
         change(beside.gain, total.mean)
     ))
 }

@@ -6,9 +6,6 @@ use super::results::Results;
 use super::value::Value;
 use super::words::{self, end_names, line, numbered};
 
-/// The share of episodes that one end may take before the first line says so.
-const OFTEN: f64 = 0.01;
-
 /// Return, events, ends, size with what was proved or tested, and values.
 pub fn lines<W>(results: &Results<W>) -> Vec<String> {
     let printed = results.printed();
@@ -24,15 +21,9 @@ pub fn lines<W>(results: &Results<W>) -> Vec<String> {
         summary.total.mean,
         numbered(summary.episodes, "episode")
     );
-    for end in &ends {
-        let share = end.count as f64 / end.episodes.max(1) as f64;
-        if !end.is_goal() && share > OFTEN {
-            first.push_str(&format!(
-                "; {:.1} % of them ended by {}",
-                100.0 * share,
-                end.name
-            ));
-        }
+    for often in Ended::often(&ends) {
+        first.push_str("; ");
+        first.push_str(&often);
     }
     let events = program.events.values().zip(&summary.events);
     let events: Vec<String> = events
@@ -51,7 +42,9 @@ pub fn lines<W>(results: &Results<W>) -> Vec<String> {
     });
     let limit = format!("{} at the limit", summary.cut);
     let ends: Vec<String> = ends.chain([limit]).collect();
-    if let Some(beside) = results.grown.as_ref().and_then(grown::beside) {
+    let grown = results.grown.as_ref();
+    let beside = grown.and_then(|grown| grown::beside(grown, program, experiment.task));
+    if let Some(beside) = beside {
         first.push_str("; ");
         first.push_str(&beside);
     }

@@ -54,6 +54,7 @@ pub fn file(file: &ast::File, source: Option<&str>) -> String {
     let source = source.map(Source::new);
     let printer = Printer {
         source: source.as_ref(),
+        stands: None,
     };
     let items = printer.items(&file.items);
     let text = Layout::new(source.as_ref(), &file.comments).text(&items);
@@ -81,14 +82,28 @@ pub fn expr(expr: &ast::Expr) -> String {
     Printer::default().expr(expr).on_one_line()
 }
 
+/// An expression as text, on one line, in which other text stands for some of its names.
+pub fn expr_with(expr: &ast::Expr, stands: &Stands) -> String {
+    let printer = Printer {
+        stands: Some(stands),
+        ..Printer::default()
+    };
+    printer.expr(expr).on_one_line()
+}
+
 /// An argument as text, on one line.
 pub fn argument(arg: &ast::Arg) -> String {
     Printer::default().arg(arg).on_one_line()
 }
+
+/// The text that stands for a name, if another does.
+pub type Stands<'s> = dyn Fn(&str) -> Option<String> + 's;
 
 /// Turns syntax into documents.
 #[derive(Clone, Copy, Default)]
 struct Printer<'s> {
     /// What the tree was parsed from.
     source: Option<&'s Source<'s>>,
+    /// The text that stands for a name.
+    stands: Option<&'s Stands<'s>>,
 }

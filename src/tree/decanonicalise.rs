@@ -74,7 +74,7 @@ pub struct Options {
     pub care: Care,
     /// The order of the units.
     pub order: Order,
-    /// The work that the search may do, in units of about a tenth of a second. It is counted in words of sets of rows that
+    /// The work that the search may do, in units of about a twentieth of a second. It is counted in words of sets of rows that
     /// are read, never timed.
     pub effort: u64,
     /// Whether rules stand in groups behind a common guard, and small parts are solved exactly. It makes trees smaller, but
@@ -88,7 +88,7 @@ impl Default for Options {
             method: Method::default(),
             care: Care::default(),
             order: Order::default(),
-            effort: 20,
+            effort: 30,
             tight: true,
         }
     }

@@ -4,13 +4,13 @@ use super::drawing::joins_guards;
 use super::guard::View;
 use crate::ir::tree::{Composite, Guard, Node};
 use serde::{Deserialize, Serialize};
+use std::cmp::Ordering;
 use std::iter::Sum;
 use std::ops::Add;
 
-/// The size of a tree as it is drawn; smaller ones come first: by nodes, then literals, then depth.
-#[derive(
-    Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize,
-)]
+/// The size of a tree as it is drawn; smaller ones come first: by nodes, then depth, then literals. Of as many nodes, those of a flat
+/// tree are read more easily.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Size {
     /// Composites, decorators, behaviour leaves, literals in guards, and the composites that join literals.
     pub nodes: usize,
@@ -18,6 +18,19 @@ pub struct Size {
     pub literals: usize,
     /// Nodes on the longest path from the root to a leaf.
     pub depth: usize,
+}
+
+impl Ord for Size {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let order = |size: &Self| (size.nodes, size.depth, size.literals);
+        order(self).cmp(&order(other))
+    }
+}
+
+impl PartialOrd for Size {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
 }
 
 impl Size {

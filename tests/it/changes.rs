@@ -80,6 +80,29 @@ fn tables_are_compared_as_trees_are() {
     assert_eq!(output.status.code(), Some(0), "{}", out(&output));
 }
 
+/// A row that allows several behaviours takes that of the other side, if it is among them, in whatever order they stand.
+#[test]
+fn allowed_behaviors_are_those_of_the_other_side() {
+    for old in ["sets_old.csv", "sets_other_order.csv"] {
+        for (new, code) in [
+            ("sets_old.csv", 0),
+            ("sets_other_order.csv", 0),
+            ("sets_new.csv", 0),
+            ("sets_wait.csv", 1),
+        ] {
+            for pair in [[old, new], [new, old]] {
+                let output = btc(&cases(), &["diff", pair[0], pair[1]]);
+                assert_eq!(
+                    output.status.code(),
+                    Some(code),
+                    "{pair:?} {}",
+                    out(&output)
+                );
+            }
+        }
+    }
+}
+
 /// One row of many columns has changed: a condition of a few literals tells it from the other rows.
 #[test]
 fn a_changed_row_is_told_in_a_few_words() {

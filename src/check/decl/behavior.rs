@@ -33,6 +33,8 @@ impl<'a> Checker<'a> {
         library: bool,
         reference: &'a Ref,
     ) -> Option<Value> {
+        // What an alias holds is held by what it stands for.
+        let mut locals = std::mem::take(&mut self.held);
         if !library {
             self.behavior(behavior);
         }
@@ -48,7 +50,6 @@ impl<'a> Checker<'a> {
             return known.map(Value::Behavior);
         }
         // Arguments that change are evaluated at the start and held, but for a `target`, which is read afresh.
-        let mut locals = Table::default();
         let held = scope.iter_mut().filter(|it| it.ty != Type::Target);
         for binding in held {
             binding.value = binding.value.clone().map(|id| {
@@ -94,7 +95,10 @@ impl<'a> Checker<'a> {
             }
             BehaviorBody::Alias(target) => {
                 self.context.region = Region::Tree;
-                let target = self.alias(target)?;
+                self.held = locals;
+                let target = self.alias(target);
+                self.held = Table::default();
+                let target = target?;
                 Some(self.program.behaviors[target].law.clone())
             }
             BehaviorBody::Clauses(clauses) => self.law(clauses, locals).map(Some),

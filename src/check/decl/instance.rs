@@ -73,9 +73,20 @@ impl Checker<'_> {
                     written: print::expr(given),
                     value: print::expr(value),
                 },
-                None => Given::Text(print::expr(given)),
+                None => Given::Text(print::expr_with(given, &|name| self.text_of(name))),
             },
         }
+    }
+
+    /// What a name of the body at hand was given, as an operand.
+    fn text_of(&self, name: &str) -> Option<String> {
+        let bound = self.context.lookup(name)?;
+        let known = bound.given.clone();
+        let given = known.or_else(|| self.given_member(&bound.ty, &bound.value))?;
+        Some(match given {
+            Given::Text(text) if !is_operand(&text) => format!("({text})"),
+            given => given.to_string(),
+        })
     }
 
     pub fn mentions_parameter(&self, given: &ast::Expr) -> bool {
@@ -91,6 +102,22 @@ impl Checker<'_> {
             _ => false,
         }
     }
+}
+
+/// Whether a text may stand beside an operator as it is: a call, a name, or a number with its unit.
+fn is_operand(text: &str) -> bool {
+    let mut open = 0_usize;
+    let mut bare = text.chars().filter(|c| {
+        match c {
+            '(' => open += 1,
+            ')' => open = open.saturating_sub(1),
+            _ => {}
+        }
+        *c == ' ' && open == 0
+    });
+    let blanks = bare.by_ref().count();
+    let number = |word: &str| word.parse::<f64>().is_ok();
+    blanks == 0 || blanks == 1 && text.split(' ').next().is_some_and(number)
 }
 
 /// The value in use of a `tune`.

@@ -4,9 +4,9 @@ use super::{Proved, values};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::driver::load::Loaded;
 use crate::driver::table::Recorded;
-use crate::driver::{Refused, Text, table, target};
+use crate::driver::{Refused, Text, allowed, table, target};
 use crate::ir::Program;
-use crate::ir::tree::{Node, Status};
+use crate::ir::tree::Node;
 use crate::policy::reader::{Format, Given};
 use crate::policy::table::Table;
 use crate::policy::{Minterm, Policy, decisions};
@@ -15,7 +15,6 @@ use crate::report::words::{self, counted, rows};
 use crate::source::Span;
 use crate::tree::disagreement::{Compared, compare};
 use crate::tree::prove::Refuted;
-use crate::tree::tick::Runner;
 
 /// The most rows to list that a tree decides otherwise.
 const LISTED: usize = 10;
@@ -51,17 +50,13 @@ pub fn table(
     }
     if read.has_sets() {
         let root = &loaded.program.trees[id].root;
-        let alone = recorded.is_none() && !root.remembers() && !read.has_cubes();
-        let taken = alone.then(|| taken(&read, &mut policy, root)).flatten();
+        let taken = match recorded {
+            Some(_) => None,
+            None => allowed::as_tree((&mut policy, &read), root),
+        };
         if taken.is_none() {
-            return Err(Refused::text(text, |file| {
-                let span = Span::new(file, read.header.start, read.header.end);
-                let message = "rows that allow several behaviours are compared with trees without memory, minterm by minterm";
-                vec![
-                    Diagnostic::new(Code::E0823, span, message)
-                        .help("choose one behaviour for each row, and write out the rows with `-`"),
-                ]
-            }));
+            let message = "rows that allow several behaviours are compared with trees without memory, minterm by minterm";
+            return Err(allowed::refused(text, read.header.clone(), message));
         }
     }
     if let Some(recorded) = recorded {
@@ -77,28 +72,6 @@ pub fn table(
         policy,
     };
     sides.prove()
-}
-
-/// Gives each row that allows several behaviours the one that the tree takes there, if it is allowed; `None` if the tree asks
-/// what the table does not say.
-fn taken(table: &Table, policy: &mut Policy, root: &Node) -> Option<()> {
-    let mut runner = Runner::new(root, &policy.atoms).ok()?;
-    let behaviors = policy.behaviors.clone();
-    for (row, allowed) in policy.rows.iter_mut().zip(table.allowed()) {
-        let mut selected = None;
-        runner.reset();
-        runner.tick(row.minterm.words(), |behavior| {
-            selected = selected.or(Some(behavior));
-            Status::Running
-        });
-        let mut allowed = allowed
-            .into_iter()
-            .filter_map(|number| behaviors.get(number));
-        if let Some(behavior) = selected.filter(|own| allowed.any(|other| other == own)) {
-            row.behavior = behavior;
-        }
-    }
-    Some(())
 }
 
 /// What holds of a tree whose memory alone parts it from a table.

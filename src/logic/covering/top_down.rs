@@ -28,18 +28,25 @@ const LOOKED_AT: usize = 6;
 const RARE: usize = 4;
 /// What a leaf costs in literals: a sequence, a behaviour, and a literal at least.
 const LEAF: usize = 3;
+/// The seed of the first sample.
+const FIRST: u64 = 2;
 /// Groups within groups.
 const DEPTH: usize = 16;
 
 /// A list with groups that decides every row rightly; `None` where the table has too little structure for it, or the account is spent.
-/// Rows are minterms.
-pub fn top_down(columns: &Columns, classes: &[Bits], account: &Account) -> Option<Grouped> {
+/// Rows are minterms. Another number, another sample.
+pub fn top_down(
+    columns: &Columns,
+    classes: &[Bits],
+    number: u64,
+    account: &Account,
+) -> Option<Grouped> {
     let all = Bits::full(columns.rows());
     let mut search = Search {
         columns,
         classes,
         account,
-        random: Random::new(2),
+        random: Random::new(FIRST + number),
     };
     let table = search.sample(&all, SAMPLE);
     let rows = table.columns.rows();

@@ -50,7 +50,11 @@ pub(super) fn divided(column: &str) -> Option<(&str, &str)> {
     column.match_indices(':').find_map(|(at, _)| {
         let (name, kind) = (column.get(..at)?.trim(), column.get(at + 1..)?.trim());
         let word: String = kind.chars().take_while(|c| c.is_alphanumeric()).collect();
-        let known = word == "number" || kind.starts_with('{') || FOREIGN.contains(&word.as_str());
+        let word = word.to_ascii_lowercase();
+        let known = word == "number"
+            || kind.is_empty()
+            || kind.starts_with('{')
+            || FOREIGN.contains(&word.as_str());
         (known && !name.is_empty()).then_some((name, kind))
     })
 }

@@ -163,7 +163,11 @@ impl<'i> Builder<'i> {
             self.report(diagnostic);
             return;
         }
-        if what == "the children of a node" && self.missing_arrow(before, place) {
+        if what == "the children of a node"
+            && (self.missing_arrow(before, place)
+                || self.missing_joint(before, place)
+                || self.unknown_kind(before, place))
+        {
             return;
         }
         if what == "arguments"
@@ -217,6 +221,52 @@ impl<'i> Builder<'i> {
             .label(format!("what `{asked}` guards"))
             .fix("put `=>`", before.after(), " =>", Applicability::Unsafe)
             .help("two children of their own are parted by a comma");
+        self.report(diagnostic);
+        true
+    }
+
+    /// Reports an `and` or an `or` that is missing on one line between two conditions. Parted by a comma they would be two children,
+    /// and where the first holds nothing would be done.
+    fn missing_joint(&mut self, before: Option<Span>, next: Span) -> bool {
+        let Some(before) = before.filter(|before| self.on_one_line(*before, next)) else {
+            return false;
+        };
+        let (asked, also) = (self.slice(before), self.slice(next));
+        let last = asked.rsplit(' ').next().unwrap_or_default();
+        let head = last.split('(').next().unwrap_or_default();
+        let is_predicate = |name| self.glance().declares_by(&["predicate"], name);
+        let negated = also == "not" && !asked.contains(['=', '{']);
+        if !is_predicate(head) || !negated && !is_predicate(also) {
+            return false;
+        }
+        let message = format!("expected `and` or `or` before `{also}`");
+        let diagnostic = Diagnostic::new(Code::E0101, next, message)
+            .label(format!("another condition, behind `{last}`"))
+            .help("two children of their own are parted by a comma");
+        self.report(diagnostic);
+        true
+    }
+
+    /// Reports a word before a node that is no part of the language: `reactive sequence { … }`.
+    fn unknown_kind(&mut self, before: Option<Span>, next: Span) -> bool {
+        let Some(before) = before.filter(|before| self.on_one_line(*before, next)) else {
+            return false;
+        };
+        let (word, node) = (self.slice(before), self.slice(next));
+        let is_word = word.chars().all(|c| c.is_ascii_alphabetic());
+        let declared = (self.glance()).declares_by(&["predicate", "behavior", "tree"], word);
+        let is_composite = matches!(node, "sequence" | "selector");
+        if !is_word || declared || !is_composite || self.names_leaf(word) {
+            return false;
+        }
+        let after = Span::new(self.file, before.range().start, next.range().start);
+        let message = format!("`{word}` is no kind of `{node}`");
+        let diagnostic = Diagnostic::new(Code::E0101, before, message)
+            .label("this is not said here")
+            .fix("drop it", after, "", Applicability::Unsafe)
+            .help(format!(
+                "`{node}` begins with its first child in each tick; `memory {node}` goes on where it was"
+            ));
         self.report(diagnostic);
         true
     }

@@ -18,7 +18,13 @@ impl Printer<'_> {
         let doc = match &expr.kind {
             ExprKind::Number(literal) => number(literal),
             ExprKind::Bool(value) => Doc::from(if *value { "true" } else { "false" }),
-            ExprKind::Ref(call) => return self.call(call),
+            ExprKind::Ref(call) => {
+                let stands = self.stands.filter(|_| call.args.is_none());
+                return match stands.and_then(|stands| stands(&call.name.name)) {
+                    Some(text) => Doc::from(text),
+                    None => self.call(call),
+                };
+            }
             ExprKind::If(choice) => self.choice(choice),
             ExprKind::Point(x, y) => row!["(", self.expr(x), ", ", self.expr(y), ")"].flat(),
             ExprKind::Coordinate(point, axis) => {

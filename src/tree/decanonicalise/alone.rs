@@ -30,6 +30,8 @@ pub(super) const REACH: u64 = 60_000;
 const LONG: usize = 2;
 /// A tree that is so many times smaller than one by a partition is not one of those that a partition begins.
 const CLEAR: usize = 4;
+/// The lists that are made from the top.
+const SAMPLES: u64 = 6;
 /// Attempts at a smaller list with groups before it is tried on all rows.
 const QUICK: usize = 15;
 /// Attempts at a smaller list before the search for lists ends.
@@ -88,7 +90,8 @@ pub(super) fn trees(
         return Vec::new();
     }
     if problem.policy.rows.len() <= WHOLE || problem.wide {
-        let mut found = divided(problem, held, account);
+        let mut found = from_the_top(problem, tight, core, known, account);
+        found.extend(divided(problem, held, account));
         found.extend(searched(problem, known, tight, account));
         return found;
     }
@@ -146,7 +149,8 @@ pub(super) fn trees(
     found
 }
 
-/// A list with groups that is made from the top, and what it comes to where its parts are sought anew.
+/// Lists with groups that are made from the top, by samples of their own each, and what they come to where their parts are sought
+/// anew. One sample may hide what another shows.
 fn from_the_top(
     problem: &Problem,
     tight: bool,
@@ -154,16 +158,27 @@ fn from_the_top(
     known: &mut Known,
     account: &Account,
 ) -> Vec<Node> {
-    let part = account.part(3);
-    let made = tight.then(|| top_down(problem.columns(), &problem.classes(), &part));
-    account.settle(&part);
-    let Some(list) = made.flatten() else {
+    if !tight || problem.wide {
         return Vec::new();
-    };
-    let mut found = vec![Children::grouped(problem, &list).node()];
-    let part = account.part(3);
-    found.extend(core.groups(list, QUICK, known, &part));
-    account.settle(&part);
+    }
+    let (columns, classes) = (problem.columns(), problem.classes());
+    let whole = account.part(2);
+    let mut found = Vec::new();
+    for sample in 0..SAMPLES {
+        // With none there would be nothing from the top at all.
+        let part = match sample {
+            0 => whole.part(1),
+            _ => whole.part(2),
+        };
+        let made = top_down(columns, &classes, sample, &part);
+        whole.settle(&part);
+        let Some(list) = made else { break };
+        found.push(Children::grouped(problem, &list).node());
+        let part = whole.part(2);
+        found.extend(core.groups(list, QUICK, known, &part));
+        whole.settle(&part);
+    }
+    account.settle(&whole);
     found
 }
 

@@ -23,6 +23,7 @@ use crate::ir::tree::Node;
 use crate::logic::covering::Known;
 use crate::logic::{Account, Cover, Order};
 use crate::tree::Size;
+use crate::tree::prune::asked_once;
 use rayon::prelude::*;
 
 /// The most trees whose proof is tried, smallest first.
@@ -175,8 +176,10 @@ fn regrouped(
     }
 }
 
-/// The smallest of these that is proved.
-fn smallest(problem: &Problem, mut found: Vec<(Size, Node)>) -> Option<(Node, Proof)> {
+/// The smallest of these that is proved. What a tree asks twice in a tick it asks once.
+fn smallest(problem: &Problem, found: Vec<(Size, Node)>) -> Option<(Node, Proof)> {
+    let once = found.iter().map(|(_, node)| asked_once(node));
+    let mut found = sized(once.collect());
     // Stable: of equal sizes the first found stands first.
     found.sort_by_key(|(size, _)| *size);
     found.dedup_by(|a, b| a.1 == b.1);

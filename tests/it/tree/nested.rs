@@ -5,6 +5,7 @@ use super::scale::{searched, table};
 use crate::laws::random::Random;
 use btc::logic::Order;
 use btc::policy::{Minterm, Policy};
+use btc::tree::decanonicalise::Options;
 
 /// A selector: of the units whose predicates fall so the first decides, else the behaviour that stands last.
 struct Group {
@@ -96,7 +97,9 @@ fn planted(number: u64) -> (Policy, usize, String) {
 fn larger(numbers: impl Iterator<Item = u64>) -> Vec<String> {
     let told = numbers.filter_map(|number| {
         let (policy, planted, name) = planted(number);
-        let nodes = searched(&policy, Order::Learned, 20).size.nodes;
+        let nodes = searched(&policy, Order::Learned, Options::default().effort)
+            .size
+            .nodes;
         println!("{name}: {nodes} nodes, {planted} planted");
         (nodes > planted).then(|| format!("{name}: {nodes} nodes, {planted} planted"))
     });
