@@ -48,15 +48,13 @@ impl Ended {
         self.reward > 0.0
     }
 
-    /// What a headline says of ends that are no goals and are not seldom.
-    pub fn often(ends: &[Self]) -> impl Iterator<Item = String> {
-        let often = |end: &&Self| {
+    /// What a headline says of ends that are no goals and are not seldom; `whose` names the episodes.
+    pub fn often(ends: &[Self], whose: &str) -> impl Iterator<Item = String> {
+        let bad = ends.iter().filter(|end| !end.is_goal());
+        bad.filter_map(move |end| {
             let share = end.count as f64 / end.episodes.max(1) as f64;
-            !end.is_goal() && share > OFTEN
-        };
-        ends.iter().filter(often).map(|end| {
-            let share = end.count as f64 / end.episodes.max(1) as f64;
-            format!("{:.1} % of them ended by {}", 100.0 * share, end.name)
+            let said = || format!("{:.1} % of {whose} ended by {}", 100.0 * share, end.name);
+            (share > OFTEN).then(said)
         })
     }
 

@@ -88,9 +88,8 @@ pub fn beside(grown: &Grown, program: &Program, task: &Task) -> Option<String> {
     let figures = &beside.figures;
     let total = &figures.summary.total;
     let ends = ended(program, task, figures);
-    let often: Vec<String> = Ended::often(&ends)
-        .map(|often| format!(", {often}"))
-        .collect();
+    let often = Ended::often(&ends, "its episodes").map(|often| format!(", and {often}"));
+    let often: Vec<String> = often.collect();
     Some(format!(
         "`{}`, of {}, returns {:.3}{}; against it, {}",
         beside.name,

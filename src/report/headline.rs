@@ -21,7 +21,7 @@ pub fn lines<W>(results: &Results<W>) -> Vec<String> {
         summary.total.mean,
         numbered(summary.episodes, "episode")
     );
-    for often in Ended::often(&ends) {
+    for often in Ended::often(&ends, "them") {
         first.push_str("; ");
         first.push_str(&often);
     }

@@ -107,7 +107,7 @@ impl Checker<'_> {
 /// Whether a text may stand beside an operator as it is: a call, a name, or a number with its unit.
 fn is_operand(text: &str) -> bool {
     let mut open = 0_usize;
-    let mut bare = text.chars().filter(|c| {
+    let blanks = text.chars().filter(|c| {
         match c {
             '(' => open += 1,
             ')' => open = open.saturating_sub(1),
@@ -115,9 +115,12 @@ fn is_operand(text: &str) -> bool {
         }
         *c == ' ' && open == 0
     });
-    let blanks = bare.by_ref().count();
-    let number = |word: &str| word.parse::<f64>().is_ok();
-    blanks == 0 || blanks == 1 && text.split(' ').next().is_some_and(number)
+    let is_number = |word: &str| word.parse::<f64>().is_ok();
+    match blanks.count() {
+        0 => true,
+        1 => text.split(' ').next().is_some_and(is_number),
+        _ => false,
+    }
 }
 
 /// The value in use of a `tune`.

@@ -16,7 +16,9 @@ pub(super) const HISTORY: &str = "the ends of a history";
 const LEAVES: [&str; 2] = ["behavior", "tree"];
 
 /// What other notations put before the nodes of a tree.
-const BEFORE_NODES: [&str; 16] = [
+const BEFORE_NODES: [&str; 18] = [
+    "reactive",
+    "async",
     "subtree",
     "SubTree",
     "Subtree",
@@ -164,9 +166,7 @@ impl<'i> Builder<'i> {
             return;
         }
         if what == "the children of a node"
-            && (self.missing_arrow(before, place)
-                || self.missing_joint(before, place)
-                || self.unknown_kind(before, place))
+            && (self.missing_arrow(before, place) || self.missing_joint(before, place))
         {
             return;
         }
@@ -243,30 +243,6 @@ impl<'i> Builder<'i> {
         let diagnostic = Diagnostic::new(Code::E0101, next, message)
             .label(format!("another condition, behind `{last}`"))
             .help("two children of their own are parted by a comma");
-        self.report(diagnostic);
-        true
-    }
-
-    /// Reports a word before a node that is no part of the language: `reactive sequence { … }`.
-    fn unknown_kind(&mut self, before: Option<Span>, next: Span) -> bool {
-        let Some(before) = before.filter(|before| self.on_one_line(*before, next)) else {
-            return false;
-        };
-        let (word, node) = (self.slice(before), self.slice(next));
-        let is_word = word.chars().all(|c| c.is_ascii_alphabetic());
-        let declared = (self.glance()).declares_by(&["predicate", "behavior", "tree"], word);
-        let is_composite = matches!(node, "sequence" | "selector");
-        if !is_word || declared || !is_composite || self.names_leaf(word) {
-            return false;
-        }
-        let after = Span::new(self.file, before.range().start, next.range().start);
-        let message = format!("`{word}` is no kind of `{node}`");
-        let diagnostic = Diagnostic::new(Code::E0101, before, message)
-            .label("this is not said here")
-            .fix("drop it", after, "", Applicability::Unsafe)
-            .help(format!(
-                "`{node}` begins with its first child in each tick; `memory {node}` goes on where it was"
-            ));
         self.report(diagnostic);
         true
     }

@@ -165,7 +165,7 @@ fn from_the_top(
     let whole = account.part(2);
     let mut found = Vec::new();
     for sample in 0..SAMPLES {
-        // With none there would be nothing from the top at all.
+        // The first may take all of it: if there is no list from one sample, there is none from the others.
         let part = match sample {
             0 => whole.part(1),
             _ => whole.part(2),
