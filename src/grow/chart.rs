@@ -74,7 +74,7 @@ impl<'w> Chart<'w> {
     /// else that the tree does.
     pub fn follow(&self, root: &Node) -> Option<Followed> {
         let policy = self.policy(root)?;
-        let mut values = self.problem.evaluate(&policy);
+        let mut values = self.problem.estimate(&policy);
         let mut unknown = self.problem.unknown;
         for _ in 0..VALUED {
             unknown = self.problem.low(&values);

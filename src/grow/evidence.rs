@@ -217,7 +217,7 @@ impl Evidence {
     /// A problem of these counts with each reward less by so many standard errors of what the choice is worth, and its solution.
     pub fn cautious(&self, problem: &Problem, care: f64, sight: Sight) -> (Problem, Solution) {
         let mut cautious = problem.clone();
-        let mut solution = cautious.solve();
+        let mut solution = cautious.estimate_from(cautious.unsolved());
         for _ in 0..CAUTIONS {
             let values = &solution.values;
             cautious.unknown = problem.low(values);
@@ -237,7 +237,7 @@ impl Evidence {
                     outlook.reward = plain.reward - care * error;
                 }
             }
-            solution = cautious.solve_from(solution);
+            solution = cautious.estimate_from(solution);
         }
         (cautious, solution)
     }
@@ -246,7 +246,7 @@ impl Evidence {
     /// choice; `None` where it is not known.
     pub fn worths(&self, sight: Sight) -> Vec<Vec<Option<(f64, f64)>>> {
         let problem = self.problem(sight);
-        let values = problem.solve().values;
+        let values = problem.estimate_from(problem.unsolved()).values;
         let value = |row: usize| values.get(row).copied().unwrap_or(problem.unknown);
         let rows = problem.states.iter().enumerate();
         rows.map(|(row, state)| {

@@ -99,11 +99,11 @@ impl<'w> Field<'w> {
             }
         };
         let values = match policy {
-            None => problem.solve().values,
+            None => problem.estimate_from(problem.unsolved()).values,
             Some(policy) => {
                 // What is not known of the tree is about as bad as anything else that it does.
-                problem.unknown = problem.low(&problem.evaluate(&policy));
-                problem.evaluate(&policy)
+                problem.unknown = problem.low(&problem.estimate(&policy));
+                problem.estimate(&policy)
             }
         };
         Self::with(ground, evidence, &problem, &values, visits)

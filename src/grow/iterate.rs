@@ -187,7 +187,9 @@ impl<W: World> Iteration<'_, '_, W> {
                 ticks += self.act(&mut evidence, &mut base);
             }
             base.played.clear();
-            let candidates = self.candidates(&evidence, &base.choices, &visits, &mut random);
+            let (candidates, work) =
+                self.candidates(&evidence, &base.choices, &visits, &mut random);
+            ticks += work;
             let (found, used) = self.race(&mut evidence, &mut base, candidates, round);
             ticks += used;
             match found {
@@ -287,16 +289,19 @@ impl<W: World> Iteration<'_, '_, W> {
         choices
     }
 
-    /// Policies that are better by the counts, or take a part of what makes one better.
+    /// Policies that are better by the counts, or take a part of what makes one better, and the ticks in whose time they are
+    /// found.
     fn candidates(
         &self,
         evidence: &Evidence,
         now: &Choices,
         visits: &Visits,
         random: &mut Random,
-    ) -> Vec<Candidate> {
+    ) -> (Vec<Candidate>, u64) {
         let mut found: Vec<Choices> = Vec::new();
-        for plan in self.plans(evidence, now) {
+        let mut work = 0;
+        for (plan, own) in self.plans(evidence, now) {
+            work += own;
             for changes in plan.parts(visits, random) {
                 let mut mixed = now.clone();
                 mixed.extend(changes);
@@ -305,11 +310,12 @@ impl<W: World> Iteration<'_, '_, W> {
                 }
             }
         }
-        found.into_iter().map(Candidate::new).collect()
+        (found.into_iter().map(Candidate::new).collect(), work)
     }
 
-    /// What is decided otherwise by the counts, near-sighted and far-sighted, doubted in several degrees, with more care and less.
-    fn plans<'k>(&self, evidence: &'k Evidence, now: &Choices) -> Vec<Plan<'k>> {
+    /// What is decided otherwise by the counts, near-sighted and far-sighted, doubted in several degrees, with more care and less;
+    /// each with its work.
+    fn plans<'k>(&self, evidence: &'k Evidence, now: &Choices) -> Vec<(Plan<'k>, u64)> {
         let sights = [Sight::Far, Sight::Learner].into_iter();
         let doubted = sights.flat_map(|sight| DOUBTS.map(|doubt| (sight, doubt)));
         let ways = doubted.flat_map(|(sight, doubt)| CARES.map(|care| (sight, doubt, care)));
@@ -324,7 +330,8 @@ impl<W: World> Iteration<'_, '_, W> {
                 let new = now.get(key) != Some(choice);
                 (new && self.is_known(evidence, *key)).then_some((row, *choice))
             });
-            Plan::new(evidence.keys(), changes.collect(), &cautious, &solution)
+            let plan = Plan::new(evidence.keys(), changes.collect(), &cautious, &solution);
+            (plan, cautious.work())
         });
         plans.collect()
     }

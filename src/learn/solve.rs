@@ -138,6 +138,17 @@ impl Problem {
         self.states.len() > ELIMINATED
     }
 
+    /// About the ticks that could be simulated while the problem is solved: one for two transitions that sweeps go over. None where
+    /// there are few states.
+    pub fn work(&self) -> u64 {
+        if !self.is_large() {
+            return 0;
+        }
+        let outlooks = self.states.iter().flatten();
+        let transitions = outlooks.map(|(_, outlook)| outlook.next.len() as u64);
+        transitions.sum::<u64>() / 2
+    }
+
     /// Policy iteration: evaluates exactly, takes what is better, until nothing is.
     pub fn solve(&self) -> Solution {
         self.solve_from(self.unsolved())
@@ -162,9 +173,23 @@ impl Problem {
 
     /// The same from the solution of a problem with the same states and choices.
     pub fn solve_from(&self, near: Solution) -> Solution {
+        self.solve_until(near, 0.0)
+    }
+
+    /// The same for a problem of counts, whose chance is greater than the roughness of values: where there are many states, until
+    /// nothing seems better by rough values.
+    pub fn estimate_from(&self, near: Solution) -> Solution {
+        self.solve_until(near, ROUGH)
+    }
+
+    /// Policy iteration by values that are rough up to this part of the greatest at last, where there are many states.
+    fn solve_until(&self, near: Solution, finest: f64) -> Solution {
         let Solution { mut policy, values } = near;
         // Where states are many, values are rough until nothing seems better by them.
-        let mut rough = if self.is_large() { ROUGH } else { 0.0 };
+        let (mut rough, finest) = match self.is_large() {
+            true => (ROUGH, finest),
+            false => (0.0, 0.0),
+        };
         let mut values = self.evaluate_from(&policy, values, rough);
         for at in 0..IMPROVEMENTS {
             // Sweeps leave a part of the greatest value, elimination next to nothing.
@@ -174,11 +199,11 @@ impl Problem {
                 false => BETTER,
             };
             let improved = self.improve(&mut policy, &values, better);
-            if !improved && rough == 0.0 {
+            if !improved && rough == finest {
                 break;
             }
             if !improved || at >= ROUGH_ONES {
-                rough = 0.0;
+                rough = finest;
             }
             values = self.evaluate_from(&policy, values, rough);
         }
@@ -209,6 +234,11 @@ impl Problem {
     /// states for it or the equations have no single solution, as without a discount and without an end.
     pub fn evaluate(&self, policy: &[Option<usize>]) -> Vec<f64> {
         self.evaluate_from(policy, vec![self.unknown; self.states.len()], 0.0)
+    }
+
+    /// The same for a problem of counts: roughly, where there are many states.
+    pub fn estimate(&self, policy: &[Option<usize>]) -> Vec<f64> {
+        self.evaluate_from(policy, vec![self.unknown; self.states.len()], ROUGH)
     }
 
     /// The same, where sweeps are needed from values that may be near, until changes are below this part of the greatest value.
