@@ -5,7 +5,7 @@ use super::text::Text;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
-use crate::ir::tree::{Node, Status};
+use crate::ir::tree::Node;
 use crate::policy::table::Table;
 use crate::policy::{Minterm, Policy};
 use crate::source::Span;
@@ -25,12 +25,7 @@ pub(super) fn as_tree((policy, table): Listed, root: &Node) -> Option<()> {
     let mut runner = Runner::new(root, &policy.atoms).ok()?;
     let sets = sets(policy, table);
     for (row, allowed) in policy.rows.iter_mut().zip(sets) {
-        let mut selected = None;
-        runner.reset();
-        runner.tick(row.minterm.words(), |behavior| {
-            selected = selected.or(Some(behavior));
-            Status::Running
-        });
+        let selected = runner.select(row.minterm.words());
         if let Some(behavior) = selected.filter(|own| allowed.contains(own)) {
             row.behavior = behavior;
         }

@@ -43,7 +43,7 @@ pub fn canonicalize(
         return Err(Refused::program(loaded, [diagnostic]));
     }
     match form {
-        Form::Csv => Ok(table(&loaded.program, tree, &canonical)),
+        Form::Csv => table(loaded, tree, &canonical),
         Form::Bt(path) => Ok((file(loaded, tree, &canonical, path), None)),
     }
 }
@@ -87,11 +87,24 @@ fn is_declared_only(program: &Program) -> bool {
             .all(|b| b.law.is_none() && b.name.as_word().is_some())
 }
 
-/// The policy table of a tree.
-fn table(program: &Program, tree: &Tree, canonical: &Canonical) -> (String, Option<String>) {
+/// The policy table of a tree, with a warning where it says nothing of some minterms.
+fn table(
+    loaded: &Loaded,
+    tree: &Tree,
+    canonical: &Canonical,
+) -> Result<(String, Option<String>), Refused> {
+    let program = &loaded.program;
     let window = tree.task.map(|task| program.tasks[task].history.window);
-    let policy = canonical.policy(window);
-    let warning = (!canonical.is_total(&policy.atoms, window)).then(|| {
+    let atoms = canonical.atoms();
+    let Some(divided) = canonical.divided(&atoms, window) else {
+        let message = format!("the table of `{}` is too large", tree.name.family);
+        let place = export::place(loaded, tree, &[]);
+        let note = "its minterms come to more than 200 000 parts, asked one atom after the other";
+        let help = "leave out `--emit csv` for its canonical form as a tree";
+        let diagnostic = Diagnostic::new(Code::E0819, place, message).label(note);
+        return Err(Refused::program(loaded, [diagnostic.help(help)]));
+    };
+    let warning = (!divided.is_total).then(|| {
         format!(
             "warning: `{}` selects nothing in some minterms, and these have no row",
             tree.name.family
@@ -101,7 +114,8 @@ fn table(program: &Program, tree: &Tree, canonical: &Canonical) -> (String, Opti
         true => remembered(&tree.name.bare()),
         false => Vec::new(),
     };
-    (decisions::write_bare(&policy, program, &remarks), warning)
+    let policy = divided.policy(atoms);
+    Ok((decisions::write_bare(&policy, program, &remarks), warning))
 }
 
 /// What the table of a tree with memory lacks.

@@ -129,6 +129,16 @@ pub fn read<'l>(
         let help = "a column `q:NAME` for each behaviour says what it is worth";
         return Err(Refused::text(text, |file| vec![found(file).help(help)]));
     }
+    if options.slack > 0.0
+        && let Some((name, place)) = read.without_values()
+    {
+        let message = format!("slack needs the values of `{name}`");
+        let help = format!("a column `q:{name}` says what it is worth");
+        return Err(Refused::text(text, |file| {
+            let span = Span::new(file, place.start, place.end);
+            vec![Diagnostic::new(Code::E0817, span, message).help(help)]
+        }));
+    }
     let input = |inputs: &Inputs| inputs.has(options.name).then_some("an input");
     if inputs.is_some() && named.is_some() {
         let message =

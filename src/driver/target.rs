@@ -9,7 +9,8 @@ use crate::ir::tree::Tree;
 use crate::ir::{Id, Program};
 use crate::source::Span;
 use crate::syntax::ast::{
-    self, ArgKind, AspectKind, Expr, ExprKind, Item, ItemKind, LearnEntry, Start, StartLine,
+    self, ArgKind, AspectKind, Expr, ExprKind, Item, ItemKind, LearnEntry, Node, NodeKind,
+    RobotEntryKind, Start, StartLine, WorldEntryKind,
 };
 
 /// The end of the main file: where something is missing.
@@ -102,14 +103,61 @@ pub fn tree(loaded: &Loaded, name: &str) -> Result<Id<Tree>, Refused> {
         .ok_or_else(|| missing(loaded, "tree", name, trees.values().map(|tree| &tree.name)))
 }
 
-/// The only tree.
+/// The only tree, or the only one that is neither a part of others nor the script of another robot.
 ///
 /// # Errors
 /// There is none, or there are several.
 pub fn only_tree(loaded: &Loaded) -> Result<Id<Tree>, Refused> {
     let trees = &loaded.program.trees;
+    let used = used_trees(loaded);
+    let whole = |id: &Id<Tree>| !used.contains(&trees[*id].name.family.as_str());
+    let mut wholes = trees.ids().filter(whole);
+    if let (Some(only), None) = (wholes.next(), wholes.next()) {
+        return Ok(only);
+    }
     let names = trees.values().map(|tree| &tree.name);
     only(loaded, "tree", names, trees.ids())
+}
+
+/// What the trees of a program name as their leaves, and the trees that its other robots run.
+fn used_trees(loaded: &Loaded) -> Vec<&str> {
+    fn leaves<'a>(node: &'a Node, found: &mut Vec<&'a str>) {
+        match &node.kind {
+            NodeKind::Composite { children, .. } => {
+                children.iter().for_each(|child| leaves(child, found));
+            }
+            NodeKind::Guarded { node, .. } => leaves(node, found),
+            NodeKind::Leaf(expr) => found.extend(named(expr)),
+            NodeKind::Error => {}
+        }
+    }
+    fn named(expr: &Expr) -> Option<&str> {
+        match &expr.kind {
+            ExprKind::Ref(reference) => Some(&reference.name.name),
+            _ => None,
+        }
+    }
+    let mut found = Vec::new();
+    for item in loaded.asts().flat_map(|ast| &ast.items) {
+        match &item.kind {
+            ItemKind::Tree(tree) => leaves(&tree.root, &mut found),
+            ItemKind::World(world) => {
+                let robots = world.entries.iter().filter_map(|entry| match &entry.kind {
+                    WorldEntryKind::Robot { entries, .. } => Some(entries),
+                    _ => None,
+                });
+                let scripts = robots.flatten().filter_map(|entry| match &entry.kind {
+                    RobotEntryKind::Field(field) if field.name.name == "runs" => {
+                        named(&field.value)
+                    }
+                    _ => None,
+                });
+                found.extend(scripts);
+            }
+            _ => {}
+        }
+    }
+    found
 }
 
 /// The learner of that name, or the only one.

@@ -252,6 +252,20 @@ impl Node {
         }
     }
 
+    /// Whether it gives the same answer when it has answered and is ticked again in the same tick.
+    pub fn answers_again(&self) -> bool {
+        let keeps = match self {
+            Node::Condition(Guard::Const(_)) | Node::Parallel { .. } => true,
+            Node::Composite { memory, .. } => *memory,
+            Node::Decorator { kind, .. } => matches!(
+                kind,
+                Decorator::Retry(_) | Decorator::Repeat(_) | Decorator::Timeout(_)
+            ),
+            Node::Condition(_) | Node::Behavior(_) => false,
+        };
+        !keeps && self.children().iter().all(Node::answers_again)
+    }
+
     /// Calls `visit` for every behaviour leaf, from the left.
     pub fn visit_behaviors(&self, visit: &mut impl FnMut(Id<Behavior>)) {
         if let Node::Behavior(id) = self {

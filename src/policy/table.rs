@@ -91,6 +91,11 @@ impl Table {
         !self.values.is_empty()
     }
 
+    /// The first behaviour that a row chooses and that has no column of values, with its place.
+    pub fn without_values(&self) -> Option<&(String, Range<usize>)> {
+        self.behaviors.get(self.values.len()..self.chosen)?.first()
+    }
+
     /// The rows in the order of a policy; their behaviours are those of the table by number.
     pub fn rows(&self) -> impl Iterator<Item = Row> {
         self.order.iter().map(|row| {

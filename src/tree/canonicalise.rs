@@ -8,7 +8,7 @@ mod table;
 mod units;
 
 pub(super) use shorten::{covered, shorten};
-pub use table::Decided;
+pub use table::{Decided, Divided};
 
 use super::circuit::Signal;
 use super::circuit::guards::Guards;

@@ -41,9 +41,10 @@ pub fn changes(
     {
         return Ok(changes);
     }
+    let sides = [old, new];
     let mut guards = Guards::new();
     let mut atoms = Vec::new();
-    for side in [old, new] {
+    for side in sides {
         match side {
             Side::Tree(root) => root.visit_atoms(&mut |atom| atoms.push(atom)),
             Side::Policy(policy) => atoms.extend(&policy.atoms),
@@ -79,6 +80,12 @@ pub fn changes(
                 new: *is,
             });
         }
+    }
+    // Beside a long table a short condition may need minterms that it does not list.
+    if changes.iter().any(|change| change.when.is_none())
+        && let Some(listed) = listed::beside(sides)
+    {
+        return Ok(listed);
     }
     Ok(changes)
 }

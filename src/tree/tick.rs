@@ -71,6 +71,17 @@ impl Runner {
         self.tick_in(&mut Known(valuation, leaf))
     }
 
+    /// The behaviour that the tree selects in a valuation, its memory fresh.
+    pub fn select(&mut self, valuation: &[u64]) -> Option<Id<Behavior>> {
+        let mut selected = None;
+        self.reset();
+        self.tick(valuation, |behavior| {
+            selected = selected.or(Some(behavior));
+            Status::Running
+        });
+        selected
+    }
+
     /// One tick in a valuation as the simulator keeps it: a key of at most 128 atoms. The tree is not walked again where
     /// that would lead to the same behaviour.
     pub fn tick_key(&mut self, key: u128, mut leaf: impl FnMut(Id<Behavior>) -> Status) -> Status {

@@ -62,6 +62,26 @@ fn text() {
     );
 }
 
+#[test]
+fn rows_of_a_canonical_table() {
+    let program = |pairs: usize| {
+        let names = |letter| list((0..pairs).map(|i| format!("predicate {letter}{i}\n")), "");
+        let any = list((0..pairs).map(|i| format!("not x{i} and not y{i}")), " or ");
+        let (x, y) = (names("x"), names("y"));
+        format!("{x}{y}behavior go\nbehavior stay\n\ntree t = selector {{ {any} => go, stay }}\n")
+    };
+    let csv = ["canonicalize", "-", "--tree", "t", "--emit", "csv"];
+    assert!(said(&csv, &program(24)).contains("E0819"));
+    let output = btc(&csv, Path::new("."), program(4).as_bytes());
+    assert!(output.status.success(), "{output:?}");
+    let output = btc(
+        &["canonicalize", "-", "--tree", "t"],
+        Path::new("."),
+        program(24).as_bytes(),
+    );
+    assert!(output.status.success(), "{output:?}");
+}
+
 #[cfg(unix)]
 #[test]
 fn files() {

@@ -8,7 +8,7 @@ use crate::ir::expr::{Binary, Expr, ExprId};
 use crate::ir::input::{self, Input, InputKind};
 use crate::ir::law::Behavior;
 use crate::ir::program::Predicate;
-use crate::ir::tree::{Atom, Status, Tree};
+use crate::ir::tree::{Atom, Tree};
 use crate::ir::{Id, Name, Program};
 use crate::policy::table::AtomName;
 use crate::policy::valued::{Column, Columns, Holds, Kind, OPEN, Opens, Test, Valued};
@@ -76,12 +76,7 @@ impl Sides<'_> {
         let of = |behavior: Id<Behavior>| self.program.behaviors[behavior].name.bare();
         let mut wrong: Vec<(usize, Option<Id<Behavior>>)> = Vec::new();
         let each = values.each(tests, Opens::Out, |row, words, _| {
-            let mut selected = None;
-            runner.reset();
-            runner.tick(words, |behavior| {
-                selected = selected.or(Some(behavior));
-                Status::Running
-            });
+            let selected = runner.select(words);
             let allowed = values.allowed(row).iter();
             let mut allowed = allowed.filter_map(|number| names.get(*number as usize));
             let right = selected.is_some_and(|id| allowed.any(|name| *name == of(id)));

@@ -7,9 +7,14 @@ use crate::ir::tree::Atom;
 use crate::logic::{Bits, Columns, Minterm};
 use crate::policy::Policy;
 use crate::tree::canonicalise::covered;
+use crate::tree::equivalence::Side;
+use crate::tree::tick::Runner;
 
 /// A row: for each atom its value, or none if it is free.
 type Cube = Vec<Option<bool>>;
+
+/// What was decided, and what is decided now.
+type Decided = [Option<Id<Behavior>>; 2];
 
 /// The most pairs of rows that are looked at, and the most that may have something in common.
 const PAIRS: usize = 100_000_000;
@@ -30,26 +35,71 @@ pub(super) fn listed(old: &Policy, new: &Policy) -> Option<Vec<Change>> {
         for (b, is) in &after {
             if let Some(both) = meet(a, b) {
                 common.push(both);
-                decided.push((*was, *is));
+                decided.push([Some(*was), Some(*is)]);
             }
         }
     }
-    if common.len() > COMMON {
+    let known = |rows: &[(Cube, Id<Behavior>)]| order(rows.iter().map(|(_, own)| Some(*own)));
+    let orders = [known(&before), known(&after)];
+    changed(&common, &decided, &orders, &atoms)
+}
+
+/// The changes between a table whose rows are minterms and a tree without memory that asks nothing else, where the table has a
+/// row; `None` if they are others than that, or there are too many rows.
+pub(super) fn beside(sides: [Side; 2]) -> Option<Vec<Change>> {
+    let (policy, root, is_new) = match sides {
+        [Side::Policy(policy), Side::Tree(root)] => (policy, root, true),
+        [Side::Tree(root), Side::Policy(policy)] => (policy, root, false),
+        _ => return None,
+    };
+    let minterms = policy.rows.iter().all(|row| row.free.is_none());
+    if root.remembers() || !minterms || policy.rows.len() > COMMON {
         return None;
     }
-    let columns = columns(&common, atoms.len());
+    let mut runner = Runner::new(root, &policy.atoms).ok()?;
+    let decided = policy.rows.iter().map(|row| {
+        let selected = runner.select(row.minterm.words());
+        let listed = Some(row.behavior);
+        match is_new {
+            true => [listed, selected],
+            false => [selected, listed],
+        }
+    });
+    let decided: Vec<Decided> = decided.collect();
+    let atoms = policy.atoms.len();
+    let cubes = policy.rows.iter().map(|row| {
+        let values = (0..atoms).map(|at| Some(row.minterm.get(at)));
+        values.collect()
+    });
+    let cubes: Vec<Cube> = cubes.collect();
+    let orders =
+        [0, 1].map(|side: usize| order(decided.iter().filter_map(|pair| pair.get(side).copied())));
+    changed(&cubes, &decided, &orders, &policy.atoms)
+}
+
+/// What is decided otherwise in these cubes, in the order of the decisions.
+fn changed(
+    cubes: &[Cube],
+    decided: &[Decided],
+    orders: &[Vec<Option<Id<Behavior>>>; 2],
+    atoms: &[Atom],
+) -> Option<Vec<Change>> {
+    if cubes.len() > COMMON {
+        return None;
+    }
+    let columns = columns(cubes, atoms.len());
     let mut changes = Vec::new();
-    for was in order(&before) {
-        for is in order(&after).into_iter().filter(|is| *is != was) {
+    for was in &orders[0] {
+        for is in orders[1].iter().filter(|is| *is != was) {
             let rows = decided.iter().enumerate();
-            let changed = rows.filter(|(_, pair)| **pair == (was, is));
+            let changed = rows.filter(|(_, pair)| **pair == [*was, *is]);
             let on = Bits::collect(decided.len(), changed.map(|(row, _)| row));
             if !on.is_empty() {
                 let off = Bits::full(decided.len()).minus(&on);
                 changes.push(Change {
-                    when: Some(covered(&columns, &on, &off, &atoms)),
-                    old: Some(was),
-                    new: Some(is),
+                    when: Some(covered(&columns, &on, &off, atoms)),
+                    old: *was,
+                    new: *is,
                 });
             }
         }
@@ -104,12 +154,12 @@ fn columns(cubes: &[Cube], atoms: usize) -> Columns {
     Columns::with_free(atoms, words)
 }
 
-/// The behaviours, in the order in which they come first.
-fn order(rows: &[(Cube, Id<Behavior>)]) -> Vec<Id<Behavior>> {
+/// The decisions, in the order in which they come first.
+fn order(decisions: impl Iterator<Item = Option<Id<Behavior>>>) -> Vec<Option<Id<Behavior>>> {
     let mut order = Vec::new();
-    for (_, behavior) in rows {
-        if !order.contains(behavior) {
-            order.push(*behavior);
+    for decision in decisions {
+        if !order.contains(&decision) {
+            order.push(decision);
         }
     }
     order
@@ -117,11 +167,13 @@ fn order(rows: &[(Cube, Id<Behavior>)]) -> Vec<Id<Behavior>> {
 
 #[cfg(test)]
 mod tests {
-    use super::listed;
+    use super::{Change, beside, listed};
     use crate::ir::Id;
     use crate::ir::task::History;
-    use crate::ir::tree::Atom;
+    use crate::ir::tree::{Atom, Guard, Node};
     use crate::policy::{Minterm, Policy, Row};
+    use crate::tree::equivalence::Side;
+    use crate::tree::unit::{guarded, selector};
     use proptest::prelude::*;
     use std::collections::BTreeMap;
 
@@ -187,6 +239,43 @@ mod tests {
                     }
                     prop_assert!(was == is || changes.iter().any(|change| change.old == Some(Id::new(*was))));
                 }
+            }
+        }
+
+        /// Beside a tree, in each minterm that the table lists just the change holds from what the one does to what the other does,
+        /// also where the tree does nothing.
+        #[test]
+        fn a_tree_is_compared_where_the_table_has_a_row(
+            table in listings(),
+            asked in prop::collection::vec((0_usize..ATOMS, any::<bool>(), 0_usize..3), 0..4),
+        ) {
+            let policy = policy(&table);
+            let units = asked.iter().map(|(at, value, behavior)| {
+                let asks = Guard::Atom(atom(table.0 + at));
+                let asks = if *value { asks } else { Guard::Not(Box::new(asks)) };
+                guarded(asks, Node::Behavior(Id::new(*behavior)))
+            });
+            let root = selector(units);
+            let changes = beside([Side::Tree(&root), Side::Policy(&policy)]).unwrap();
+            let turned = beside([Side::Policy(&policy), Side::Tree(&root)]).unwrap();
+            for (values, is) in &table.1 {
+                let first = asked.iter().find(|(at, value, _)| values[*at] == *value);
+                let was = first.map(|(_, _, behavior)| Id::new(*behavior));
+                let mut holds = |asked: Atom| {
+                    let at = (0..ATOMS).find(|at| atom(table.0 + at) == asked).unwrap();
+                    values[at]
+                };
+                let mut took = |old, new, changes: &[Change]| {
+                    let of = |change: &&Change| change.when.as_ref().unwrap().eval(&mut holds);
+                    let held: Vec<_> = changes.iter().filter(of).collect();
+                    match old == new {
+                        true => held.is_empty(),
+                        false => matches!(held.as_slice(), [it] if it.old == old && it.new == new),
+                    }
+                };
+                let is = Some(Id::new(*is));
+                prop_assert!(took(was, is, &changes));
+                prop_assert!(took(is, was, &turned));
             }
         }
     }

@@ -1,10 +1,11 @@
-//! What is asked twice in a tick is asked once.
+//! What is asked or done twice in a tick is asked or done once.
 
 use super::tidy::tidy;
 use crate::ir::tree::{Composite, Guard, Node};
 use crate::tree::guard::{and, common, not, or};
 
-/// The same tree without the literals that an enclosing sequence has asked before in the same tick. It decides the same.
+/// The same tree without the literals that an enclosing sequence has asked before in the same tick, and without the children of a node
+/// without memory that stand before it already. It decides the same.
 pub fn asked_once(root: &Node) -> Node {
     let once = under(root, &mut Vec::new());
     match once == *root {
@@ -27,7 +28,11 @@ fn under(node: &Node, held: &mut Vec<Guard>) -> Node {
             // A sequence with memory does not ask again what it has left behind.
             let asks = *kind == Composite::Sequence && !memory;
             let mut below = Vec::new();
-            for child in children {
+            for (at, child) in children.iter().enumerate() {
+                let before = children.get(..at).unwrap_or_default();
+                if !memory && child.answers_again() && before.contains(child) {
+                    continue;
+                }
                 below.push(under(child, held));
                 if let (true, Node::Condition(guard)) = (asks, child) {
                     held.extend(common(guard).0.into_iter().filter(is_literal));

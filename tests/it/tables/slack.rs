@@ -2,6 +2,7 @@
 
 use super::{USUAL, compared, made, text};
 use crate::snapshot;
+use btc::diagnostic::Code;
 use btc::driver::decanonicalize::Options;
 use proptest::prelude::*;
 
@@ -45,6 +46,19 @@ fn slack_that_is_too_small_changes_nothing() {
     let unknown = TABLE.replace("0.95", "").replace("0.96", "");
     let table = text("t.csv", unknown.as_bytes());
     assert_eq!(made(table, None, &with(0.5)).unwrap().text, exact.text);
+}
+
+/// A behaviour that rows choose and that has no column of values is told: its rows would never be decided otherwise.
+#[test]
+fn a_behavior_without_values_is_told() {
+    let lines = TABLE.lines().map(|line| line.rsplit_once(',').unwrap().0);
+    let table: String = lines.map(|line| format!("{line}\n")).collect();
+    let Err(refused) = made(text("t.csv", table.as_bytes()), None, &with(0.1)) else {
+        panic!("`z` has no column");
+    };
+    let found = &refused.diagnostics[0];
+    assert_eq!(found.code, Code::E0817);
+    assert_eq!(found.span().range().start, table.find(",z,").unwrap() + 1);
 }
 
 /// A table over four predicates in which each of three behaviours has a value.
