@@ -57,8 +57,8 @@ impl<'a> Checker<'a> {
         self.conditions_without_effect();
         self.choices_alike(items());
         self.regions_without_effect(items());
-        self.choices_that_never_succeed(items());
-        self.calls_that_take_no_time();
+        let told = self.choices_that_never_succeed(items());
+        self.calls_without_effect(&told);
         self.predicates_without_effect(items());
         self.rewards_without_effect(items());
         self.moments_that_last(items());

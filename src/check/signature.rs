@@ -293,6 +293,7 @@ impl<'a> Checker<'a> {
                     format!("`{name}` is a function"),
                 )
                 .label(format!("call it: `{name}(…)`"))
+                .help_if((name == "min").then(|| "one minute is `1 min`".to_owned()))
                 .help_if(
                     (name == "pose").then(|| "where the robot at hand is: `position`".to_owned()),
                 )

@@ -202,7 +202,8 @@ impl<'a> Checker<'a> {
             };
         }
         let seconds = self.constant(expr, &Type::TIME, role)?;
-        let ticks = (seconds / self.tick?).round();
+        let tick = self.tick?;
+        let ticks = (seconds / tick).round();
         if (1.0..=1e15).contains(&ticks) {
             return Some(ticks as u64);
         }
@@ -214,6 +215,7 @@ impl<'a> Checker<'a> {
             "this is too long"
         };
         self.out_of_range(expr.span, format!("{role} is at least one tick"), label)
+            .note_if((tick >= 1.0).then(|| format!("a tick of this world takes {tick} s")))
             .none()
     }
 

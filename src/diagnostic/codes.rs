@@ -170,6 +170,7 @@ codes! {
     W0301 "a plain number for a ratio",
     W0302 "a region that is never reached",
     W0303 "one thing said twice",
+    W0304 "a measure that is to be exact",
 
     W0401 "a part of the world that does nothing",
     W0402 "a size out of proportion",
@@ -196,6 +197,7 @@ codes! {
     W0520 "a claim that allows most of what it denies",
     W0521 "a moment that is taken for a time",
     W0522 "an episode that ends as it starts",
+    W0523 "a tree that learning leaves out",
 
     W0601 "a condition that always or never holds",
     W0602 "a node that is never reached",
@@ -204,6 +206,7 @@ codes! {
     W0605 "a decorator that changes nothing",
     W0606 "a child that is there already",
     W0607 "a tree that runs nothing",
+    W0608 "a sequence that never succeeds",
 }
 
 impl Code {

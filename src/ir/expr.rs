@@ -92,7 +92,7 @@ pub enum Expr {
 }
 
 /// What is read of the robot's own pose.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Pose {
     /// The x coordinate in metres.
     X,

@@ -38,6 +38,18 @@ pub struct Task {
     pub written: Written,
 }
 
+impl Task {
+    /// The first behaviour of a tree that the task does not choose among.
+    pub fn lacks(&self, tree: &Tree) -> Option<Id<Behavior>> {
+        let mut lacking = None;
+        tree.root.visit_behaviors(&mut |behavior| {
+            let lacks = !self.choose.contains(&behavior);
+            lacking = lacking.or(lacks.then_some(behavior));
+        });
+        lacking
+    }
+}
+
 /// `while condition, per time: value`
 #[derive(Clone, Debug, PartialEq)]
 pub struct Price {

@@ -8,7 +8,7 @@ use crate::check::types::units::Dim;
 use crate::check::types::{Type, Typed};
 use crate::diagnostic::{Applicability, Code};
 use crate::ir::Pool;
-use crate::ir::expr::{Binary, ExprId, Unary};
+use crate::ir::expr::{Binary, Echo, Expr as Node, ExprId, Unary};
 use crate::source::Span;
 use crate::syntax::ast::{self, BinaryOp, Expr, ExprKind, UnaryOp};
 use crate::syntax::print;
@@ -302,6 +302,9 @@ impl<'a> Checker<'a> {
         };
         self.warn_plain_ratio(left, &b.ty);
         self.warn_plain_ratio(right, &a.ty);
+        if equality && (self.is_measure(&a) || self.is_measure(&b)) {
+            self.exact_measure(op.node == BinaryOp::Eq, span);
+        }
         let (op, a, b) = match op.node {
             BinaryOp::Eq => (Binary::Eq, a, b),
             BinaryOp::Ne => (Binary::Ne, a, b),
@@ -311,6 +314,58 @@ impl<'a> Checker<'a> {
             _ => (Binary::Le, b, a),
         };
         self.lift_binary(op, Type::Bool, &a, &b, span)
+    }
+
+    /// Whether this is where a robot is, how far it is from something, or what is reckoned from that: no two are ever quite
+    /// the same.
+    fn is_measure(&self, of: &Typed) -> bool {
+        fn measures(pool: &Pool, id: ExprId) -> bool {
+            match pool.get(id) {
+                Node::Pose(_) | Node::Robot(..) => true,
+                Node::NearestWall(echo) | Node::Wall(_, echo) => echo != Echo::Seen,
+                Node::Unary(op, of) => {
+                    !matches!(
+                        op,
+                        Unary::Not | Unary::Round | Unary::Floor | Unary::Ceil | Unary::Sign
+                    ) && measures(pool, of)
+                }
+                Node::Binary(op, a, b) => {
+                    let reckoned = matches!(
+                        op,
+                        Binary::Add
+                            | Binary::Sub
+                            | Binary::Mul
+                            | Binary::Div
+                            | Binary::Hypot
+                            | Binary::Atan2
+                    );
+                    reckoned && (measures(pool, a) || measures(pool, b))
+                }
+                _ => false,
+            }
+        }
+        let dimensioned = of.ty.dim().is_some();
+        let expr = of.scalar().filter(|_| dimensioned);
+        expr.is_some_and(|id| measures(&self.program.pool, id))
+    }
+
+    fn exact_measure(&mut self, equal: bool, at: Span) {
+        if self.context.library {
+            return;
+        }
+        let (message, label) = match equal {
+            true => (
+                "a measure is hardly ever just so much",
+                "next to no tick meets this exactly",
+            ),
+            false => (
+                "a measure is nearly always other than that",
+                "nearly every tick meets this",
+            ),
+        };
+        self.warning(Code::W0304, at, message)
+            .label(label)
+            .help("leave some room, as in `distance(home) <= 5 cm`");
     }
 
     /// Whether a name that is not declared may be a value of what its broken declaration does not tell.

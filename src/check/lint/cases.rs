@@ -6,9 +6,10 @@
 use super::interval::Interval;
 use super::ranges::{may_be, range, values};
 use super::view::View;
-use crate::ir::expr::{Binary, Expr, ExprId, Unary};
+use crate::ir::expr::{Binary, Expr, ExprId, Pose, Unary};
+use crate::ir::law::Behavior;
 use crate::ir::program::Stays;
-use crate::ir::tree::{Atom, Guard};
+use crate::ir::tree::{Atom, Guard, Status};
 use crate::ir::world::Place;
 use crate::ir::{Id, Pool, Program};
 use std::collections::BTreeMap;
@@ -21,6 +22,15 @@ const LONGEST: usize = 64;
 
 /// How deeply a condition may nest.
 const DEEPEST: usize = 64;
+
+/// How far beyond its bounds a shape may reach by rounding, in metres.
+const SLACK: f64 = 1e-6;
+
+/// The bits of how a behaviour ends in a tick: so, or so, or not at all.
+const SUCCEEDED: u64 = 0b001;
+const FAILED: u64 = 0b010;
+const NEITHER: u64 = 0b100;
+const ENDINGS: u64 = SUCCEEDED | FAILED | NEITHER;
 
 /// The bits of a state that is never true, and of one that always is.
 const FALSE: u64 = 0b01;
@@ -35,6 +45,10 @@ pub enum About {
     Atom(Atom),
     /// The number that an expression is.
     Number(ExprId),
+    /// Where the robot that reads is.
+    At(Pose),
+    /// Whether a behaviour has ended in this tick, and how.
+    Ended(Id<Behavior>),
 }
 
 /// What a literal says.
@@ -46,6 +60,13 @@ pub enum Says {
     Among(u64),
     /// It is not a number.
     NoNumber,
+}
+
+impl Says {
+    /// Whether a behaviour has ended, as it says of [`About::Ended`].
+    pub fn is_an_end(self) -> bool {
+        matches!(self, Self::Among(among) if among & NEITHER == 0)
+    }
 }
 
 /// What an expression of numbers may come to.
@@ -237,6 +258,15 @@ impl Reader<'_> {
                 _ => Cases::one(About::Truth(id), Says::Is(wanted)),
             },
             Expr::Inside(place) if self.is_in(place) => Cases::constant(wanted),
+            Expr::Inside(place) if wanted => self.inside(id, place),
+            Expr::Ended(behavior, status) if status != Status::Running => {
+                let bit = match status {
+                    Status::Success => SUCCEEDED,
+                    _ => FAILED,
+                };
+                let among = if wanted { bit } else { ENDINGS & !bit };
+                Cases::one(About::Ended(behavior), Says::Among(among))
+            }
             Expr::Binary(op, a, b) => {
                 let compared = self.compared(op, a, b, wanted);
                 compared.unwrap_or_else(|| Cases::one(About::Truth(id), Says::Is(wanted)))
@@ -248,6 +278,37 @@ impl Reader<'_> {
     fn is_in(&self, place: Id<Place>) -> bool {
         let world = self.view.program.world.as_ref();
         world.is_some_and(|world| self.view.is_in(&world.places[place].shape))
+    }
+
+    /// A robot that is in a place is within its bounds.
+    fn inside(&self, id: ExprId, place: Id<Place>) -> Cases {
+        let mut case = Case::from([(About::Truth(id), Says::Is(true))]);
+        let world = self.view.program.world.as_ref();
+        if let Some(world) = world {
+            let ([left, bottom], [right, top]) = world.places[place].shape.bounds();
+            for (pose, low, high) in [(Pose::X, left, right), (Pose::Y, bottom, top)] {
+                let within = Interval::between(low - SLACK, high + SLACK);
+                case.insert(About::At(pose), Says::Within(within));
+            }
+        }
+        Cases::Some(vec![case])
+    }
+
+    /// The case in which a number is within an interval. A distance that is no greater than so much bounds where the robot is.
+    fn within(&self, of: ExprId, within: Interval) -> Case {
+        let pool = &self.view.program.pool;
+        let mut case = Case::new();
+        if let Expr::Binary(Binary::Hypot, dx, dy) = pool.get(of) {
+            let (_, most) = within.ends();
+            let side = Interval::between(-most - SLACK, most + SLACK);
+            for part in [dx, dy] {
+                if let Some((pose, within)) = place(pool, part, side) {
+                    case.insert(About::At(pose), Says::Within(within));
+                }
+            }
+        }
+        case.insert(about(pool, of), Says::Within(within));
+        case
     }
 
     /// When a comparison holds, or does not, as far as that is known.
@@ -286,11 +347,32 @@ impl Reader<'_> {
             return Some(Cases::constant(true));
         }
         let possible = within.into_iter().filter(|part| !part.and(may).is_empty());
-        let case = |says| Case::from([(About::Number(of), says)]);
-        let within = possible.map(Says::Within);
-        let none = none.then_some(Says::NoNumber);
-        Some(Cases::Some(within.chain(none).map(case).collect()))
+        let within = possible.map(|within| self.within(of, within));
+        let none = none.then(|| Case::from([(about(&self.view.program.pool, of), Says::NoNumber)]));
+        Some(Cases::Some(within.chain(none).collect()))
     }
+}
+
+/// What a literal on a number is about.
+fn about(pool: &Pool, of: ExprId) -> About {
+    match pool.get(of) {
+        Expr::Pose(pose @ (Pose::X | Pose::Y)) => About::At(pose),
+        _ => About::Number(of),
+    }
+}
+
+/// Where the robot is if its distance from a constant along an axis is within an interval.
+fn place(pool: &Pool, difference: ExprId, within: Interval) -> Option<(Pose, Interval)> {
+    let Expr::Binary(Binary::Sub, a, b) = pool.get(difference) else {
+        return None;
+    };
+    let (low, high) = within.ends();
+    let (pose, low, high) = match (pool.get(a), pool.get(b)) {
+        (Expr::Pose(pose), Expr::Num(value)) => (pose, value + low, value + high),
+        (Expr::Num(value), Expr::Pose(pose)) => (pose, value - high, value - low),
+        _ => return None,
+    };
+    (pose != Pose::Heading).then(|| (pose, Interval::between(low, high)))
 }
 
 /// The truth value of a constant.

@@ -22,6 +22,7 @@ impl<'a> Checker<'a> {
             Decorator::Retry(_) | Decorator::Succeed if !fails => "its child never fails",
             Decorator::Repeat(_) | Decorator::Fail if !succeeds => "its child never succeeds",
             Decorator::Timeout(_) if is_instant(child) => "its child answers at once",
+            Decorator::Timeout(ticks) if self.is_timed_out(at, ticks, child) => return,
             _ => return,
         };
         let message = format!("`{}` changes nothing here", kind.word());
@@ -31,7 +32,7 @@ impl<'a> Checker<'a> {
     /// Warns of a child of a node without memory that stands before it already: what has answered once in a tick answers
     /// the same again.
     pub fn stands_twice(&mut self, written: &'a [ast::Node], nodes: &[Node], at: usize) -> bool {
-        let Some(node) = nodes.get(at).filter(|node| answers_again(node)) else {
+        let Some(node) = nodes.get(at).filter(|node| node.answers_again()) else {
             return false;
         };
         let first = nodes.iter().take(at).position(|other| other == node);
@@ -147,20 +148,6 @@ fn is_instant(node: &Node) -> bool {
     );
     let runs = matches!(node, Node::Behavior(_));
     !waits && !runs && node.children().iter().all(is_instant)
-}
-
-/// Whether a node that has answered gives the same answer when it is ticked again in the same tick.
-fn answers_again(node: &Node) -> bool {
-    let keeps = match node {
-        Node::Condition(Guard::Const(_)) | Node::Parallel { .. } => true,
-        Node::Composite { memory, .. } => *memory,
-        Node::Decorator { kind, .. } => matches!(
-            kind,
-            Decorator::Retry(_) | Decorator::Repeat(_) | Decorator::Timeout(_)
-        ),
-        Node::Condition(_) | Node::Behavior(_) => false,
-    };
-    !keeps && node.children().iter().all(answers_again)
 }
 
 /// The operands of a conjunction.

@@ -8,6 +8,7 @@ use crate::check::Checker;
 use crate::diagnostic::Code;
 use crate::ir::expr::{Expr, ExprId, Local};
 use crate::ir::law::{Behavior, Law};
+use crate::ir::tree::Node;
 use crate::ir::{Id, Name, Pool};
 use crate::source::Span;
 use crate::syntax::ast::{AspectKind, BehaviorBody, Clause, ClauseKind, Item, ItemKind, Ref};
@@ -82,11 +83,23 @@ impl<'a> Checker<'a> {
     }
 
     /// Warns of behaviours of the library that are over before they do anything, where they are called first.
-    pub fn calls_that_take_no_time(&mut self) {
+    /// Warns of those, too, that never succeed as they are called, where a task does not choose them: `choices` are the
+    /// conditions of success of which that has been told.
+    pub fn calls_without_effect(&mut self, choices: &BTreeSet<ExprId>) {
         let mut told = BTreeSet::new();
         for (at, id) in std::mem::take(&mut self.library_calls) {
             let behavior = &self.program.behaviors[id];
             let view = View::of(&self.program, &behavior.name);
+            let law = behavior.law.as_ref();
+            let never =
+                law.filter(|law| succeeds_never(view, law) && !choices.contains(&law.succeed));
+            if let Some(law) = never {
+                if told.insert(id) {
+                    let (name, why) = (behavior.name.bare(), because(view, law.succeed));
+                    self.never_succeeds(at, &name, why);
+                }
+                continue;
+            }
             let over = behavior.law.as_ref().is_some_and(|law| {
                 let always = |asked| of_expr(view, asked, false).is_never();
                 always(law.requires) && always(law.succeed)
@@ -195,6 +208,10 @@ impl<'a> Checker<'a> {
             let fails = of_expr(view, law.fail, true);
             fails.implies(&of_expr(view, law.succeed, true))
         });
+        let fails_never = every(&|view, law| {
+            let waits = view.program.pool.constant(law.fail).is_none();
+            waits && of_expr(view, law.fail, true).is_never()
+        });
         let never_succeeds = every(&|view, law| succeeds_never(view, law));
         let fails_at_once = every(&|view, law| {
             let allowed = of_expr(view, law.requires, true);
@@ -222,6 +239,10 @@ impl<'a> Checker<'a> {
                 );
         } else if let (true, Some(at)) = (succeeds_as_it_starts, succeed) {
             self.over_as_it_starts("succeeds", at);
+        } else if let (true, Some(at)) = (fails_never, fail) {
+            let label = "what it waits for never holds";
+            self.warning(Code::W0302, at, "this behaviour never fails here")
+                .label(label);
         } else if let (true, Some(at), Some(before)) = (shadowed, fail, succeed) {
             self.warning(Code::W0302, at, "this behaviour never fails here")
                 .label("wherever this holds, it has succeeded already")
@@ -280,7 +301,12 @@ impl<'a> Checker<'a> {
     }
 
     /// Warns of behaviours of the library that a task chooses and that never succeed as they are called.
-    pub fn choices_that_never_succeed(&mut self, items: impl Iterator<Item = &'a Item> + Clone) {
+    /// Gives their conditions of success.
+    pub fn choices_that_never_succeed(
+        &mut self,
+        items: impl Iterator<Item = &'a Item> + Clone,
+    ) -> BTreeSet<ExprId> {
+        let mut told = BTreeSet::new();
         let own: BTreeSet<&str> = (items.clone())
             .filter_map(|item| match &item.kind {
                 ItemKind::Behavior(behavior) => {
@@ -314,15 +340,51 @@ impl<'a> Checker<'a> {
                     (law, at, own.contains(behavior.name.family.as_str()))
                 {
                     let why = because(view, law.succeed);
+                    told.insert(law.succeed);
                     found.push((at.span, behavior.name.bare(), why));
                 }
             }
         }
         for (at, name, why) in found {
-            self.warning(Code::W0302, at, format!("`{name}` never succeeds"))
-                .label("what it waits for never holds")
-                .note_if(why);
+            self.never_succeeds(at, &name, why);
         }
+        told
+    }
+
+    fn never_succeeds(&mut self, at: Span, name: &str, why: Option<String>) {
+        self.warning(Code::W0302, at, format!("`{name}` never succeeds"))
+            .label("what it waits for never holds")
+            .note_if(why);
+    }
+
+    /// Whether a timeout ends a behaviour before it could end by itself; warned of if so.
+    pub fn is_timed_out(&mut self, at: Span, ticks: u64, child: &Node) -> bool {
+        let Node::Behavior(id) = child else {
+            return false;
+        };
+        let program = &self.program;
+        let behavior = &program.behaviors[*id];
+        let tick = program.world.as_ref().map(|world| world.tick);
+        let elapsed = Starting::of(&program.pool).elapsed;
+        let (Some(law), Some(tick), Some(elapsed)) = (&behavior.law, tick, elapsed) else {
+            return false;
+        };
+        let time = ticks as f64 * tick;
+        let within = Interval::between(0.0, time + tick / 2.0);
+        let in_time = Cases::Some(vec![Case::from([(
+            About::Number(elapsed),
+            Says::Within(within),
+        )])]);
+        let view = View::of(program, &behavior.name);
+        let ends = of_expr(view, law.succeed, true).or(&of_expr(view, law.fail, true));
+        let never = of_expr(view, law.requires, false).is_never() && ends.and(&in_time).is_never();
+        if ends.is_never() || !never {
+            return false;
+        }
+        let message = format!("`{}` never ends in that time", behavior.name.bare());
+        self.warning(Code::W0302, at, message)
+            .label("this always fails, whatever happens");
+        true
     }
 }
 

@@ -50,7 +50,7 @@ fn standing(program: &Program, condition: ExprId) -> Option<Id<Behavior>> {
 }
 
 /// Whether an expression keeps its value as long as the robot stands: it reads nothing but where that is.
-fn lasts(program: &Program, id: ExprId) -> bool {
+pub(super) fn lasts(program: &Program, id: ExprId) -> bool {
     let of_pose = matches!(
         program.pool.get(id),
         Expr::Num(_)

@@ -155,6 +155,9 @@ impl<'a> Checker<'a> {
                         _ => None,
                     }
                 }
+                About::Ended(behavior) if says.is_an_end() => {
+                    (!run.contains(behavior)).then_some(*behavior)
+                }
                 _ => None,
             })
         };

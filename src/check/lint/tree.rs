@@ -3,13 +3,16 @@
 //! Within a tick predicates do not change: a node is reached where all that stands before it gives way. What drives and
 //! fails gives way, too, so only what can never fail shuts off what follows it in a selector.
 
-use super::cases::{Cases, of_guard};
+use super::cases::{About, Cases, of_expr, of_guard};
 use super::idle::is_switch;
 use super::mentions::Mentions;
+use super::repaid::lasts;
+use super::view::View;
 use crate::check::Checker;
 use crate::diagnostic::Code;
+use crate::ir::law::Behavior;
 use crate::ir::tree::{Atom, Composite, Decorator, Guard, Node, Status};
-use crate::ir::{Name, Program};
+use crate::ir::{Id, Name, Program};
 use crate::source::Span;
 use crate::syntax::ast::{self, ExprKind, Item, ItemKind, NodeKind};
 
@@ -133,6 +136,9 @@ impl<'a> Checker<'a> {
             };
             let passes = when(&self.program, node, status);
             if kind == Composite::Sequence && !memory {
+                self.starts_over(written, nodes, at);
+            }
+            if kind == Composite::Sequence && !memory {
                 held = held.and(&passes);
             }
             // A bare condition in a selector has a warning of its own.
@@ -151,6 +157,36 @@ impl<'a> Checker<'a> {
             }
             open = next;
         }
+    }
+
+    /// Warns of a behaviour in a sequence without memory that succeeds only where one before it does not.
+    fn starts_over(&mut self, written: &'a [ast::Node], nodes: &[Node], at: usize) {
+        let Some((Node::Behavior(here), at_here)) = nodes.get(at).zip(written.get(at)) else {
+            return;
+        };
+        let program = &self.program;
+        let succeeds = where_it_succeeds(program, *here);
+        let mut before = nodes.iter().zip(written).take(at);
+        let apart = before.find_map(|(node, written)| match node {
+            Node::Behavior(id) => {
+                let both = where_it_succeeds(program, *id).and(&succeeds);
+                both.is_never().then_some((*id, written.span))
+            }
+            _ => None,
+        });
+        let Some((first, at_first)) = apart else {
+            return;
+        };
+        let [first, here] = [first, *here].map(|id| program.behaviors[id].name.bare());
+        let message = format!("`{first}` and `{here}` never succeed in the same tick");
+        let label = format!("on its way here the robot leaves where `{first}` succeeds");
+        self.warning(Code::W0608, at_here.span, message)
+            .label(label)
+            .also(
+                at_first,
+                "then this drives again, and the sequence never succeeds",
+            )
+            .help("in a `memory sequence` what has succeeded is not ticked again");
     }
 
     /// Whether a guard always or never holds; warned of if so.
@@ -203,7 +239,9 @@ pub fn when(program: &Program, node: &Node, status: Status) -> Cases {
     };
     match node {
         Node::Condition(guard) => of_guard(program, guard, !fails),
-        Node::Behavior(id) => possible(program.may_end(*id, status)),
+        Node::Behavior(id) if !program.may_end(*id, status) => Cases::constant(false),
+        Node::Behavior(_) if fails => Cases::Unknown,
+        Node::Behavior(id) => where_it_succeeds(program, *id),
         Node::Composite {
             kind,
             memory,
@@ -237,6 +275,30 @@ pub fn when(program: &Program, node: &Node, status: Status) -> Cases {
         },
         Node::Parallel { .. } => Cases::Unknown,
     }
+}
+
+/// Where a behaviour may succeed, as far as that hangs on nothing but where the robot is.
+fn where_it_succeeds(program: &Program, id: Id<Behavior>) -> Cases {
+    let behavior = &program.behaviors[id];
+    let Some(law) = &behavior.law else {
+        return Cases::Unknown;
+    };
+    let succeeds = of_expr(View::of(program, &behavior.name), law.succeed, true);
+    let Cases::Some(mut cases) = succeeds else {
+        return succeeds;
+    };
+    // What it waits for never holds: that is told where it is declared.
+    if cases.is_empty() {
+        return Cases::Unknown;
+    }
+    for case in &mut cases {
+        case.retain(|about, _| match about {
+            About::At(_) => true,
+            About::Truth(id) | About::Number(id) => lasts(program, *id),
+            About::Atom(_) | About::Ended(_) => false,
+        });
+    }
+    Cases::Some(cases)
 }
 
 /// The part of a node to point at: its guard, or the word that it begins with.

@@ -172,12 +172,8 @@ fn grown<W: World>(
         ..
     } = *experiment;
     let ground = grow::ground(experiment, seed);
-    let played = |tree: &&Tree| {
-        let mut chosen = tree.task.is_none_or(|of| of == learner.task);
-        tree.root
-            .visit_behaviors(&mut |behavior| chosen &= task.choose.contains(&behavior));
-        chosen
-    };
+    let played =
+        |tree: &&Tree| tree.task.is_none_or(|of| of == learner.task) && task.lacks(tree).is_none();
     let others = program
         .trees
         .values()

@@ -2,12 +2,14 @@
 
 use crate::driver::load::Loaded;
 use crate::driver::target;
+use crate::ir::Name;
 use crate::ir::task::{Learner, Task, Written};
 use crate::source::Span;
 use crate::syntax::ast::{self, Aspect, AspectKind, ItemKind};
 
 /// The places of a learner and its task. What cannot be found stands at the task's name, or at the end of the file.
 pub(super) struct Places<'a> {
+    loaded: &'a Loaded,
     task: Option<&'a ast::Task>,
     written: &'a Written,
     /// The name of the learner's task, where the learner stands.
@@ -17,6 +19,7 @@ pub(super) struct Places<'a> {
 impl<'a> Places<'a> {
     pub(super) fn of(loaded: &'a Loaded, learner: &Learner, task: &'a Task) -> Self {
         let mut found = Self {
+            loaded,
             task: None,
             written: &task.written,
             learner: target::end_of_file(loaded),
@@ -34,6 +37,16 @@ impl<'a> Places<'a> {
             }
         }
         found
+    }
+
+    /// The name of a tree, where it stands.
+    pub(super) fn tree(&self, name: &Name) -> Span {
+        let mut items = self.loaded.asts().flat_map(|file| &file.items);
+        let found = items.find_map(|item| match &item.kind {
+            ItemKind::Tree(tree) if name.is(&tree.name.name) => Some(tree.name.span),
+            _ => None,
+        });
+        found.unwrap_or(self.learner)
     }
 
     /// The first that is found in an aspect of the task.

@@ -6,6 +6,7 @@ use crate::driver::load::Loaded;
 use crate::ir::law::Behavior;
 use crate::ir::program::Event;
 use crate::ir::task::{RewardLine, Task};
+use crate::ir::tree::Tree;
 use crate::ir::{Expr, ExprId, Id, Program};
 use crate::learn::curve::Point;
 use crate::learn::poisson::interval95;
@@ -48,6 +49,9 @@ pub(super) fn warnings(loaded: &Loaded, results: &Results) -> Vec<Diagnostic> {
     found.extend(warner.little_evidence());
     found.extend(warner.rising(&run.points));
     found.extend(warner.repeated());
+    if results.grown.is_some() {
+        found.extend(warner.left_out());
+    }
     found
 }
 
@@ -297,5 +301,25 @@ impl Warner<'_> {
         };
         let choices = self.task.choose.iter().enumerate();
         choices.filter_map(warning).collect()
+    }
+
+    /// Trees for the task that do what its policy cannot.
+    fn left_out(&self) -> Vec<Diagnostic> {
+        let of = self.results.experiment.learner.task;
+        let trees = self.program.trees.values();
+        let trees = trees.filter(|tree| tree.task == Some(of));
+        let warning = |tree: &Tree| {
+            let behavior = &self.program.behaviors[self.task.lacks(tree)?].name;
+            let name = &tree.name;
+            let message = format!("learning leaves `{name}` out");
+            let label = format!("it does `{behavior}`, which the task does not choose among");
+            Some(
+                Diagnostic::new(Code::W0523, self.places.tree(name), message)
+                    .label(label)
+                    .note("no tree grows from it, and what is learned is not compared with it")
+                    .help(format!("list `{behavior}` under `choose`")),
+            )
+        };
+        trees.filter_map(warning).collect()
     }
 }

@@ -16,7 +16,8 @@ pub(super) const HISTORY: &str = "the ends of a history";
 const LEAVES: [&str; 2] = ["behavior", "tree"];
 
 /// What other notations put before the nodes of a tree.
-const BEFORE_NODES: [&str; 18] = [
+const BEFORE_NODES: [&str; 19] = [
+    "is",
     "reactive",
     "async",
     "subtree",
@@ -177,6 +178,9 @@ impl<'i> Builder<'i> {
             self.report(diagnostic);
             return;
         }
+        if what == "arguments" && self.named_behind(before, place) {
+            return;
+        }
         let mut diagnostic = Diagnostic::new(Code::E0112, place, message)
             .label("this begins another one")
             .note(format!("commas part {what}"))
@@ -250,6 +254,33 @@ impl<'i> Builder<'i> {
     /// Whether a name is that of a behaviour or a subtree, as far as the text shows.
     pub(super) fn names_leaf(&self, name: &str) -> bool {
         DRIVING.contains(&name) || self.glance().declares_by(&LEAVES, name)
+    }
+
+    /// Reports the name of an argument behind its value: `goto(gate, 5 cm margin)`.
+    fn named_behind(&mut self, before: Option<Span>, next: Span) -> bool {
+        let Some(before) = before.filter(|before| self.on_one_line(*before, next)) else {
+            return false;
+        };
+        let (value, name) = (self.slice(before), self.slice(next));
+        let rest = self.text.get(next.range().end..).unwrap_or_default();
+        let ends = rest.trim_start_matches(is_blank).starts_with([',', ')']);
+        let is_value = value.starts_with(|c: char| c.is_ascii_digit());
+        let is_name = name.chars().all(|c| c.is_ascii_alphabetic() || c == '_');
+        if !ends || !is_value || !is_name || RESERVED.contains(&name) {
+            return false;
+        }
+        let span = before.to(next);
+        let message = format!("the name `{name}` stands behind its value");
+        let diagnostic = Diagnostic::new(Code::E0101, next, message)
+            .label("an argument that is named begins with its name")
+            .fix(
+                "put it first",
+                span,
+                format!("{name} = {value}"),
+                Applicability::Unsafe,
+            );
+        self.report(diagnostic);
+        true
     }
 
     /// What is said of a word behind the number that an argument ends with: it is no unit, or one too many.

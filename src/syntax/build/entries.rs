@@ -249,6 +249,9 @@ impl<'i> Builder<'i> {
             let amount = rest.split(['{', '}', ',', ')']).next()?.trim();
             return Some(format!("{word}({amount}) {{ … }}"));
         }
+        if counted && same_line && next.kind == Kind::Word {
+            return Some(format!("{word}(2) {{ … }}"));
+        }
         let waits = line.trim_start().starts_with("on ") && next.of(self.text) == "if";
         let family = line.contains(':');
         (waits && same_line).then(|| match family {

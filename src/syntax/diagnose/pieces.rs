@@ -3,6 +3,7 @@
 use super::Place;
 use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::source::Span;
+use crate::syntax::grammar::Rule;
 use crate::syntax::tokens::{Kind, Token};
 use crate::syntax::words::UNITS;
 
@@ -11,6 +12,7 @@ impl Place<'_> {
     pub(super) fn in_pieces(&self) -> Option<Diagnostic> {
         self.decimal_comma()
             .or_else(|| self.torn_sign())
+            .or_else(|| self.asked_for_truth())
             .or_else(|| self.mixed_units())
             .or_else(|| self.unit_of_a_call())
             .or_else(|| self.returned())
@@ -36,6 +38,13 @@ impl Place<'_> {
 
     /// `< =`, `= >`: a sign in two pieces.
     fn torn_sign(&self) -> Option<Diagnostic> {
+        if let (true, Some(next)) = (self.expects(Rule::guards), self.next())
+            && (self.found(), next.of(self.text)) == ("=", ">")
+            && !self.parted(self.found, next)
+        {
+            let span = self.span().to(self.span_of(next));
+            return self.told(span, "`=>` is one sign", "=>");
+        }
         let before = self.before.filter(|_| self.same_line_as_before())?;
         let sign = match (before.of(self.text), self.found()) {
             ("<", "=") => "<=",
@@ -47,6 +56,25 @@ impl Place<'_> {
         };
         let span = self.span_of(before).to(self.span());
         self.told(span, format!("`{sign}` is one sign"), sign)
+    }
+
+    /// `low = true`: a guard is true or false by itself.
+    fn asked_for_truth(&self) -> Option<Diagnostic> {
+        let value = self.next()?;
+        let asks = self.expects(Rule::guards) && matches!(self.found(), "=" | "==");
+        let is = match value.of(self.text) {
+            "true" if asks => true,
+            "false" if asks => false,
+            _ => return None,
+        };
+        let span = self.span().to(self.span_of(value));
+        let message = format!("`{}` is not asked for here", value.of(self.text));
+        let diagnostic = Diagnostic::new(Code::E0101, span, message)
+            .label("a predicate is true or false by itself");
+        Some(match is {
+            true => diagnostic.fix("leave this out", span, "", Applicability::Unsafe),
+            false => diagnostic.help(format!("where it is not: `not {}`", self.before())),
+        })
     }
 
     /// `20 s 500 ms`: a quantity of two units.
