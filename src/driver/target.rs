@@ -120,7 +120,7 @@ pub fn only_tree(loaded: &Loaded) -> Result<Id<Tree>, Refused> {
 }
 
 /// What the trees of a program name as their leaves, and the trees that its other robots run.
-fn used_trees(loaded: &Loaded) -> Vec<&str> {
+pub fn used_trees(loaded: &Loaded) -> Vec<&str> {
     fn leaves<'a>(node: &'a Node, found: &mut Vec<&'a str>) {
         match &node.kind {
             NodeKind::Composite { children, .. } => {

@@ -82,9 +82,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Warns of behaviours of the library that are over before they do anything, where they are called first.
-    /// Warns of those, too, that never succeed as they are called, where a task does not choose them: `choices` are the
-    /// conditions of success of which that has been told.
+    /// Warns of behaviours of the library that are over before they do anything, and of those that never succeed as they are
+    /// called, where they are called first. `choices` are the conditions of success of which that has been told.
     pub fn calls_without_effect(&mut self, choices: &BTreeSet<ExprId>) {
         let mut told = BTreeSet::new();
         for (at, id) in std::mem::take(&mut self.library_calls) {
@@ -100,7 +99,7 @@ impl<'a> Checker<'a> {
                 }
                 continue;
             }
-            let over = behavior.law.as_ref().is_some_and(|law| {
+            let over = law.is_some_and(|law| {
                 let always = |asked| of_expr(view, asked, false).is_never();
                 always(law.requires) && always(law.succeed)
             });
@@ -240,9 +239,8 @@ impl<'a> Checker<'a> {
         } else if let (true, Some(at)) = (succeeds_as_it_starts, succeed) {
             self.over_as_it_starts("succeeds", at);
         } else if let (true, Some(at)) = (fails_never, fail) {
-            let label = "what it waits for never holds";
             self.warning(Code::W0302, at, "this behaviour never fails here")
-                .label(label);
+                .label("what it waits for never holds");
         } else if let (true, Some(at), Some(before)) = (shadowed, fail, succeed) {
             self.warning(Code::W0302, at, "this behaviour never fails here")
                 .label("wherever this holds, it has succeeded already")

@@ -64,8 +64,9 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Places that the robot is sent to and no way leads to: from where it starts, or if that may be anywhere from the first of
-    /// these places. The grid is generous: a robot a cell smaller than this one would not get there. Doors are open.
+    /// Places that the robot is sent to and no way leads to: from where it starts, or if that may be anywhere from the one of
+    /// these places from which it gets furthest. The grid is generous: a robot a cell smaller than this one would not get
+    /// there. Doors are open.
     fn places_apart(&mut self, declared: &'a ast::World, world: &World) {
         let sent = |place: &Place| {
             let mut behaviors = self.program.behaviors.values();
@@ -83,13 +84,19 @@ impl<'a> Checker<'a> {
         }
         let grid = Grid::new(world);
         let free = grid.free(world);
-        let starts = self.starts();
-        let first = match (&starts, wanted.first()) {
-            (None, Some((name, _, place))) => Some((&name.name, place.shape.center())),
-            _ => None,
+        let (from, reached) = match self.starts() {
+            Some(starts) => (String::new(), grid.flood(&free, &starts)),
+            None => {
+                let from = |(name, _, place): &(&Ident, Span, &Place)| {
+                    let reached = grid.flood(&free, &[place.shape.center()]);
+                    (format!(" from `{}`", name.name), reached)
+                };
+                // Of several the first is taken.
+                let furthest = wanted.iter().rev().map(from);
+                let furthest = furthest.max_by_key(|(_, reached)| reached.len());
+                furthest.unwrap_or_default()
+            }
         };
-        let starts = starts.or(first.map(|(_, center)| vec![center]));
-        let reached = grid.flood(&free, &starts.unwrap_or_default());
         // A start in a wall is reported where it is said.
         if reached.is_empty() {
             return;
@@ -98,8 +105,6 @@ impl<'a> Checker<'a> {
             let near =
                 |at: Point| place.shape.contains(at) || clearance(&place.shape, at) <= grid.step;
             if !reached.iter().any(|cell| near(grid.center(*cell))) {
-                let from = first.map(|(first, _)| format!(" from `{first}`"));
-                let from = from.unwrap_or_default();
                 let message = format!("no way leads{from} to the place `{}`", name.name);
                 self.warning(Code::W0401, span, message)
                     .label("the robot does not fit through to it");

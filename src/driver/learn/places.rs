@@ -9,7 +9,8 @@ use crate::syntax::ast::{self, Aspect, AspectKind, ItemKind};
 
 /// The places of a learner and its task. What cannot be found stands at the task's name, or at the end of the file.
 pub(super) struct Places<'a> {
-    loaded: &'a Loaded,
+    /// The program.
+    pub loaded: &'a Loaded,
     task: Option<&'a ast::Task>,
     written: &'a Written,
     /// The name of the learner's task, where the learner stands.

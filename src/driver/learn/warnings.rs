@@ -3,6 +3,7 @@
 use super::places::Places;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::driver::load::Loaded;
+use crate::driver::target;
 use crate::ir::law::Behavior;
 use crate::ir::program::Event;
 use crate::ir::task::{RewardLine, Task};
@@ -303,11 +304,13 @@ impl Warner<'_> {
         choices.filter_map(warning).collect()
     }
 
-    /// Trees for the task that do what its policy cannot.
+    /// Trees for the task that do what its policy cannot. A part of another tree is told with that.
     fn left_out(&self) -> Vec<Diagnostic> {
         let of = self.results.experiment.learner.task;
         let trees = self.program.trees.values();
-        let trees = trees.filter(|tree| tree.task == Some(of));
+        let parts = target::used_trees(self.places.loaded);
+        let whole = |tree: &&Tree| !parts.contains(&tree.name.family.as_str());
+        let trees = trees.filter(|tree| tree.task == Some(of)).filter(whole);
         let warning = |tree: &Tree| {
             let behavior = &self.program.behaviors[self.task.lacks(tree)?].name;
             let name = &tree.name;
