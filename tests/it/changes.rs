@@ -32,6 +32,41 @@ fn another_shape_is_proved_equal() {
     assert!(out(&output).starts_with("same: "), "{}", out(&output));
 }
 
+/// A table of some minterms of many atoms decides otherwise than a tree in a few of them: the condition holds in those, and says
+/// nothing of minterms without a row.
+#[test]
+fn a_tree_is_compared_with_a_long_table_by_its_rows() {
+    const ATOMS: u64 = 14;
+    let folder = tempfile::tempdir().unwrap();
+    let predicates: String = (0..ATOMS).map(|at| format!("predicate a{at}\n")).collect();
+    let tree = "behavior go\nbehavior stay\n\ntree t = selector { a0 and a1 => go, stay }\n";
+    fs::write(folder.path().join("old.bt"), predicates + tree).unwrap();
+    let header: String = (0..ATOMS).map(|at| format!("a{at},")).collect();
+    // Every eleventh minterm has a row, in an order that mixes their bits.
+    let rows = (0..1 << ATOMS).step_by(11).map(|number: u64| {
+        let minterm = (number * 5_771) % (1 << ATOMS);
+        let holds = |at: u64| minterm >> at & 1 == 1;
+        let cells: String = (0..ATOMS)
+            .map(|at| format!("{},", u8::from(holds(at))))
+            .collect();
+        let goes = holds(0) && holds(1) && !(holds(3) && holds(4) && holds(5));
+        format!("{cells}{}\n", if goes { "go" } else { "stay" })
+    });
+    let table: String = rows.collect();
+    fs::write(
+        folder.path().join("new.csv"),
+        format!("{header}behavior\n{table}"),
+    )
+    .unwrap();
+    let output = btc(folder.path(), &["diff", "old.bt", "new.csv"]);
+    assert_eq!(output.status.code(), Some(1), "{}", err(&output));
+    let said = out(&output);
+    assert!(
+        said.contains("\n  a0 and a1 and a3 and a4 and a5: go → stay\n"),
+        "{said}"
+    );
+}
+
 /// Which trees a file has is said where it has none of the name that was given, or where none was given and it has several.
 #[test]
 fn a_tree_that_is_not_there_is_told_with_those_that_are() {
