@@ -3,6 +3,7 @@
 mod canonical;
 mod cases;
 mod command;
+mod games;
 mod laws;
 mod slack;
 mod values;

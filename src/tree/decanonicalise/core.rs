@@ -15,6 +15,8 @@ const FIRST: usize = 512;
 const RARE: usize = 8;
 /// Attempts at a smaller list before it is tried on all rows.
 const QUICK: usize = 40;
+/// One part in so many of an account is kept to make a list right on all rows.
+const KEPT: usize = 4;
 
 /// Some rows of a table.
 pub(super) struct Core<'a, 'p> {
@@ -90,7 +92,8 @@ impl<'a, 'p> Core<'a, 'p> {
     }
 
     /// A list with groups for cores that grow until it is right on all rows, as a tree; `None` where the account does not go so far.
-    /// Each begins with what an earlier one can keep, and ends where so many attempts find no smaller one.
+    /// Each begins with what an earlier one can keep, and ends where so many attempts find no smaller one. A part of the account is
+    /// kept to make the last one right on all rows.
     pub(super) fn groups(
         &mut self,
         mut list: Grouped,
@@ -105,14 +108,27 @@ impl<'a, 'p> Core<'a, 'p> {
             let policy = self.policy();
             let sample = Problem::new(&policy);
             let (columns, classes) = (sample.columns(), sample.classes());
-            let mut search = Regroup::new(columns, &classes, account);
-            list = search.smaller(&list, patience, known)?;
+            let part = match self.rows.count() == self.problem.policy.rows.len() {
+                true => account.part(1),
+                false => account.but(KEPT),
+            };
+            let found = Regroup::new(columns, &classes, &part).smaller(&list, patience, known);
+            account.settle(&part);
+            list = found?;
             let tree = Children::grouped(&sample, &list).node();
             if self.adopt(&tree, account) {
                 return Some(tree);
             }
+            if part.is_spent() {
+                break;
+            }
         }
-        None
+        if account.is_spent() {
+            return None;
+        }
+        let (columns, classes) = (self.problem.columns(), self.problem.classes());
+        let list = Regroup::new(columns, &classes, account).smaller(&list, 0, known)?;
+        Some(Children::grouped(self.problem, &list).node())
     }
 
     /// Whether the tree is right on all rows. Else some rows on which it is wrong join the core.
