@@ -63,7 +63,7 @@ pub struct Settings<'a> {
     pub requirements: &'a [Requirement],
     /// Which tree of the front is wanted.
     pub choice: Choice,
-    /// Whether smaller trees that cost something are looked for, too.
+    /// Whether the front is to be shown: then smaller trees that cost something are looked for, too, once a tree is chosen.
     pub front: bool,
 }
 
@@ -200,8 +200,13 @@ pub fn grow<W: World>(
         effort: share(settings.effort, 1.0 - CHOOSING),
         ..settings.clone()
     };
-    let found = Grower::new(ground, &searching, progress).run(starts, &part)?;
-    let grown = front::choose(found, starts, settings)?;
+    let mut grower = Grower::new(ground, &searching, progress);
+    grower.run(starts, &part)?;
+    let mut grown = front::choose(&mut grower, starts, settings)?;
+    if settings.front && settings.choice == Choice::Knee {
+        grown.front = front::drawn(&mut grower, starts, settings, &grown.root);
+        grown.ticks = grower.judge.seen.ticks;
+    }
     whole.save(|| &grown);
     Ok(grown)
 }

@@ -15,6 +15,7 @@ mod reading;
 mod reference;
 mod tune;
 
+pub use literal::grouped;
 use operator::is_arithmetic;
 
 use super::Checker;

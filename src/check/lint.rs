@@ -50,7 +50,7 @@ impl<'a> Checker<'a> {
         if self.has_errors() {
             return;
         }
-        self.values_of_states();
+        self.values_of_states(items());
         self.unread_names();
         self.unused_declarations(files);
         self.same_on_both_sides();

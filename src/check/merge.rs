@@ -63,6 +63,20 @@ pub fn merge(sorted: &mut Vec<Diagnostic>, declared: impl Fn(Span) -> Option<Spa
             Code::E0302 if found.labels.len() == 2 && found.message.contains(" of the kind ") => {
                 format!("{:?}", found.span())
             }
+            // A `let`, taken again and again for what it is not.
+            Code::E0203 | Code::E0310 | Code::E0601
+                if is_shared(&found) && declared(found.span()).is_some() =>
+            {
+                let at = format!("{:?}", declared(found.span()));
+                match first.get(&(Code::E0601, at.clone())) {
+                    Some(first) => further.entry(*first).or_default().push(found.span()),
+                    None => {
+                        first.insert((Code::E0601, at), merged.len());
+                        merged.push(found);
+                    }
+                }
+                continue;
+            }
             // One name, taken again and again for what it is not.
             Code::E0601 if declared(found.span()).is_some() => {
                 format!("{:?}", declared(found.span()))
@@ -127,6 +141,12 @@ pub fn merge(sorted: &mut Vec<Diagnostic>, declared: impl Fn(Span) -> Option<Spa
         }
     }
     *sorted = merged;
+}
+
+/// Whether a `let` is taken for something else.
+fn is_shared(found: &Diagnostic) -> bool {
+    let label = found.labels.first();
+    label.is_some_and(|label| label.message.ends_with("is a shared expression"))
 }
 
 /// How far what stands side by side is apart, in bytes.

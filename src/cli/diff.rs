@@ -17,6 +17,9 @@ pub(super) struct Arguments {
     /// The tree to compare, if the files have several.
     #[arg(long, value_name = "NAME")]
     tree: Option<String>,
+    /// The tree of the new file, if it is called otherwise there.
+    #[arg(long, value_name = "NAME")]
+    new_tree: Option<String>,
     /// How many episodes both play where they decide differently.
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u64).range(1..=PLAYED))]
     episodes: u64,
@@ -52,7 +55,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     let name = arguments.tree.as_deref();
     let found = diff::diff(
         side(&old, name),
-        side(&new, name),
+        side(&new, arguments.new_tree.as_deref().or(name)),
         arguments.episodes,
         arguments.seed,
     );

@@ -171,6 +171,8 @@ codes! {
     W0302 "a region that is never reached",
     W0303 "one thing said twice",
     W0304 "a measure that is to be exact",
+    W0305 "a point in a whole number",
+    W0306 "a bearing where a direction is meant",
 
     W0401 "a part of the world that does nothing",
     W0402 "a size out of proportion",
@@ -198,6 +200,7 @@ codes! {
     W0521 "a moment that is taken for a time",
     W0522 "an episode that ends as it starts",
     W0523 "a tree that learning leaves out",
+    W0524 "a discount that looks next to nowhere",
 
     W0601 "a condition that always or never holds",
     W0602 "a node that is never reached",
@@ -207,6 +210,7 @@ codes! {
     W0606 "a child that is there already",
     W0607 "a tree that runs nothing",
     W0608 "a sequence that never succeeds",
+    W0609 "an answer that a behaviour never gives",
 }
 
 impl Code {

@@ -7,23 +7,30 @@ use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::Node;
 use crate::policy::table::Table;
-use crate::policy::{Minterm, Policy};
+use crate::policy::{Minterm, Policy, Row};
 use crate::source::Span;
 use crate::tree::tick::Runner;
 use rustc_hash::FxHashMap;
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// A policy and the table that it was read from.
 pub(super) type Listed<'a> = (&'a mut Policy, &'a Table);
 
-/// Gives each row that allows several behaviours the one that the tree takes there, if it is allowed; `None` if the tree
-/// remembers, or asks what the table does not say, or rows stand for several minterms.
+/// The most minterms that rows are written out into.
+const WRITTEN_OUT: usize = 65_536;
+
+/// Gives each row that allows several behaviours the one that the tree takes there, if it is allowed, and each minterm a row;
+/// `None` if the tree remembers, or asks what the table does not say, or rows stand for too many minterms.
 pub(super) fn as_tree((policy, table): Listed, root: &Node) -> Option<()> {
-    if root.remembers() || table.has_cubes() {
+    if root.remembers() {
         return None;
     }
     let mut runner = Runner::new(root, &policy.atoms).ok()?;
-    let sets = sets(policy, table);
+    let sets = match table.has_cubes() {
+        true => written_out(policy, table)?,
+        false => sets(policy, table),
+    };
     for (row, allowed) in policy.rows.iter_mut().zip(sets) {
         let selected = runner.select(row.minterm.words());
         if let Some(behavior) = selected.filter(|own| allowed.contains(own)) {
@@ -60,6 +67,33 @@ pub(super) fn as_both((old, before): Listed, (new, after): Listed) -> Option<()>
         }
     }
     Some(())
+}
+
+/// Gives each minterm that rows stand for a row of its own, with what it allows; `None` if there are too many.
+fn written_out(policy: &mut Policy, table: &Table) -> Option<Vec<Vec<Id<Behavior>>>> {
+    let minterms = |row: &Row| 1_usize.checked_shl(row.free_atoms() as u32);
+    let mut counts = policy
+        .rows
+        .iter()
+        .map(|row| minterms(row).unwrap_or(usize::MAX));
+    let all = counts.try_fold(0_usize, |all, more| all.checked_add(more))?;
+    if all > WRITTEN_OUT {
+        return None;
+    }
+    let mut rows = BTreeMap::new();
+    for (row, allowed) in policy.rows.iter().zip(sets(policy, table)) {
+        for minterm in row.minterms() {
+            let row = Row {
+                minterm: minterm.clone(),
+                free: None,
+                ..row.clone()
+            };
+            rows.entry(minterm).or_insert((row, allowed.clone()));
+        }
+    }
+    let (rows, sets) = rows.into_values().unzip();
+    policy.rows = rows;
+    Some(sets)
 }
 
 /// What each row allows.

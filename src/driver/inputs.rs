@@ -33,10 +33,11 @@ impl Inputs {
     /// # Errors
     /// Rows that contradict each other, or names that do not go together.
     pub fn of(values: Valued, text: Text, tree: &str) -> Result<(Self, Table), Refused> {
-        let chosen = values.comparisons();
+        let (chosen, narrowed) = values.compared();
         let names = values.names(&chosen, tree);
         let tests = tests(&values, &chosen, &names);
-        let table = values.table(&tests);
+        let table = narrowed.table(&tests);
+        drop(narrowed);
         let table = table.map_err(|errors| refused(text, &errors))?;
         let comparisons = names.into_iter().zip(chosen).collect();
         Ok((

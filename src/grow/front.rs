@@ -1,7 +1,7 @@
 //! The trees that none beats in both nodes and return, and the one of them that is taken.
 
 use super::ground::does_more_harm;
-use super::grower::{Found, Visited};
+use super::grower::{Grower, Visited};
 use super::race::{Entrant, Judge, Terms};
 use super::reader;
 use super::tested::{self, Beside, Figures};
@@ -26,6 +26,10 @@ const LOOKED_AT: usize = 12;
 const FRESH: usize = 500;
 /// The episodes that say which of the other trees the grown one is compared with.
 const COMPARED: usize = 60;
+/// The episodes of each tree of a front that is shown.
+const DRAWN: usize = 160;
+/// The part of the effort that looks for smaller trees for it.
+const SHRINKING: f64 = 0.1;
 /// The effort that these numbers are for; for less of it they are less.
 const WHOLE: f64 = 36e6;
 /// The fewest episodes, whatever the effort.
@@ -101,33 +105,22 @@ impl Grown {
 /// # Errors
 /// The exact tree asks an atom that the world does not know.
 pub(super) fn choose<W: World>(
-    found: Found<'_, '_, W>,
+    grower: &mut Grower<'_, '_, '_, W>,
     starts: &Starts,
     settings: &Settings,
 ) -> Result<Grown, Atom> {
-    let Found {
-        mut judge,
-        visited,
-        price,
-    } = found;
-    let part = (settings.effort as f64 / WHOLE).min(1.0);
-    let of = |episodes: usize| ((episodes as f64 * part) as usize).max(FEWEST);
+    let (trees, price) = (candidates(&grower.visited, starts), grower.price);
+    let judge = &mut grower.judge;
+    let of = episodes(settings);
     let race = judge.fresh();
     let trials = judge.ground.trials(Purpose::Confirm, race);
-    let mut entrants = confirmed(
-        (&mut judge, &trials),
-        candidates(visited, starts),
-        starts,
-        &of,
-        settings,
-        price,
-    )?;
+    let mut entrants = confirmed((judge, &trials), trees, starts, &of, settings, price)?;
     let exact = entrants.len().saturating_sub(1);
     let theirs = starts.others.iter().map(|(_, other)| other);
     let theirs: Vec<&Node> = theirs.collect();
     let chosen = loop {
-        let chosen = chosen(&judge, &entrants, (exact, &theirs), settings.choice, price);
-        if chosen != exact || !plays_next((&mut judge, &trials), &mut entrants, price) {
+        let chosen = chosen(judge, &entrants, (exact, &theirs), settings.choice, price);
+        if chosen != exact || !plays_next((judge, &trials), &mut entrants, price) {
             break chosen;
         }
     };
@@ -142,7 +135,7 @@ pub(super) fn choose<W: World>(
         .map_or_else(|| starts.exact.clone(), |entrant| entrant.root.clone());
     drop(entrants);
     let episodes = [COMPARED, FRESH].map(|episodes| judge.scaled(of(episodes)));
-    let tested = tested::test(&mut judge, starts, &root, episodes)?;
+    let tested = tested::test(judge, starts, &root, episodes)?;
     Ok(Grown {
         before: tested.before,
         after: tested.after,
@@ -159,15 +152,51 @@ pub(super) fn choose<W: World>(
     })
 }
 
+/// So many episodes for the effort.
+fn episodes(settings: &Settings) -> impl Fn(usize) -> usize + use<> {
+    let part = (settings.effort as f64 / WHOLE).min(1.0);
+    move |episodes| ((episodes as f64 * part) as usize).max(FEWEST)
+}
+
+/// The front around the tree that was chosen: with smaller trees that cost something, all of them played alike long.
+pub(super) fn drawn<W: World>(
+    grower: &mut Grower<'_, '_, '_, W>,
+    starts: &Starts,
+    settings: &Settings,
+    root: &Node,
+) -> Vec<Point> {
+    grower.shrink(root, (settings.effort as f64 * SHRINKING) as u64);
+    let mut trees = candidates(&grower.visited, starts);
+    for tree in &mut trees {
+        *tree = asked_once(tree);
+    }
+    for tree in [&starts.exact, root] {
+        if !trees.contains(tree) {
+            trees.push(tree.clone());
+        }
+    }
+    let judge = &mut grower.judge;
+    let race = judge.fresh();
+    let trials = judge.ground.trials(Purpose::Confirm, race);
+    let entrants = trees.iter().filter_map(|root| judge.entrant(&trials, root));
+    let mut entrants: Vec<Entrant> = entrants.collect();
+    let episodes = judge.scaled(episodes(settings)(DRAWN));
+    judge.play(&trials, &mut entrants, episodes, None);
+    let chosen = entrants.iter().position(|entrant| entrant.root == *root);
+    points(&entrants, chosen.unwrap_or(entrants.len()), &|entrant| {
+        judge.harms(entrant)
+    })
+}
+
 /// The trees that are looked at: those of the file, and of those that were found the later ones, which are the better ones;
 /// of the same size the last.
-fn candidates(visited: Vec<Visited>, starts: &Starts) -> Vec<Node> {
+fn candidates(visited: &[Visited], starts: &Starts) -> Vec<Node> {
     let mut trees: Vec<Node> = Vec::new();
     let mut sizes: Vec<usize> = Vec::new();
-    for tree in visited.into_iter().rev() {
+    for tree in visited.iter().rev() {
         if !sizes.contains(&tree.nodes) && trees.len() < LOOKED_AT {
             sizes.push(tree.nodes);
-            trees.push(tree.root);
+            trees.push(tree.root.clone());
         }
     }
     for (_, other) in &starts.others {
@@ -178,8 +207,7 @@ fn candidates(visited: Vec<Visited>, starts: &Starts) -> Vec<Node> {
     trees
 }
 
-/// The trees with episodes that none was chosen by, the exact one last. The best play longest, unless a front is drawn: it
-/// is of trees that have played alike long.
+/// The trees with episodes that none was chosen by, the exact one last. The best play longest, where the best is wanted.
 fn confirmed<W: World>(
     (judge, trials): (&mut Judge<'_, '_, W>, &Trials<'_, W>),
     trees: Vec<Node>,
@@ -197,7 +225,7 @@ fn confirmed<W: World>(
     let mut entrants: Vec<Entrant> = others
         .filter_map(|root| judge.entrant(trials, root))
         .collect();
-    let halves = settings.choice == Choice::Knee && !settings.front;
+    let halves = settings.choice == Choice::Knee;
     let stages = STAGES.len() - usize::from(!halves);
     let mut out: Vec<Entrant> = Vec::new();
     for (episodes, stay) in STAGES.into_iter().take(stages) {

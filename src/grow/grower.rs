@@ -41,30 +41,22 @@ pub struct Visited {
     pub nodes: usize,
 }
 
-/// What a search found.
-#[derive(Debug)]
-pub struct Found<'g, 'w, W> {
-    /// The judge, with the ticks that were simulated.
-    pub judge: Judge<'g, 'w, W>,
-    /// The trees that were the best of their time.
-    pub visited: Vec<Visited>,
-    /// The price of a node.
-    pub price: f64,
-}
-
 /// A search.
 pub struct Grower<'g, 'w, 'a, W> {
     ground: &'g Ground<'w, W>,
-    judge: Judge<'g, 'w, W>,
+    /// The judge, with the ticks that were simulated.
+    pub judge: Judge<'g, 'w, W>,
     settings: &'g Settings<'a>,
     progress: &'g (dyn Fn(Progress) + Sync),
     evidence: Evidence,
     random: Random,
     collected: u64,
-    price: f64,
+    /// The price of a node.
+    pub price: f64,
     /// What the price of harm is a part of.
     scale: f64,
-    visited: Vec<Visited>,
+    /// The trees that were the best of their time.
+    pub visited: Vec<Visited>,
     /// The best single behaviour.
     single: Option<Node>,
     attempts: Attempts,
@@ -97,7 +89,7 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
     ///
     /// # Errors
     /// The exact tree asks an atom that the world does not know.
-    pub fn run(mut self, starts: &Starts, part: &Part) -> Result<Found<'g, 'w, W>, Atom> {
+    pub fn run(&mut self, starts: &Starts, part: &Part) -> Result<(), Atom> {
         let (mut base, mut step) = match part.resume::<Halted>() {
             Some(halted) => self.go_on(halted),
             None => {
@@ -120,11 +112,7 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
             part.keep(|| self.halted(&base, &step));
         }
         part.save(|| self.halted(&base, &step));
-        Ok(Found {
-            judge: self.judge,
-            visited: self.visited,
-            price: self.price,
-        })
+        Ok(())
     }
 
     /// Counts what the races have shown.

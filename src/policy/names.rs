@@ -54,7 +54,7 @@ impl AtomName {
     }
 
     /// Whether the language can call something so.
-    pub(super) fn check(&self) -> Result<(), TableErrorKind> {
+    pub(in crate::policy) fn check(&self) -> Result<(), TableErrorKind> {
         match self {
             Self::Predicate(name) | Self::Done(name) | Self::Failed(name) => check(name),
         }

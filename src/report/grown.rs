@@ -57,6 +57,12 @@ fn verdict(grown: &Grown) -> String {
 /// What rounding may make of two returns that are the same, in parts of a return.
 const ROUNDING: f64 = 1e-12;
 
+/// Whether a gain, with the ends of its interval, is well said as a part of a return: a part of one near zero, or of one that is
+/// left far behind, says nothing.
+pub(super) fn is_part_of((low, mean, high): (f64, f64, f64), over: f64) -> bool {
+    over.abs() >= 10.0 * (high - low) / 2.0 && mean.abs() <= over.abs()
+}
+
 /// A gain over this return, or a loss.
 fn change(gain: Mean, over: f64) -> String {
     let total = over.abs();
@@ -73,8 +79,7 @@ fn change(gain: Mean, over: f64) -> String {
     ends.sort_by(f64::total_cmp);
     let [low, high] = ends;
     let mean = sign * gain.mean;
-    // A part of a return near zero, or of one that is left far behind, says nothing.
-    if total < 10.0 * (high - low) / 2.0 || mean > total {
+    if !is_part_of((low, mean, high), total) {
         return format!("a {word} of {mean:.3} (95 %: {low:.3} to {high:.3})");
     }
     let scale = 100.0 / total;

@@ -7,12 +7,15 @@ use super::words::{self, end_names, numbered};
 use crate::learn::binomial::upper95;
 use crate::learn::bootstrap::quantile;
 use crate::learn::curve::pooled;
-use crate::learn::statistics::Summary;
+use crate::learn::statistics::{Mean, Summary};
 use crate::policy::Minterm;
 use crate::tree::decanonicalise::{Care, Decanonicalised};
 
 /// The most minterms to list.
 const LISTED: usize = 10;
+
+/// The part of a return by which that of a tree differs from that of its policy.
+const PART: f64 = 0.02;
 
 /// The report in lines.
 pub fn lines<W>(results: &Results<W>) -> Vec<String> {
@@ -31,6 +34,11 @@ pub fn lines<W>(results: &Results<W>) -> Vec<String> {
         let experiment = results.experiment;
         let lines = super::grown::lines(grown, experiment.program, experiment.task);
         report.lines.extend(lines);
+        let beside = super::grown::beside(grown, experiment.program, experiment.task);
+        if let Some(beside) = beside {
+            report.line("beside", beside);
+        }
+        report.other_than_policy(&grown.before.summary);
     }
     if let Some(tested) = &results.tested {
         report.line(
@@ -39,6 +47,7 @@ pub fn lines<W>(results: &Results<W>) -> Vec<String> {
         );
         report.figures(tested, "test episodes");
         report.outside(tested, "outside of the care set");
+        report.other_than_policy(tested);
     }
     report.failing();
     report.lines
@@ -250,11 +259,35 @@ impl<W> Report<'_, W> {
         }
     }
 
+    /// That the exact tree surely returns other than the policy whose decisions it takes.
+    fn other_than_policy(&mut self, exact: &Summary) {
+        let [policy, exact] = [&self.results.summary.total, &exact.total];
+        let half = |mean: &Mean| (mean.ci95[1] - mean.ci95[0]) / 2.0;
+        let apart = (policy.mean - exact.mean).abs();
+        let least = PART * policy.mean.abs().max(exact.mean.abs());
+        if self.results.trees.chosen().failing.is_empty()
+            || apart <= (2.0 * (half(policy) + half(exact))).max(least)
+        {
+            return;
+        }
+        let text = format!(
+            "the exact tree returns {:.3} for the {:.3} of its policy: where what both select fails at once, the policy waits for \
+             the next tick, and the tree goes on to its next child",
+            exact.mean, policy.mean
+        );
+        self.line("differs", text);
+    }
+
     /// Where the policy was seen to fail outright.
     fn failing(&mut self) {
         let program = self.results.experiment.program;
-        for failing in &self.results.trees.chosen().failing {
+        let all = &self.results.trees.chosen().failing;
+        for failing in all.iter().take(LISTED) {
             let text = words::failing(program, &self.results.policy, failing);
+            self.line("fails", text);
+        }
+        if let Some(more @ 1..) = all.len().checked_sub(LISTED) {
+            let text = format!("and in {} more; `metrics.json` has all of them", more);
             self.line("fails", text);
         }
     }

@@ -2,7 +2,7 @@
 
 use super::json;
 use super::tuned::compared;
-use super::words::{counted, line};
+use super::words::{counted, line, numbered};
 use crate::ir::task::Task;
 use crate::ir::{Id, Name, Program};
 use crate::trial::duel::Duel;
@@ -95,7 +95,8 @@ impl Report<'_> {
                 said.push_str("; the tree does not ask it");
             }
             let [without, with] = tried.nodes;
-            said.push_str(&format!("; {without} nodes without it, {with} with it"));
+            let without = numbered(without as u64, "node");
+            said.push_str(&format!("; {without} without it, {with} with it"));
             text.push_str(&line(verdict, &said));
             text.push('\n');
             let (worse, better) = tried.duel.ended;

@@ -260,8 +260,14 @@ pub(super) fn compared(duel: &Duel) -> String {
         ci95: [low, high],
     } = duel.gain;
     let return_ = duel.before.total.mean;
-    let part = 100.0 * mean / return_.abs().max(f64::MIN_POSITIVE);
-    format!("a gain of {mean:.3} (95 %: {low:.3} to {high:.3}), {part:+.1} % of {return_:.3}")
+    let gain = format!("a gain of {mean:.3} (95 %: {low:.3} to {high:.3})");
+    match super::grown::is_part_of((low, mean, high), return_) {
+        true => format!(
+            "{gain}, {:+.1} % of {return_:.3}",
+            100.0 * mean / return_.abs()
+        ),
+        false => format!("{gain}, for a return of {return_:.3}"),
+    }
 }
 
 /// A curve in lines: each value with its gain and a bar, `#` in the flat part.

@@ -52,6 +52,8 @@ pub(super) struct Builder<'i> {
     units_missed: usize,
     /// Whether the expression at hand is a node of a tree.
     in_tree: bool,
+    /// Whether the next expression is an entry of a list.
+    in_list: bool,
 }
 
 impl<'i> Builder<'i> {
@@ -76,6 +78,7 @@ impl<'i> Builder<'i> {
             unbound: false,
             units_missed: 0,
             in_tree: false,
+            in_list: false,
         }
     }
 

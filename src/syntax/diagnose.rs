@@ -16,6 +16,7 @@ mod words;
 
 pub(super) use characters::{no_remainder, unclosed_quote};
 use ends::OPEN_ENDS;
+pub(super) use foreign::{dashed, other_comment};
 pub(super) use units::{no_such_unit, one_unit, units_note};
 
 use super::brackets::{innermost_open, unclosed};

@@ -259,6 +259,9 @@ fn name(rule: Rule) -> Option<(Rank, &'static str)> {
         | Rule::wrong_is
         | Rule::wrong_comma
         | Rule::wrong_choice
+        | Rule::wrong_or
+        | Rule::wrong_and
+        | Rule::wrong_not
         | Rule::wrong_link
         | Rule::wrong_facing
         | Rule::wrong_control

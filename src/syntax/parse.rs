@@ -2,6 +2,7 @@
 
 use super::ast::{File, Item, ItemKind, Lost};
 use super::comments::comments;
+use super::diagnose::{dashed, other_comment};
 use super::follow_ups;
 use super::nesting;
 use super::reparse::{Read, Unread};
@@ -40,6 +41,10 @@ fn parse_after(
     file: FileId,
     text: &str,
 ) -> ((File, Vec<Diagnostic>), Option<Read>) {
+    let dashed = dashed(text);
+    if !dashed.is_empty() {
+        return without_dashes(before, file, text, &dashed);
+    }
     let tokens = tokens(text);
     let comments = comments(file, text, &tokens);
     let unread = Unread {
@@ -80,6 +85,28 @@ fn parse_after(
     diagnostic::sort(&mut diagnostics);
     let diagnostics = follow_ups::left_out(text, &mut tree, diagnostics);
     ((tree, diagnostics), read)
+}
+
+/// The tree of a text in which comments begin with two dashes at these bytes, read as if they began with slashes.
+fn without_dashes(
+    before: Option<&Read>,
+    file: FileId,
+    text: &str,
+    dashed: &[usize],
+) -> ((File, Vec<Diagnostic>), Option<Read>) {
+    let mut meant = String::with_capacity(text.len());
+    let mut end = 0;
+    for &at in dashed {
+        meant += text.get(end..at).unwrap_or_default();
+        meant += "//";
+        end = at + 2;
+    }
+    meant += text.get(end..).unwrap_or_default();
+    let ((tree, mut found), read) = parse_after(before, file, &meant);
+    let marks = dashed.iter().map(|at| Span::new(file, *at, at + 2));
+    found.extend(marks.map(|mark| other_comment(mark, "--")));
+    diagnostic::sort(&mut found);
+    ((tree, found), read)
 }
 
 fn too_deep(place: Span) -> Diagnostic {

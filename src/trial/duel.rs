@@ -113,10 +113,19 @@ pub fn duel(
     Ok((Duel::of(&before, &after, ends), [before, after]))
 }
 
+/// What rounding may make of the same rewards that are added up in another order, in parts of a return.
+const ROUNDING: f64 = 1e-10;
+
 /// What one gains over another, episode by episode.
 pub fn gain(own: &[Episode], other: &[Episode]) -> Mean {
     let pairs = own.iter().zip(other);
-    let gains: Vec<f64> = pairs.map(|(own, other)| own.total - other.total).collect();
+    let gains: Vec<f64> = pairs
+        .map(|(own, other)| {
+            let gain = own.total - other.total;
+            let least = ROUNDING * own.total.abs().max(other.total.abs());
+            if gain.abs() > least { gain } else { 0.0 }
+        })
+        .collect();
     Mean::of(&gains)
 }
 

@@ -85,6 +85,8 @@ fn a_tree_that_is_not_there_is_told_with_those_that_are() {
     };
     let (code, said) = told(&["--tree", "carry"]);
     assert_eq!(code, Some(0), "{said}");
+    let (code, said) = told(&["--tree", "haul", "--new-tree", "hauls"]);
+    assert_eq!(code, Some(0), "{said}");
     let (code, said) = told(&["--tree", "haul"]);
     assert_eq!(code, Some(1), "{said}");
     for part in [

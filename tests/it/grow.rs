@@ -31,6 +31,11 @@ fn small(tree: &str) -> (Loaded, Id<Task>, Node) {
 
 /// What grows from a tree, with little effort, in a world that has no other tree.
 fn grown(tree: &str, choice: Choice) -> (Loaded, Grown) {
+    shown(tree, choice, choice != Choice::Knee)
+}
+
+/// The same, with the front or without.
+fn shown(tree: &str, choice: Choice, front: bool) -> (Loaded, Grown) {
     let (loaded, _, exact) = small(tree);
     let experiment = Experiment::new(&loaded.program, Id::new(0), None, 10).unwrap();
     let ground = grow::ground(&experiment, 1);
@@ -43,7 +48,7 @@ fn grown(tree: &str, choice: Choice) -> (Loaded, Grown) {
         effort: 2_000_000,
         requirements: &[],
         choice,
-        front: choice != Choice::Knee,
+        front,
     };
     let found = grow::grow(&ground, &starts, &settings, &Forgetful, &|_| {}).unwrap();
     (loaded, found)
@@ -81,6 +86,26 @@ fn assert_tidy(node: &Node) {
         "{node:?}"
     );
     node.children().iter().for_each(assert_tidy);
+}
+
+/// Whoever looks at the front gets the tree that they get without it, and trees that have all played alike long.
+#[test]
+fn a_front_that_is_shown_changes_no_choice() {
+    let [without, with] = [false, true].map(|front| shown(CLUMSY, Choice::Knee, front).1);
+    let alone = Grown {
+        front: without.front.clone(),
+        ticks: without.ticks,
+        ..with.clone()
+    };
+    assert_eq!(alone, without);
+    let taken: Vec<_> = with.front.iter().filter(|point| point.taken).collect();
+    assert_eq!(taken.len(), 1);
+    assert_eq!(taken[0].root, with.root);
+    let sizes: Vec<usize> = with.front.iter().map(|point| point.size.nodes).collect();
+    assert!(sizes.len() > 1 && sizes.is_sorted(), "{sizes:?}");
+    let mut played = with.front.iter().map(|point| point.episodes);
+    let first = played.next();
+    assert!(played.all(|episodes| Some(episodes) == first));
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod cases;
 mod command;
 mod games;
 mod laws;
+mod sets;
 mod slack;
 mod values;
 

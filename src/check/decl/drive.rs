@@ -2,6 +2,7 @@
 
 use crate::check::Checker;
 use crate::check::context::Region;
+use crate::check::expr::plain_ref;
 use crate::check::signature::{Signature, Takes};
 use crate::check::types::{Type, Typed};
 use crate::diagnostic::{Applicability, Code, Diagnostic};
@@ -58,8 +59,11 @@ impl<'a> Checker<'a> {
                 continue;
             }
             *command = Some(self.expect(value, &ty, &format!("`{name}`")));
+            if name == "course" {
+                self.bearing_for_course(value);
+            }
         }
-        self.commands_by_name(call.args.as_deref().unwrap_or_default(), told);
+        fine &= !self.commands_by_name(call.args.as_deref().unwrap_or_default(), told);
         let [speed, turn, strafe, course] = commands;
         if let Some(course) = course {
             return self.drive_on_course(call, [speed, turn, strafe], &course);
@@ -150,31 +154,49 @@ impl<'a> Checker<'a> {
         })
     }
 
-    /// Makes one mistake of commands that stand in each other's place, if each is told by its type.
-    fn commands_by_name(&mut self, args: &'a [Arg], told: usize) {
+    /// Warns of a bearing, which is from the heading, where a course is a direction in the arena.
+    pub fn bearing_for_course(&mut self, value: &ast::Expr) {
+        let Some(called) = plain_ref(value).filter(|called| called.name.name == "bearing") else {
+            return;
+        };
+        if self.context.library || self.names.value("bearing", false).is_some() {
+            return;
+        }
+        self.warning(
+            Code::W0306,
+            value.span,
+            "a course is a direction, and this is a bearing",
+        )
+        .label("an angle from the heading")
+        .write(called.name.span, "direction", Applicability::Unsafe)
+        .note("a course is an angle from the x axis of the arena, as `heading` is");
+    }
+
+    /// Makes one mistake of commands that stand in each other's place, if each is told by its type. Whether there was one.
+    fn commands_by_name(&mut self, args: &'a [Arg], told: usize) -> bool {
         let wrong = self.diagnostics.get(told..).unwrap_or_default();
         let mismatch = |found: &Diagnostic| {
             matches!(found.code, Code::E0301 | Code::E0302) && found.fixes.is_empty()
         };
         if wrong.is_empty() || !wrong.iter().all(mismatch) {
-            return;
+            return false;
         }
         let mut free: Vec<(&str, Type)> = COMMANDS.to_vec();
         let mut named = Vec::new();
         for arg in args {
             let ArgKind::Positional(value) = &arg.kind else {
-                return;
+                return false;
             };
             let (typed, _) = self.captured(|checker| checker.expr(value));
             let fits = |(_, ty): &(&str, Type)| typed.ty != Type::Error && typed.ty.fits(ty);
             let Some(at) = free.iter().position(fits) else {
-                return;
+                return false;
             };
             let (name, _) = free.remove(at);
             named.push(format!("{name} = {}", print::expr(value)));
         }
         let (Some(first), Some(last)) = (args.first(), args.last()) else {
-            return;
+            return false;
         };
         self.diagnostics.truncate(told);
         let span = first.span.to(last.span);
@@ -187,6 +209,7 @@ impl<'a> Checker<'a> {
                 right,
                 Applicability::Unsafe,
             );
+        true
     }
 
     fn is_holonomic(&self) -> bool {

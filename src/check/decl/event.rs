@@ -304,6 +304,8 @@ impl<'a> Checker<'a> {
     fn family_of_events(&mut self, name: &Ident) -> Option<&'a ast::Event> {
         let found = match self.value_of(name) {
             Some((Decl::Event(event), _)) if event.params.is_some() => return Some(event),
+            // What its body lacks is told there.
+            Some((Decl::Event(_), _)) if self.names.lacking.contains(&name.name) => return None,
             Some((Decl::Event(_), _)) => "a single event",
             Some((decl, _)) => decl.what(),
             None => {

@@ -5,7 +5,7 @@ use crate::check::context::{Binding, Context, Region};
 use crate::check::expr::expect::is_literal;
 use crate::check::names::Decl;
 use crate::check::signature::{Signature, Takes};
-use crate::check::types::Type;
+use crate::check::types::{Type, Value};
 use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::ast::{Arg, ArgKind, Expr, ExprKind, Param, Params, Ref};
@@ -155,6 +155,13 @@ impl<'a> Checker<'a> {
                     continue;
                 }
             };
+            let own = value.value == Value::Robot(self.subject);
+            if own && library && makes_instance && self.reader_is_known() {
+                let label = format!("the target of `{name}` is read");
+                self.reads_itself(reference.span, &label);
+                fine = false;
+                continue;
+            }
             fine &= value.ty != Type::Error;
             let ty = if ty == Type::Error { value.ty } else { ty };
             bindings.push(Binding {

@@ -3,7 +3,7 @@
 use crate::check::Checker;
 use crate::check::context::Region;
 use crate::check::types::Typed;
-use crate::syntax::ast::{Let, LetBody, Ref};
+use crate::syntax::ast::{ArgKind, Let, LetBody, Ref};
 
 impl<'a> Checker<'a> {
     /// Checks a `let` for itself.
@@ -31,6 +31,22 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Looks at what a `let` of the library is given for its `course`.
+    fn courses(&mut self, shared: &'a Let, reference: &'a Ref) {
+        let params = shared.params.iter().flat_map(|params| &params.params);
+        let names: Vec<&str> = params.map(|param| param.name.name.as_str()).collect();
+        let args = reference.args.iter().flatten();
+        for (arg, at) in args.zip(&names) {
+            match &arg.kind {
+                ArgKind::Positional(value) if *at == "course" => self.bearing_for_course(value),
+                ArgKind::Named(name, value) if name.name == "course" => {
+                    self.bearing_for_course(value);
+                }
+                _ => {}
+            }
+        }
+    }
+
     /// The value of a `let` where a reference uses it.
     pub fn shared_call(
         &mut self,
@@ -42,6 +58,9 @@ impl<'a> Checker<'a> {
             self.shared(shared);
         }
         let scope = self.bind_arguments(shared.params.as_ref(), library, reference)?;
+        if library {
+            self.courses(shared, reference);
+        }
         let body = shared.name.span;
         let region = self.context.region;
         self.unrolled(body, reference, library, region, scope, |checker| {

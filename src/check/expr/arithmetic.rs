@@ -89,6 +89,13 @@ impl<'a> Checker<'a> {
         let numbers = self.within_limits(&values)?;
         let ty = numbers.first()?.ty.clone();
         match numbers.as_slice() {
+            [_, limit] if self.is_no_limit(limit) => self
+                .out_of_range(
+                    limit.span,
+                    "a limit of `clamp` is not below zero",
+                    "a number goes from minus this to this",
+                )
+                .none(),
             [x, limit] => Some(self.lift(ty, span, [x, limit], |pool, [x, limit]| {
                 let low = pool.unary(Unary::Neg, limit);
                 clamped(pool, x, low, limit)
@@ -106,6 +113,11 @@ impl<'a> Checker<'a> {
             })),
             _ => None,
         }
+    }
+
+    fn is_no_limit(&self, limit: &Typed) -> bool {
+        let value = limit.scalar().and_then(|id| self.program.pool.constant(id));
+        value.is_some_and(|value| value < 0.0) && !self.context.library
     }
 
     /// A number with its limits. These are measures that somebody knows, and the number is reckoned: where they have one unit

@@ -13,7 +13,7 @@ use crate::ir::expr::Expr as Pooled;
 use crate::ir::task::StartLine;
 use crate::ir::tree::Status;
 use crate::ir::world::Robot;
-use crate::syntax::ast::{Expr, ExprKind, Ref};
+use crate::syntax::ast::{ArgKind, Expr, ExprKind, Ref};
 use crate::syntax::print;
 
 impl<'a> Checker<'a> {
@@ -145,12 +145,29 @@ impl<'a> Checker<'a> {
                     format!("`{name}` takes one argument, not 0"),
                 )
                 .label("too few")
+                .help(format!("of a behaviour it is asked so: `{name}(BEHAVIOR)`"))
                 .none();
         };
         let Some(by) = by else {
             return Some((of, None));
         };
         let typed = self.expr(by);
+        let by_position = args
+            .iter()
+            .any(|arg| matches!(&arg.kind, ArgKind::Positional(value) if value.span == by.span));
+        if by_position && typed.ty == Type::LENGTH && name == "inside" {
+            let near = format!("distance({}) <= {}", print::expr(of), print::expr(by));
+            return self
+                .error(Code::E0305, by.span, "`inside` takes a place alone")
+                .label("this is a length (m)")
+                .fix(
+                    format!("to be so near to it, write `{near}`"),
+                    reference.span,
+                    near,
+                    crate::diagnostic::Applicability::Unsafe,
+                )
+                .none();
+        }
         let robot = match self.another_by(of, by, &typed.ty) {
             Some((message, right)) => {
                 let span = of.span.to(by.span);

@@ -3,9 +3,13 @@
 use crate::check::Checker;
 use crate::check::types::units::meaning;
 use crate::check::types::{Type, Typed, Value};
-use crate::diagnostic::Code;
+use crate::diagnostic::{Applicability, Code};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, Literal};
+use std::f64::consts::TAU;
+
+/// More than three turns, in radians.
+const ROUND: f64 = 19.0;
 
 impl<'a> Checker<'a> {
     /// A number, perhaps with a unit.
@@ -15,6 +19,12 @@ impl<'a> Checker<'a> {
             return Some(Typed::new(Type::NUMBER, Value::Scalar(id), span));
         };
         if let Some(meaning) = meaning(unit, self.tick) {
+            if matches!(unit.text.as_str(), "tick" | "ticks") {
+                self.point_in_count(literal, span);
+            }
+            if unit.text == "rad" && literal.value.abs() > ROUND {
+                self.many_turns(literal, unit.span);
+            }
             let id = self.program.pool.num(meaning.scale.apply(literal.value));
             let ty = if meaning.percent {
                 Type::Ratio
@@ -39,6 +49,31 @@ impl<'a> Checker<'a> {
         Some(Typed::unknown(Type::Quantity(meaning.dim), span))
     }
 
+    /// Warns of a whole number whose point was to group its digits: `3.000` is 3.
+    pub fn point_in_count(&mut self, literal: &Literal, at: Span) {
+        let Some(grouped) = grouped(literal).filter(|_| literal.value.fract() == 0.0) else {
+            return;
+        };
+        self.warning(
+            Code::W0305,
+            at,
+            format!("`{}` is {}", literal.digits, literal.value),
+        )
+        .label("a point begins the decimals")
+        .help(format!("digits are grouped by `_`: `{grouped}`"));
+    }
+
+    /// Warns of an angle of several turns in radians, whose number is one of degrees.
+    fn many_turns(&mut self, literal: &Literal, unit: Span) {
+        let turns = (literal.value.abs() / TAU * 10.0).round() / 10.0;
+        self.warning(
+            Code::W0402,
+            unit,
+            format!("`{} rad` is {turns} turns", literal.digits),
+        )
+        .write(unit, "deg", Applicability::Unsafe);
+    }
+
     /// `(x, y)`
     pub fn point(&mut self, x: &'a Expr, y: &'a Expr, span: Span) -> Typed {
         let x = self.expect(x, &Type::LENGTH, "a coordinate");
@@ -52,4 +87,13 @@ impl<'a> Checker<'a> {
         };
         Typed::new(Type::Point, value, span)
     }
+}
+
+/// A number as it was meant, where its point stands as if it grouped thousands: `3_000` for `3.000`.
+pub fn grouped(literal: &Literal) -> Option<String> {
+    let (thousands, rest) = literal.digits.split_once('.')?;
+    let is_digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
+    let groups =
+        (1..=3).contains(&thousands.len()) && rest.len() == 3 && !thousands.starts_with('0');
+    (groups && is_digits(thousands) && is_digits(rest)).then(|| format!("{thousands}_{rest}"))
 }

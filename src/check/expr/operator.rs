@@ -8,7 +8,8 @@ use crate::check::types::units::Dim;
 use crate::check::types::{Type, Typed};
 use crate::diagnostic::{Applicability, Code};
 use crate::ir::Pool;
-use crate::ir::expr::{Binary, Echo, Expr as Node, ExprId, Unary};
+use crate::ir::expr::{Binary, Echo, Expr as Node, ExprId, Pose, Unary};
+use crate::ir::world::DriveKind;
 use crate::source::Span;
 use crate::syntax::ast::{self, BinaryOp, Expr, ExprKind, UnaryOp};
 use crate::syntax::print;
@@ -302,8 +303,25 @@ impl<'a> Checker<'a> {
         };
         self.warn_plain_ratio(left, &b.ty);
         self.warn_plain_ratio(right, &a.ty);
-        if equality && (self.is_measure(&a) || self.is_measure(&b)) {
+        let is_constant = |of: &Typed| {
+            let value = of.scalar().and_then(|id| self.program.pool.constant(id));
+            value.is_some()
+        };
+        // Two measures may be of one thing.
+        let exact =
+            self.is_measure(&a) && is_constant(&b) || self.is_measure(&b) && is_constant(&a);
+        if equality && exact {
             self.exact_measure(op.node == BinaryOp::Eq, span);
+        }
+        let none =
+            |of: &Typed| of.scalar().and_then(|id| self.program.pool.constant(id)) == Some(0.0);
+        let exact = match op.node {
+            BinaryOp::Le => none(&b) && self.is_distance(&a),
+            BinaryOp::Ge => none(&a) && self.is_distance(&b),
+            _ => false,
+        };
+        if exact {
+            self.exact_measure(true, span);
         }
         let (op, a, b) = match op.node {
             BinaryOp::Eq => (Binary::Eq, a, b),
@@ -319,15 +337,16 @@ impl<'a> Checker<'a> {
     /// Whether this is where a robot is, how far it is from something, or what is reckoned from that: no two are ever quite
     /// the same.
     fn is_measure(&self, of: &Typed) -> bool {
-        fn measures(pool: &Pool, id: ExprId) -> bool {
+        fn measures(pool: &Pool, id: ExprId, turns: bool) -> bool {
             match pool.get(id) {
+                Node::Pose(Pose::Heading) => turns,
                 Node::Pose(_) | Node::Robot(..) => true,
                 Node::NearestWall(echo) | Node::Wall(_, echo) => echo != Echo::Seen,
                 Node::Unary(op, of) => {
                     !matches!(
                         op,
                         Unary::Not | Unary::Round | Unary::Floor | Unary::Ceil | Unary::Sign
-                    ) && measures(pool, of)
+                    ) && measures(pool, of, turns)
                 }
                 Node::Binary(op, a, b) => {
                     let reckoned = matches!(
@@ -339,14 +358,28 @@ impl<'a> Checker<'a> {
                             | Binary::Hypot
                             | Binary::Atan2
                     );
-                    reckoned && (measures(pool, a) || measures(pool, b))
+                    reckoned && (measures(pool, a, turns) || measures(pool, b, turns))
                 }
                 _ => false,
             }
         }
         let dimensioned = of.ty.dim().is_some();
         let expr = of.scalar().filter(|_| dimensioned);
-        expr.is_some_and(|id| measures(&self.program.pool, id))
+        // A robot that need not turn may face one way all the time, and be where it was.
+        let drive = self.subject_robot().map(|robot| robot.drive.kind);
+        let turns = drive == Some(DriveKind::Differential);
+        let pool = &self.program.pool;
+        let mut kept = |part| matches!(part, Node::State(_) | Node::Local(_));
+        expr.is_some_and(|id| measures(pool, id, turns) && !pool.any(id, &mut kept))
+    }
+
+    /// Whether this is a distance, which is not below zero.
+    fn is_distance(&self, of: &Typed) -> bool {
+        let pool = &self.program.pool;
+        of.scalar().is_some_and(|id| match pool.get(id) {
+            Node::Binary(Binary::Hypot, ..) => self.is_measure(of),
+            _ => false,
+        })
     }
 
     fn exact_measure(&mut self, equal: bool, at: Span) {

@@ -81,24 +81,31 @@ impl<'a> Checker<'a> {
                 .help_if(help)
                 .none();
         }
-        if target.value == Value::Robot(self.subject) && self.reader_is_known() {
-            let name = self.subject_robot().map(|robot| robot.name.clone());
-            let name = name.unwrap_or_default();
-            let what = &reference.name.name;
-            return self
-                .error(Code::E0411, target.span, format!("`{name}` reads itself here"))
-                .label(format!("`{what}` is read by `{name}`, from its own centre"))
-                .help(format!(
-                    "name another robot, or a place; where `{name}` is, `position` and `heading` say"
-                ))
-                .none();
+        // Between two robots it may be one of them.
+        let between = reference.args.as_ref().is_some_and(|args| args.len() == 2);
+        let own = target.value == Value::Robot(self.subject);
+        if own && !between && self.reader_is_known() {
+            let label = format!("`{}` is read", reference.name.name);
+            self.reads_itself(target.span, &label);
+            return None;
         }
         Some(target)
     }
 
+    /// Reports a robot that is its own target.
+    pub fn reads_itself(&mut self, at: Span, read: &str) {
+        let name = self.subject_robot().map(|robot| robot.name.clone());
+        let name = name.unwrap_or_default();
+        self.error(Code::E0411, at, format!("`{name}` reads itself here"))
+            .label(format!("{read} by `{name}`, from its own centre"))
+            .help(format!(
+                "name another robot, or a place; where `{name}` is, `position` and `heading` say"
+            ));
+    }
+
     /// Whether only one robot reads what is at hand: events and what they do are read by the one that learns, scripts
     /// by the robot that runs them, and bodies by the robot that they are unrolled for.
-    fn reader_is_known(&self) -> bool {
+    pub fn reader_is_known(&self) -> bool {
         let region = self.context.region;
         self.subject != World::acting()
             || region.sees_events()

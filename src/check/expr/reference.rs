@@ -315,6 +315,9 @@ impl<'a> Checker<'a> {
             return false;
         };
         let name = &reference.name;
+        if self.names.lacking.contains(&name.name) {
+            return true;
+        }
         self.error(
             Code::E0203,
             name.span,

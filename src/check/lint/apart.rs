@@ -1,27 +1,40 @@
 //! How near a robot's centre comes to what its body does not go into: walls, and other robots.
 
 use super::view::View;
-use crate::ir::expr::{Binary, Echo, Expr, ExprId, Pose};
-use crate::ir::world::{Robot, World};
+use crate::ir::expr::{Binary, Echo, Expr, ExprId, Pose, Unary};
+use crate::ir::world::{Robot, Sensor, SensorKind, World};
 use crate::ir::{Id, Program};
 
 /// What bodies in touch are nearer than their radii say, at most: a bound that no rounding reaches.
-const SLACK: f64 = 1e-6;
+pub const SLACK: f64 = 1e-6;
 
 /// The least distance that an expression can be, in metres, if it is one from a robot's centre to a wall or to
-/// another robot.
+/// another robot, or what a sensor without noise measures to them.
 pub fn least(View { program, robot, .. }: View, id: ExprId) -> Option<f64> {
     let world = program.world.as_ref()?;
     let radius = |id| world.robot_of(id).radius;
     let bound = match program.pool.get(id) {
         Expr::NearestWall(Echo::Distance) if !has_doors(world) => radius(robot),
         Expr::Wall(wall, Echo::Distance) if world.walls[wall].when.is_none() => radius(robot),
+        Expr::Sensor(sensor, Echo::Distance) if !has_doors(world) => {
+            echo(&world.robot_of(robot).sensors[sensor])?.min(radius(robot))
+        }
         _ => {
             let both = robots(program, id)?.map(|of| of.unwrap_or(robot));
             both.map(radius).iter().sum()
         }
     };
     Some(bound - SLACK)
+}
+
+/// How far a sensor reads that measures what bodies do not go into, exactly.
+fn echo(sensor: &Sensor) -> Option<f64> {
+    match sensor.kind {
+        SensorKind::Scanner { range, .. } | SensorKind::RangeFinder { range, .. } => {
+            (sensor.noise == 0.0).then_some(range)
+        }
+        SensorKind::Beacon { .. } => None,
+    }
 }
 
 /// Why a condition may hold never or always, as a note: it compares such a distance with less than it can be.
@@ -42,7 +55,8 @@ pub fn because<'p>(view: impl Into<View<'p>>, condition: ExprId) -> Option<Strin
         let mut parts = parts(program, compared).into_iter();
         parts.find_map(|id| Some((id, least(view, id).filter(|least| *least >= with - SLACK)?)))
     };
-    let (distance, least) = parts(program, condition).into_iter().find_map(too_near)?;
+    let asked = conditions(program, condition).into_iter();
+    let (distance, least) = asked.filter_map(too_near).next()?;
     let centimetres = ((least + SLACK) * 1000.0).round() / 10.0;
     let of = match robots(program, distance) {
         None => "a wall".to_owned(),
@@ -60,15 +74,32 @@ pub fn because<'p>(view: impl Into<View<'p>>, condition: ExprId) -> Option<Strin
 /// How many parts of a condition are looked at.
 const MOST: usize = 400;
 
-/// An expression, its operands and theirs, and what the events in it wait for.
+/// A condition and the conditions that it is made of, and what the events in it wait for.
+fn conditions(program: &Program, id: ExprId) -> Vec<ExprId> {
+    let mut found = vec![id];
+    let mut at = 0;
+    while let Some(&part) = found.get(at).filter(|_| found.len() < MOST) {
+        match program.pool.get(part) {
+            Expr::Event(event) => found.push(program.events[event].when),
+            Expr::Unary(Unary::Not, of) => found.push(of),
+            Expr::Binary(Binary::And | Binary::Or, one, other) => found.extend([one, other]),
+            _ => {}
+        }
+        at += 1;
+    }
+    found
+}
+
+/// A number and what it is the least or the greatest of, the sum of, or one of.
 fn parts(program: &Program, id: ExprId) -> Vec<ExprId> {
     let mut parts = vec![id];
     let mut at = 0;
     while let Some(&part) = parts.get(at).filter(|_| parts.len() < MOST) {
-        if let Expr::Event(event) = program.pool.get(part) {
-            parts.push(program.events[event].when);
+        match program.pool.get(part) {
+            Expr::Binary(Binary::Min | Binary::Max | Binary::Add | Binary::Sub, one, other)
+            | Expr::Select(_, one, other) => parts.extend([one, other]),
+            _ => {}
         }
-        parts.extend(program.pool.operands(part));
         at += 1;
     }
     parts

@@ -2,6 +2,7 @@
 
 use super::apart::because;
 use super::cases::of_expr;
+use super::tree::at_success;
 use crate::check::Checker;
 use crate::check::context::Region;
 use crate::diagnostic::Code;
@@ -159,7 +160,13 @@ impl<'a> Checker<'a> {
             }
             let never = |wanted| {
                 let mut all = conditions.iter();
-                all.all(|it| of_expr(&self.program, it.asks, wanted).is_never())
+                all.all(|it| {
+                    let cases = of_expr(&self.program, it.asks, wanted);
+                    match wanted {
+                        true => cases.and(&at_success(&self.program, it.asks)).is_never(),
+                        false => cases.is_never(),
+                    }
+                })
             };
             let says = match (never(true), never(false)) {
                 (true, _) => "never",

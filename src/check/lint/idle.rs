@@ -48,7 +48,11 @@ impl<'a> Checker<'a> {
 
     /// Warns of a guard, or of a part of one, that what stands around it has asked already.
     pub fn asked_already(&mut self, written: &'a Expr, guard: &Guard, held: &Cases) {
-        let asked = |guard: &Guard| held.implies(&of_guard(&self.program, guard, true));
+        // What holds always is told where it is said.
+        let asked = |guard: &Guard| {
+            let always = of_guard(&self.program, guard, false).is_never();
+            !always && held.implies(&of_guard(&self.program, guard, true))
+        };
         let mut places = Vec::new();
         if asked(guard) {
             places.push(written.span);

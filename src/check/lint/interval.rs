@@ -83,6 +83,12 @@ impl Interval {
         }
     }
 
+    /// What is no farther from it than so much.
+    #[must_use]
+    pub fn wider(self, by: f64) -> Self {
+        Self::between(self.low - by, self.high + by)
+    }
+
     /// Whether all of the other one is in it.
     pub fn covers(self, other: Self) -> bool {
         self.and(other) == other

@@ -7,6 +7,7 @@ use crate::syntax::ast::{
     AspectKind, BinaryOp, Expr, ExprKind, Item, ItemKind, Paid, Trigger, UnaryOp,
 };
 use crate::syntax::print;
+use std::collections::BTreeSet;
 
 /// How deep conditions are looked into, and the events that they ask for.
 const DEEP: usize = 16;
@@ -18,28 +19,34 @@ impl<'a> Checker<'a> {
             match &item.kind {
                 ItemKind::On(on) => {
                     if let Trigger::Expr(condition) = &on.trigger {
-                        self.waits_for_nothing(condition, "its effects happen");
+                        self.waits_for_nothing(condition, "its effects happen", &BTreeSet::new());
                     }
                 }
-                ItemKind::Task(task) => task
-                    .aspects
-                    .iter()
-                    .for_each(|aspect| self.moments_of(&aspect.kind)),
+                ItemKind::Task(task) => {
+                    let ends = task.aspects.iter().filter_map(|aspect| match &aspect.kind {
+                        AspectKind::EndOn(event) => Some(print::expr(event)),
+                        _ => None,
+                    });
+                    let ends: BTreeSet<String> = ends.collect();
+                    for aspect in &task.aspects {
+                        self.moments_of(&aspect.kind, &ends);
+                    }
+                }
                 _ => {}
             }
         }
     }
 
-    fn moments_of(&mut self, aspect: &AspectKind) {
+    fn moments_of(&mut self, aspect: &AspectKind, ends: &BTreeSet<String>) {
         if let AspectKind::EndOn(condition) = aspect {
-            self.waits_for_nothing(condition, "the episode ends");
+            self.waits_for_nothing(condition, "the episode ends", ends);
         }
         let AspectKind::Reward { lines, .. } = aspect else {
             return;
         };
         for line in lines {
             match &line.paid {
-                Paid::On(condition) => self.waits_for_nothing(condition, "this is paid"),
+                Paid::On(condition) => self.waits_for_nothing(condition, "this is paid", ends),
                 Paid::Per { during, .. } => during.iter().for_each(|during| self.priced(during)),
             }
         }
@@ -59,9 +66,9 @@ impl<'a> Checker<'a> {
             );
     }
 
-    /// `on not docked { … }`
-    fn waits_for_nothing(&mut self, condition: &Expr, then: &str) {
-        if !self.is_absence(condition) {
+    /// `on not docked { … }`; what ends the episode, by `ends`, happens in one tick of it at most.
+    fn waits_for_nothing(&mut self, condition: &Expr, then: &str, ends: &BTreeSet<String>) {
+        if !self.is_absence(condition, ends) {
             return;
         }
         let message = "what does not happen is true of nearly every tick";
@@ -95,16 +102,17 @@ impl<'a> Checker<'a> {
     }
 
     /// Whether a condition asks for nothing but that something does not happen.
-    fn is_absence(&self, condition: &Expr) -> bool {
+    fn is_absence(&self, condition: &Expr, ends: &BTreeSet<String>) -> bool {
         match &condition.kind {
-            ExprKind::Paren(inner) => self.is_absence(inner),
+            ExprKind::Paren(inner) => self.is_absence(inner, ends),
             ExprKind::Unary { op, operand } => {
-                op.node == UnaryOp::Not && self.is_moment(operand, DEEP)
+                op.node == UnaryOp::Not
+                    && (self.is_moment(operand, DEEP) || ends.contains(&print::expr(operand)))
             }
             ExprKind::Binary { op, left, right } => {
                 matches!(op.node, BinaryOp::And | BinaryOp::Or)
-                    && self.is_absence(left)
-                    && self.is_absence(right)
+                    && self.is_absence(left, ends)
+                    && self.is_absence(right, ends)
             }
             _ => false,
         }

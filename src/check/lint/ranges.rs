@@ -6,7 +6,7 @@ use super::view::View;
 use crate::ir::expr::{Binary, Draw, Echo, Expr, ExprId, Pose, Unary};
 use crate::ir::input::InputKind;
 use crate::ir::program::{Stays, ValueKind};
-use crate::ir::world::{Sensor, SensorKind};
+use crate::ir::world::{Robot, Sensor, SensorKind};
 use crate::ir::{Id, Name, Program};
 use crate::math::hypot;
 use std::f64::consts::PI;
@@ -90,15 +90,21 @@ impl Ranges<'_> {
                 let ((a, b), (c, d)) = (self.of(a).ends(), self.of(b).ends());
                 hull([a, b, c, d])
             }
-            Expr::Pose(pose) => self.near(pose).unwrap_or_else(|| self.pose(pose)),
-            Expr::Robot(_, pose) => self.pose(pose),
+            Expr::Pose(pose) => {
+                let anywhere = || self.pose(self.view.robot, pose);
+                self.near(pose).unwrap_or_else(anywhere)
+            }
+            Expr::Robot(robot, pose) => self.pose(robot, pose),
             Expr::Elapsed | Expr::Visits => LENGTH,
             Expr::Progress => Interval::between(0.0, 1.0),
             Expr::NearestWall(Echo::Distance) | Expr::Wall(_, Echo::Distance) => {
                 let least = apart::least(self.view, id);
                 least.map_or(LENGTH, |least| Interval::between(least, f64::INFINITY))
             }
-            Expr::Sensor(sensor, Echo::Distance) => self.sensor(sensor),
+            Expr::Sensor(sensor, Echo::Distance) => {
+                let least = apart::least(self.view, id).unwrap_or(0.0);
+                self.sensor(sensor).and(Interval::above(least, false))
+            }
             Expr::NearestWall(Echo::Direction)
             | Expr::Wall(_, Echo::Direction)
             | Expr::Sensor(_, Echo::Direction) => ANGLE,
@@ -125,15 +131,16 @@ impl Ranges<'_> {
         }
     }
 
-    /// A robot is within the bounds of the arena.
-    fn pose(&self, pose: Pose) -> Interval {
+    /// The body of a robot is within the bounds of the arena.
+    fn pose(&self, robot: Id<Robot>, pose: Pose) -> Interval {
         let Some(world) = &self.view.program.world else {
             return Interval::ALL;
         };
         let ([left, bottom], [right, top]) = world.arena.bounds();
+        let room = world.robot_of(robot).radius - apart::SLACK;
         match pose {
-            Pose::X => Interval::between(left, right),
-            Pose::Y => Interval::between(bottom, top),
+            Pose::X => Interval::between(left + room, right - room),
+            Pose::Y => Interval::between(bottom + room, top - room),
             Pose::Heading => ANGLE,
         }
     }

@@ -3,6 +3,7 @@
 use super::apart::because;
 use super::cases::{About, Case, Cases, Says, of_expr};
 use super::interval::Interval;
+use super::ranges::range;
 use super::view::View;
 use crate::check::Checker;
 use crate::diagnostic::Code;
@@ -13,6 +14,9 @@ use crate::ir::{Id, Name, Pool};
 use crate::source::Span;
 use crate::syntax::ast::{AspectKind, BehaviorBody, Clause, ClauseKind, Item, ItemKind, Ref};
 use std::collections::{BTreeMap, BTreeSet};
+
+/// The most ticks that are counted.
+const MOST_TICKS: f64 = 1e12;
 
 /// A `fail when` of a behaviour, with what is looked at before it.
 #[derive(Clone, Copy, Debug)]
@@ -53,18 +57,21 @@ impl Starting {
     }
 
     /// What is known as a behaviour starts: no time has passed, and its variables have the values that they start with.
-    fn case(&self, pool: &Pool, law: &Law) -> Cases {
-        let elapsed = self.elapsed.map(|id| (id, Expr::Num(0.0)));
-        let locals = law.locals.iter();
-        let locals = locals
-            .filter_map(|(local, it)| Some((*self.locals.get(&local)?, pool.get(it.initial))));
-        let known = elapsed.into_iter().chain(locals);
-        let says = |(id, initial)| match initial {
-            Expr::Num(value) => Some((About::Number(id), Says::Within(Interval::just(value)))),
-            Expr::Bool(value) => Some((About::Truth(id), Says::Is(value))),
-            _ => None,
-        };
-        Cases::Some(vec![known.filter_map(says).collect::<Case>()])
+    fn case(&self, view: View, law: &Law) -> Cases {
+        let pool = &view.program.pool;
+        let elapsed = self.elapsed.map(|id| {
+            let none = Says::Within(Interval::just(0.0));
+            (About::Number(id), none)
+        });
+        let locals = law.locals.iter().filter_map(|(local, it)| {
+            let id = *self.locals.get(&local)?;
+            if let Expr::Bool(value) = pool.get(it.initial) {
+                return Some((About::Truth(id), Says::Is(value)));
+            }
+            let within = range(view, it.initial);
+            (within != Interval::ALL).then_some((About::Number(id), Says::Within(within)))
+        });
+        Cases::Some(vec![elapsed.into_iter().chain(locals).collect::<Case>()])
     }
 }
 
@@ -86,6 +93,7 @@ impl<'a> Checker<'a> {
     /// called, where they are called first. `choices` are the conditions of success of which that has been told.
     pub fn calls_without_effect(&mut self, choices: &BTreeSet<ExprId>) {
         let mut told = BTreeSet::new();
+        let starting = Starting::of(&self.program.pool);
         for (at, id) in std::mem::take(&mut self.library_calls) {
             let behavior = &self.program.behaviors[id];
             let view = View::of(&self.program, &behavior.name);
@@ -101,7 +109,9 @@ impl<'a> Checker<'a> {
             }
             let over = law.is_some_and(|law| {
                 let always = |asked| of_expr(view, asked, false).is_never();
-                always(law.requires) && always(law.succeed)
+                let starts = || starting.case(view, law);
+                always(law.requires)
+                    && (always(law.succeed) || starts().implies(&of_expr(view, law.succeed, true)))
             });
             let name = behavior.name.bare();
             if over && told.insert(id) {
@@ -219,7 +229,7 @@ impl<'a> Checker<'a> {
         });
         let as_it_starts = |asked: fn(&Law) -> ExprId| {
             every(&|view, law| {
-                let starts = starting.case(&program.pool, law);
+                let starts = starting.case(view, law);
                 let waits = program.pool.constant(asked(law)).is_none();
                 waits && starts.implies(&of_expr(view, asked(law), true))
             })
@@ -258,8 +268,15 @@ impl<'a> Checker<'a> {
         } else if let (true, Some(at)) = (never_succeeds, succeed) {
             let law = laws.first();
             let why = law.and_then(|(name, law)| because(View::of(program, name), law.succeed));
+            let holds = laws
+                .iter()
+                .any(|(name, law)| !of_expr(View::of(program, name), law.succeed, true).is_never());
+            let label = match holds {
+                true => "where this holds, it has failed",
+                false => "what it waits for never holds",
+            };
             self.warning(Code::W0302, at, "this behaviour never succeeds")
-                .label("what it waits for never holds")
+                .label(label)
                 .note_if(why);
         } else {
             self.fails_without_effect(clauses);
@@ -273,9 +290,8 @@ impl<'a> Checker<'a> {
         laws: &[(Name, Law)],
         starting: &Starting,
     ) -> Option<Span> {
-        let pool = &self.program.pool;
-        let (_, law) = laws.first()?;
-        let starts = starting.case(pool, law);
+        let (name, law) = laws.first()?;
+        let starts = starting.case(View::of(&self.program, name), law);
         let holds = |clause: &&Clause| {
             let ClauseKind::Fail(test) = &clause.kind else {
                 return false;
@@ -314,16 +330,16 @@ impl<'a> Checker<'a> {
                 _ => None,
             })
             .collect();
-        let mut found = Vec::new();
+        let (mut found, mut late) = (Vec::new(), Vec::new());
         for item in items {
             let ItemKind::Task(task) = &item.kind else {
                 continue;
             };
             let name = Name::word(&task.name.name);
-            let Some(id) = self.program.tasks.named(&name) else {
+            let Some(task_id) = self.program.tasks.named(&name) else {
                 continue;
             };
-            let checked = &self.program.tasks[id];
+            let checked = &self.program.tasks[task_id];
             let list = task.aspects.iter().find_map(|aspect| match &aspect.kind {
                 AspectKind::Choose(list) => Some(list),
                 _ => None,
@@ -334,9 +350,17 @@ impl<'a> Checker<'a> {
                 let view = View::from(&self.program);
                 let law = law.filter(|law| succeeds_never(view, law));
                 let at = list.and_then(|list| list.get(*place));
-                if let (Some(law), Some(at), false) =
-                    (law, at, own.contains(behavior.name.family.as_str()))
+                let learners = self.program.learners.values();
+                let learners = learners.filter(|learner| learner.task == task_id);
+                let longest = learners.map(|learner| learner.episode_ticks);
+                let longest = longest.fold(checked.end_after, u64::max);
+                let calls_library = !own.contains(behavior.name.family.as_str());
+                if let (None, Some(at), Some(written)) = (law, at, behavior.law.as_ref())
+                    && succeeds_after(view, written, longest)
                 {
+                    late.push((at.span, behavior.name.bare(), longest));
+                }
+                if let (Some(law), Some(at), true) = (law, at, calls_library) {
                     let why = because(view, law.succeed);
                     told.insert(law.succeed);
                     found.push((at.span, behavior.name.bare(), why));
@@ -345,6 +369,11 @@ impl<'a> Checker<'a> {
         }
         for (at, name, why) in found {
             self.never_succeeds(at, &name, why);
+        }
+        for (at, name, ticks) in late {
+            self.warning(Code::W0512, at, "no episode lasts so long")
+                .label(format!("so `{name}` never succeeds"))
+                .note(format!("an episode ends after {ticks} ticks"));
         }
         told
     }
@@ -386,10 +415,59 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// Whether a behaviour that is to succeed at some time never does.
+/// Whether a behaviour that is to succeed at some time never does: what it waits for never holds, or only where it has failed.
 fn succeeds_never(view: View, law: &Law) -> bool {
     let waits = view.program.pool.constant(law.succeed).is_none();
-    waits && of_expr(view, law.succeed, true).is_never()
+    let succeeds = of_expr(view, law.succeed, true);
+    let allowed = of_expr(view, law.requires, true);
+    waits && (allowed.and(&succeeds).is_never() || fails_before(view, law, &succeeds))
+}
+
+/// Whether a behaviour succeeds, if ever, after more ticks than these.
+fn succeeds_after(view: View, law: &Law, ticks: u64) -> bool {
+    let pool = &view.program.pool;
+    let tick = view.program.world.as_ref().map(|world| world.tick);
+    let (Some(tick), Some(elapsed)) = (tick, Starting::of(pool).elapsed) else {
+        return false;
+    };
+    let Cases::Some(cases) = of_expr(view, law.succeed, true) else {
+        return false;
+    };
+    let late = |case: &Case| match case.get(&About::Number(elapsed)) {
+        Some(Says::Within(within)) => within.ends().0 > ticks as f64 * tick,
+        _ => false,
+    };
+    !cases.is_empty() && cases.iter().all(late)
+}
+
+/// Whether a behaviour fails by time before it could succeed by time.
+fn fails_before(view: View, law: &Law, succeeds: &Cases) -> bool {
+    let pool = &view.program.pool;
+    let tick = view.program.world.as_ref().map(|world| world.tick);
+    let (Some(tick), Some(elapsed)) = (tick, Starting::of(pool).elapsed) else {
+        return false;
+    };
+    let since = |case: &Case, alone: bool| match case.get(&About::Number(elapsed)) {
+        Some(Says::Within(within)) if !alone || case.len() == 1 => first_tick(*within, tick, alone),
+        _ => None,
+    };
+    let (Cases::Some(succeeds), Cases::Some(fails)) = (succeeds, of_expr(view, law.fail, true))
+    else {
+        return false;
+    };
+    let earliest = succeeds.iter().map(|case| since(case, false).unwrap_or(0));
+    let fails = fails.iter().filter_map(|case| since(case, true)).min();
+    fails.is_some_and(|fails| earliest.min().is_some_and(|earliest| fails < earliest))
+}
+
+/// The first tick in which the time that a behaviour has run is in an interval; `stays`: if it stays in it from then on.
+fn first_tick(within: Interval, tick: f64, stays: bool) -> Option<u64> {
+    let (low, high) = within.ends();
+    if low <= 0.0 || low / tick > MOST_TICKS || stays && high < f64::INFINITY {
+        return None;
+    }
+    let first = (low / tick).floor() as u64;
+    (first..first + 3).find(|ticks| within.contains(*ticks as f64 * tick))
 }
 
 /// The words that a clause begins with.

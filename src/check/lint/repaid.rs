@@ -1,5 +1,7 @@
 //! Rewards that are paid again in each tick, for a success that stands.
 
+use super::cases::of_expr;
+use super::tree::at_success;
 use crate::check::Checker;
 use crate::diagnostic::Code;
 use crate::ir::expr::{Binary, Expr, ExprId};
@@ -17,6 +19,9 @@ impl Checker<'_> {
         let mut lines = lines.filter(|(of, _)| **of == place).map(|(_, line)| line);
         let stands = lines.find_map(|line| {
             let pays = self.program.pool.constant(line.value)? > 0.0;
+            let happens = of_expr(&self.program, line.event, true)
+                .and(&at_success(&self.program, line.event));
+            let pays = pays && !happens.is_never();
             standing(&self.program, line.event).filter(|_| pays)
         });
         let Some(behavior) = stands else { return };

@@ -1,6 +1,11 @@
 //! Rewards that are never paid, ends that count for nothing, and times that never pass.
 
 use super::cases::{About, Case, Cases, Says, of_expr};
+use super::interval::Interval;
+use super::ranges::range;
+use super::repaid;
+use super::tree::as_it_succeeds;
+use super::view::View;
 use crate::check::Checker;
 use crate::check::expr::plain_ref;
 use crate::diagnostic::{Code, Diagnostic};
@@ -8,15 +13,22 @@ use crate::ir::expr::{Expr, ExprId};
 use crate::ir::law::Behavior;
 use crate::ir::task::{Discount, Learner, Objective, Task};
 use crate::ir::{Id, Name};
+use crate::math;
 use crate::source::Span;
 use crate::syntax::ast::{
-    self, AspectKind, BinaryOp, ExprKind, Item, ItemKind, LearnEntry, Paid, RewardLine,
+    self, AspectKind, BinaryOp, ExprKind, Item, ItemKind, LearnEntry, Paid, RewardLine, UnaryOp,
 };
 use crate::syntax::print;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// How many lines of a task are held against each line; of what comes after them, nothing is said.
 const MOST: usize = 128;
+
+/// A discount is hardly less where it says what is left.
+const SMALL: f64 = 0.3;
+
+/// Of an episode's time, what comes after so small a part of it is to count for something.
+const SHORT: f64 = 50.0;
 
 impl<'a> Checker<'a> {
     /// Warns of what a task says about rewards, ends and times without any effect.
@@ -35,6 +47,7 @@ impl<'a> Checker<'a> {
                     self.learns_nothing(learn);
                     self.tries_nothing(learn);
                     self.looks_no_further(learn);
+                    self.looks_next_to_nowhere(learn);
                 }
                 _ => {}
             }
@@ -45,6 +58,7 @@ impl<'a> Checker<'a> {
         let checked = self.program.tasks[id].clone();
         let mut ends = 0;
         let paid = self.cases_of(checked.reward.iter().map(|line| &line.event));
+        let denied = denied(task);
         for aspect in &task.aspects {
             match &aspect.kind {
                 AspectKind::Reward { lines, otherwise } => {
@@ -64,7 +78,10 @@ impl<'a> Checker<'a> {
                     }
                 }
                 AspectKind::EndOn(event) => {
-                    self.end_without_value(event, ends, &checked, &paid);
+                    // Of a line that waits for its absence another warning is told.
+                    if !denied.contains(&print::expr(event)) {
+                        self.end_without_value(event, ends, &checked, &paid);
+                    }
                     ends += 1;
                 }
                 AspectKind::Patience(time)
@@ -118,7 +135,14 @@ impl<'a> Checker<'a> {
                     .label("whenever this happens, an earlier line pays")
                     .also(earlier, "this line comes first");
             }
-            let ends = (cases.iter()).all(|cases| ends.iter().any(|end| cases.implies(end)));
+            let members = checked.written.reward.iter().zip(&checked.reward);
+            let members = members.filter(|(of, _)| **of == place);
+            let stands = members.map(|(_, line)| as_it_succeeds(&self.program, line.event));
+            let mut paid = cases.iter().zip(stands);
+            let ends = paid.all(|(cases, stands)| {
+                let cases = cases.and(&stands);
+                ends.iter().any(|end| cases.implies(end))
+            });
             if let Paid::On(condition) = &line.paid
                 && !ends
             {
@@ -215,10 +239,19 @@ impl<'a> Checker<'a> {
 
     /// `on battery_low: -1`: what holds for a while is paid in every tick of it.
     fn pays_again_and_again(&mut self, condition: &ast::Expr) {
+        let name = print::expr(condition);
+        if self.stands(condition) {
+            let message = format!(
+                "`{name}` asks only where the robot is: this is paid in every tick that it stays"
+            );
+            self.warning(Code::W0519, condition.span, message)
+                .label("so long as it holds")
+                .help("what happens once is an event, such as the success of a behaviour");
+            return;
+        }
         if !self.lasts(condition) {
             return;
         }
-        let name = print::expr(condition);
         let message = match plain_ref(condition) {
             Some(_) => {
                 format!("`{name}` is a predicate: this is paid in every tick in which it holds")
@@ -232,6 +265,17 @@ impl<'a> Checker<'a> {
                 "a price for the time is written `while {name}, per 1 s: …`"
             ))
             .help("what happens once is an event, such as the success of a behaviour");
+    }
+
+    /// Whether a condition is an event that asks nothing but where the robot is.
+    fn stands(&self, condition: &ast::Expr) -> bool {
+        let called = plain_ref(condition).map(|asked| Name::word(&asked.name.name));
+        let event = called.and_then(|name| self.program.events.named(&name));
+        event.is_some_and(|event| {
+            let when = self.program.events[event].when;
+            let waits = self.program.pool.constant(when).is_none();
+            waits && repaid::lasts(&self.program, when)
+        })
     }
 
     /// Whether a condition asks nothing but predicates.
@@ -259,12 +303,16 @@ impl<'a> Checker<'a> {
         own.all(|(_, line)| self.is_single_event(line.event))
     }
 
-    /// Whether an expression asks for an event that is not one of a family.
+    /// Whether an expression asks for an event that is not one of a family, or for one of a family that never happens.
     fn is_single_event(&self, id: ExprId) -> bool {
-        match self.program.pool.get(id) {
-            Expr::Event(event) => self.program.events[event].name.arguments.is_empty(),
-            _ => false,
-        }
+        let Expr::Event(event) = self.program.pool.get(id) else {
+            return false;
+        };
+        let events = self.program.events.values();
+        let name = &self.program.events[event].name;
+        let mut family = events.filter(|event| event.name.family == name.family);
+        let never = |when| of_expr(&self.program, when, true).is_never();
+        name.arguments.is_empty() || family.all(|event| never(event.when))
     }
 
     /// A line of `end on`, by its place among them; `paid` says when the lines of `reward` pay.
@@ -352,10 +400,10 @@ impl<'a> Checker<'a> {
     /// first, as `initial` may have it, everything is tried all the same.
     fn tries_nothing(&mut self, learn: &'a ast::Learn) {
         let explore = self.learner(learn).map(|learner| learner.explore);
-        let explore = explore.and_then(|explore| self.program.pool.constant(explore));
+        let explore = explore.map(|explore| range(View::from(&self.program), explore));
         let hopes = setting(learn, "initial").is_some();
         let setting = setting(learn, "explore");
-        if let Some(setting) = setting.filter(|_| explore == Some(0.0) && !hopes) {
+        if let Some(setting) = setting.filter(|_| explore == Some(Interval::just(0.0)) && !hopes) {
             self.warning(Code::W0517, setting.value.span, "nothing is tried")
                 .label("in each episode the robot does what looks best so far")
                 .help("write a share above 0, such as `35% -> 5%`");
@@ -382,6 +430,46 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// A discount after which next to nothing is left of what comes soon.
+    fn looks_next_to_nowhere(&mut self, learn: &'a ast::Learn) {
+        let Some(learner) = self.learner(learn) else {
+            return;
+        };
+        let (factor, after) = match learner.objective {
+            Objective::Discounted(Discount::PerDecision(factor)) => (factor, None),
+            Objective::Discounted(Discount::PerTime(factor, seconds)) => (factor, Some(seconds)),
+            Objective::Average(_) => return,
+        };
+        let Some(setting) = setting(learn, "discount") else {
+            return;
+        };
+        let tick = self.tick.unwrap_or(1.0);
+        let episode = learner.episode_ticks as f64 * tick;
+        let is_short = after.is_none_or(|after| -after / math::ln(factor) < episode / SHORT);
+        if factor <= 0.0 || factor > SMALL || !is_short {
+            return;
+        }
+        let per = match &setting.tail {
+            Some((_, tail)) => print::expr(tail),
+            None => "decision".to_owned(),
+        };
+        let percent = (factor * 1e3).round() / 10.0;
+        let kept = ((1.0 - factor) * 1e9).round() / 1e9;
+        let when = match after {
+            None => "one decision later".to_owned(),
+            Some(_) => format!("{per} later"),
+        };
+        self.warning(
+            Code::W0524,
+            setting.value.span,
+            "next to nothing counts but what comes at once",
+        )
+        .label(format!("what comes {when} counts for {percent}%"))
+        .help(format!(
+            "a discount is what is left, not what is lost: `{kept} per {per}`"
+        ));
+    }
+
     fn dwells_too_long(&mut self, learn: &'a ast::Learn) {
         let learner = self.learner(learn);
         let Some((dwell, episode)) = learner.map(|learner| (learner.dwell, learner.episode_ticks))
@@ -402,4 +490,20 @@ fn setting<'a>(learn: &'a ast::Learn, name: &str) -> Option<&'a ast::Setting> {
         LearnEntry::Setting(setting) if setting.name.name == name => Some(setting),
         _ => None,
     })
+}
+
+/// What lines of `reward` wait for the absence of.
+fn denied(task: &ast::Task) -> BTreeSet<String> {
+    let rewards = task.aspects.iter().filter_map(|aspect| match &aspect.kind {
+        AspectKind::Reward { lines, .. } => Some(lines),
+        _ => None,
+    });
+    let absent = rewards.flatten().filter_map(|line| match &line.paid {
+        Paid::On(ast::Expr {
+            kind: ExprKind::Unary { op, operand },
+            ..
+        }) if op.node == UnaryOp::Not => Some(print::expr(operand)),
+        _ => None,
+    });
+    absent.collect()
 }

@@ -36,6 +36,19 @@ impl<'a> Checker<'a> {
                                 .label("the robot is always in it");
                         }
                     }
+                    WorldEntryKind::Wall { name, shape, .. } => {
+                        let wall = world.walls.named(&Name::word(&name.name));
+                        let beyond = wall.and_then(|wall| beyond(&world.walls[wall].shape, &world));
+                        if let Some(beyond) = beyond {
+                            let message = format!(
+                                "the wall `{}` reaches {} m beyond the arena",
+                                name.name,
+                                short(beyond)
+                            );
+                            self.warning(Code::W0402, shape.span, message)
+                                .label("no robot meets it there");
+                        }
+                    }
                     _ => {}
                 }
             }
@@ -56,9 +69,24 @@ impl<'a> Checker<'a> {
                             .label(label)
                             .help("make it slower, or the tick shorter");
                     }
+                    let learns = robot.name == world.robot.name;
+                    let passed = world.places.values().find(|place| {
+                        learns && self.is_sent_to(&place.name) && widest(&place.shape) < step
+                    });
+                    if let Some(place) = passed.filter(|_| step < width.min(height)) {
+                        let message = format!("the robot may pass over the place `{}`", place.name);
+                        let label = format!(
+                            "{} m in a tick of {} s, and the place is {} m wide",
+                            short(step),
+                            world.tick,
+                            short(widest(&place.shape))
+                        );
+                        self.warning(Code::W0402, field.value.span, message)
+                            .label(label)
+                            .help("make it slower, or the tick shorter, or the place larger");
+                    }
                     let ticks = self.program.tasks.values().map(|task| task.end_after).max();
                     let far = ticks.map(|ticks| step * ticks as f64);
-                    let learns = robot.name == world.robot.name;
                     if let Some(far) = far.filter(|far| learns && *far < width.min(height) / NEAR) {
                         let message = "the robot hardly moves in an episode";
                         let far = short(far);
@@ -102,4 +130,26 @@ fn covers(place: &Shape, world: &World) -> bool {
     let ([left, bottom], [right, top]) = world.arena.bounds();
     let corners = [[left, bottom], [right, bottom], [left, top], [right, top]];
     place.is_convex() && corners.into_iter().all(|corner| place.contains(corner))
+}
+
+/// How wide a place is where it is widest, along an axis.
+fn widest(place: &Shape) -> f64 {
+    let (low, high) = place.bounds();
+    let [width, height] = minus(high, low);
+    width.max(height)
+}
+
+/// How far a wall that is within the arena in part reaches beyond it, if that is farther than the arena is wide.
+fn beyond(wall: &Shape, world: &World) -> Option<f64> {
+    let (low, high) = world.arena.bounds();
+    let (from, to) = wall.bounds();
+    let [below, above] = [minus(low, from), minus(to, high)];
+    let out = [below[0].max(above[0]), below[1].max(above[1])];
+    let [width, height] = minus(high, low);
+    let within = (0..2).all(|axis| {
+        let at = |point: [f64; 2]| point.get(axis).copied().unwrap_or(0.0);
+        at(from) < at(high) && at(to) > at(low)
+    });
+    let [x, y] = out;
+    (within && (x > width || y > height)).then_some(x.max(y))
 }

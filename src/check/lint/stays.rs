@@ -1,5 +1,6 @@
 //! Which values states may have: what they start with, and what anything sets them to.
 
+use super::cases::of_expr;
 use super::ranges::range;
 use super::view::View;
 use crate::check::Checker;
@@ -10,6 +11,7 @@ use crate::ir::program::{State, Stays, ValueKind};
 use crate::ir::task::StartLine;
 use crate::ir::world::{Robot, World};
 use crate::ir::{Id, Program};
+use crate::syntax::ast::{Ident, Item, ItemKind};
 use std::collections::BTreeMap;
 
 /// What sets a state: the robot that reads it, and the value.
@@ -18,34 +20,142 @@ type Setting = (Id<Robot>, ExprId);
 /// What sets each state.
 pub type Set = BTreeMap<Id<State>, Vec<Setting>>;
 
-impl Checker<'_> {
+impl<'a> Checker<'a> {
     /// Finds out which values the states of the program may have.
     ///
     /// Of a state that nothing sets, or that is set to itself, nothing is found out: that is told where it stands. Nor is
     /// anything where a value may be another one than it says.
-    pub fn values_of_states(&mut self) {
+    ///
+    /// An effect counts where what it waits for can happen, by the values that are found.
+    pub fn values_of_states(&mut self, items: impl Iterator<Item = &'a Item>) {
         let unsure = |found: &Diagnostic| matches!(found.code, Code::W0204 | Code::W0301);
         if self.diagnostics.iter().any(unsure) {
             return;
         }
-        let mut set = set_in_ticks(&self.program);
-        set_at_starts(&self.program, &mut set);
-        for effect in &self.program.effects {
+        let mut always = set_in_ticks(&self.program);
+        set_at_starts(&self.program, &mut always);
+        let mut all = always.clone();
+        let effects = self.program.effects.iter().map(|effect| {
+            let mut set = Set::new();
             of_block(&effect.block, World::acting(), &mut set);
-        }
+            add(&mut all, &set);
+            (effect.on, set)
+        });
+        let mut waiting: Vec<(ExprId, Set)> = effects.collect();
         let to_itself =
             |state, (_, value): &Setting| self.program.pool.get(*value) == Expr::State(state);
-        set.retain(|state, settings| !settings.iter().any(|it| to_itself(*state, it)));
-        for (state, settings) in set {
-            let stays = match self.program.states[state].kind {
-                ValueKind::Quantity => self.numbers_of(state, &settings),
+        all.retain(|state, settings| !settings.iter().any(|it| to_itself(*state, it)));
+        let mut set = always;
+        for round in 0.. {
+            self.stay_by(&all, &set);
+            let (happen, wait) = waiting.into_iter().partition(|(on, _)| {
+                round >= ROUNDS || !of_expr(&self.program, *on, true).is_never()
+            });
+            waiting = wait;
+            let happen: Vec<(ExprId, Set)> = happen;
+            if happen.is_empty() {
+                break;
+            }
+            happen.iter().for_each(|(_, more)| add(&mut set, more));
+        }
+        self.states_that_stay(items, &all, &waiting);
+    }
+
+    /// Finds out which values the states that `all` sets may have, where only `set` does.
+    fn stay_by(&mut self, all: &Set, set: &Set) {
+        for state in all.keys() {
+            self.program.states[*state].stays = Stays::ANY;
+        }
+        for state in all.keys() {
+            let settings = set.get(state).map_or(&[][..], Vec::as_slice);
+            let stays = match self.program.states[*state].kind {
+                ValueKind::Quantity => self.numbers_of(*state, settings),
                 ValueKind::Bool | ValueKind::Enum(_) => {
-                    let initial = (World::acting(), self.program.states[state].initial);
-                    self.one_of_these(state, &[settings.as_slice(), &[initial]].concat())
+                    let initial = (World::acting(), self.program.states[*state].initial);
+                    self.one_of_these(*state, &[settings, &[initial]].concat())
                 }
             };
-            self.program.states[state].stays = stays;
+            self.program.states[*state].stays = stays;
         }
+    }
+
+    /// Warns of states that keep the value of their declaration, though there are effects that set them; those that are
+    /// `waiting` never happen. Of what follows from that, nothing is said.
+    fn states_that_stay(
+        &mut self,
+        items: impl Iterator<Item = &'a Item>,
+        all: &Set,
+        waiting: &[(ExprId, Set)],
+    ) {
+        let mut found: Vec<Staying> = Vec::new();
+        for item in items {
+            let ItemKind::State(declared) = &item.kind else {
+                continue;
+            };
+            let states = self.program.states.iter();
+            let own = states.filter(|(_, state)| state.name.family == declared.name.name);
+            let own: Vec<Id<State>> = own.map(|(id, _)| id).collect();
+            let stays = |id: &Id<State>| {
+                let is_set = all.get(id).is_some_and(|settings| !settings.is_empty());
+                is_set && self.program.states[*id].stays.is_one()
+            };
+            if own.is_empty() || !own.iter().all(stays) || declared.name.name.starts_with('_') {
+                continue;
+            }
+            let name = &declared.name;
+            let same = own.iter().filter_map(|id| all.get(id)).flatten();
+            let is_same = |(_, value): &Setting| {
+                let pool = &self.program.pool;
+                let initial = own
+                    .first()
+                    .map(|id| pool.get(self.program.states[*id].initial));
+                Some(pool.get(*value)) == initial
+            };
+            found.push(Staying {
+                name,
+                same: same.clone().all(is_same),
+                own,
+            });
+        }
+        // The others wait for one that holds itself back.
+        let holds_back = |checker: &mut Self, it: &Staying| it.same || checker.frees(it, waiting);
+        let causes: Vec<bool> = found.iter().map(|it| holds_back(self, it)).collect();
+        let any = causes.contains(&true);
+        for (at, (it, cause)) in found.iter().zip(causes).enumerate() {
+            if !cause && (any || at > 0) {
+                continue;
+            }
+            let why = match it.same {
+                true => "whatever sets it sets it to this value",
+                false => "what sets it to another value never happens",
+            };
+            let message = format!("the state `{}` never changes", it.name.name);
+            self.warning(Code::W0205, it.name.span, message)
+                .label("it stays as it is declared here")
+                .note(why);
+        }
+        for id in found.into_iter().flat_map(|it| it.own) {
+            self.program.states[id].stays = Stays::ANY;
+        }
+    }
+
+    /// Whether something that sets a state could happen if the state had any value.
+    fn frees(&mut self, staying: &Staying, waiting: &[(ExprId, Set)]) -> bool {
+        let states = staying.own.iter();
+        let kept = states.map(|id| {
+            let stays = &mut self.program.states[*id].stays;
+            (*id, std::mem::replace(stays, Stays::ANY))
+        });
+        let kept: Vec<_> = kept.collect();
+        let mut effects = waiting.iter();
+        let frees = effects.any(|(on, set)| {
+            let sets = staying.own.iter().any(|id| set.contains_key(id));
+            sets && !of_expr(&self.program, *on, true).is_never()
+        });
+        for (id, stays) in kept {
+            self.program.states[id].stays = stays;
+        }
+        frees
     }
 
     /// Lets states have the values that they have in the first tick of an episode, and gives back those that they may have at
@@ -136,6 +246,14 @@ impl Checker<'_> {
 }
 
 impl Stays {
+    /// Whether this is one value.
+    fn is_one(&self) -> bool {
+        match self {
+            Self::Within(ends) => ends.start() == ends.end(),
+            Self::Among(among) => among.count_ones() == 1,
+        }
+    }
+
     /// One of these, or one of those.
     #[must_use]
     fn or(self, other: &Self) -> Self {
@@ -194,6 +312,25 @@ impl Stays {
         Self::Within(low..=high)
     }
 }
+
+/// A declared state that keeps its value.
+struct Staying<'a> {
+    name: &'a Ident,
+    /// Whether it is only ever set to this value.
+    same: bool,
+    /// The state, or each of the family.
+    own: Vec<Id<State>>,
+}
+
+/// Adds to what sets each state.
+fn add(set: &mut Set, more: &Set) {
+    for (state, settings) in more {
+        set.entry(*state).or_default().extend(settings);
+    }
+}
+
+/// How often what may happen is reckoned anew, before all of it is taken to happen.
+const ROUNDS: usize = 8;
 
 /// The most changes of a state in a tick that are followed.
 const CHANGES: usize = 4;

@@ -68,16 +68,8 @@ impl<'a> Checker<'a> {
     /// these places from which it gets furthest. The grid is generous: a robot a cell smaller than this one would not get
     /// there. Doors are open.
     fn places_apart(&mut self, declared: &'a ast::World, world: &World) {
-        let sent = |place: &Place| {
-            let mut behaviors = self.program.behaviors.values();
-            behaviors.any(|behavior| {
-                let target = behavior.name.given().next();
-                let target = target.map(|(_, given)| given.to_string());
-                behavior.name.family == "goto" && target == Some(place.name.to_string())
-            })
-        };
         let wanted: Vec<_> = places(declared, world)
-            .filter(|(.., place)| sent(place))
+            .filter(|(.., place)| self.is_sent_to(&place.name))
             .collect();
         if wanted.is_empty() || world.walls.is_empty() {
             return;
@@ -110,6 +102,16 @@ impl<'a> Checker<'a> {
                     .label("the robot does not fit through to it");
             }
         }
+    }
+
+    /// Whether a robot is sent to a place.
+    pub(super) fn is_sent_to(&self, place: &Name) -> bool {
+        let mut behaviors = self.program.behaviors.values();
+        behaviors.any(|behavior| {
+            let target = behavior.name.given().next();
+            let target = target.map(|(_, given)| given.to_string());
+            behavior.name.family == "goto" && target == Some(place.to_string())
+        })
     }
 
     /// Places in which the robot is to be, or which it is to dock at, and does not fit so near to.

@@ -2,6 +2,7 @@
 
 use crate::check::Checker;
 use crate::check::context::{Context, Region};
+use crate::check::expr::grouped;
 use crate::check::names::learned_name;
 use crate::check::types::Type;
 use crate::diagnostic::{Applicability, Code, suggest};
@@ -311,7 +312,14 @@ impl<'a> Checker<'a> {
     /// A whole number that is not less than `least`.
     fn whole(&mut self, value: &'a ast::Expr, role: &str, least: f64) -> Option<u64> {
         let number = self.constant(value, &Type::NUMBER, role)?;
+        let literal = match &value.kind {
+            ExprKind::Number(literal) => Some(literal),
+            _ => None,
+        };
         if number.fract() == 0.0 && (least..=9e15).contains(&number) {
+            if let Some(literal) = literal {
+                self.point_in_count(literal, value.span);
+            }
             return Some(number as u64);
         }
         let label = if number < least {
@@ -321,11 +329,15 @@ impl<'a> Checker<'a> {
         } else {
             "this is not a whole number"
         };
-        self.out_of_range(
+        let draft = self.out_of_range(
             value.span,
             format!("{role} is a whole number from {least} up"),
             label,
-        )
+        );
+        match literal.and_then(grouped) {
+            Some(grouped) => draft.help(format!("digits are grouped by `_`: `{grouped}`")),
+            None => draft,
+        }
         .none()
     }
 

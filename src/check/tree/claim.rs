@@ -74,6 +74,10 @@ impl<'a> Checker<'a> {
                 )
                 .label("a claim is about a whole tree")
                 .emit(),
+            Some((decl, false)) => self
+                .error(Code::E0203, name.span, "a tree is needed here")
+                .label(format!("`{}` is {}", name.name, decl.what()))
+                .emit(),
             _ => {
                 let trees = self.names.values(|decl| matches!(decl, Decl::Tree(_)));
                 let trees = trees.chain(self.names.learners.keys().copied());

@@ -153,7 +153,9 @@ impl<'a> Checker<'a> {
         if radius > 0.0 {
             Some(radius)
         } else {
-            self.senseless(value.span, "a disc without size")
+            self.error(Code::E0404, value.span, "a radius is above zero")
+                .label("a disc of this size is not a shape")
+                .none()
         }
     }
 

@@ -3,7 +3,7 @@
 
 use super::{Options, Shape, Stage};
 use crate::checkpoint::{Keeper, Part};
-use crate::grow::{self, Choice, Grown, Starts, grow};
+use crate::grow::{self, Grown, Starts, grow};
 use crate::ir::Program;
 use crate::ir::tree::{Atom, Node, Tree};
 use crate::learn::experiment::Experiment;
@@ -189,7 +189,7 @@ fn grown<W: World>(
         effort,
         requirements: &requirements,
         choice: options.choice,
-        front: options.front || options.choice != Choice::Knee,
+        front: options.front,
     };
     let heard = |heard: grow::Progress| progress(Stage::Growing(heard.ticks, heard.of));
     grow(&ground, &starts, &settings, options.keeper, &heard).map_err(Unlearned::Unknown)

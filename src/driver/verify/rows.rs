@@ -21,11 +21,43 @@ const LISTED: usize = 10;
 
 /// Proves that a tree takes the decisions of a table: in each row, with memory read from the history, and in any
 /// environment that is consistent with the history window; or, where transitions are given, along these, and at least in
-/// the rows that they meet.
+/// the rows that they meet. Where they part and the main file names an environment, they are compared along that.
 ///
 /// # Errors
 /// There is no such tree, or the table cannot be read, or it does not say what the tree asks.
 pub fn table(
+    loaded: &Loaded,
+    name: &str,
+    of: (Text, Option<Format>),
+    recorded: Option<Recorded>,
+) -> Result<Proved, Refused> {
+    let found = beside(loaded, name, of, recorded)?;
+    let named = loaded.tables.first().filter(|_| recorded.is_none());
+    let source = named.and_then(|(file, _)| loaded.sources.get(*file));
+    let Some(source) = source.filter(|_| !found.holds()) else {
+        return Ok(found);
+    };
+    let transitions = Text {
+        name: &source.name,
+        bytes: source.text.as_bytes(),
+    };
+    let recorded = Recorded {
+        transitions,
+        starts: None,
+    };
+    match beside(loaded, name, of, Some(recorded)) {
+        Ok(along) if along.holds() => Ok(Proved {
+            text: format!(
+                "{}\n  along {}, which the file names",
+                along.text, source.name
+            ),
+            ..along
+        }),
+        _ => Ok(found),
+    }
+}
+
+fn beside(
     loaded: &Loaded,
     name: &str,
     (text, from): (Text, Option<Format>),

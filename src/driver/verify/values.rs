@@ -153,10 +153,10 @@ impl Sides<'_> {
 
     /// Refuses a table whose rows contradict each other.
     fn consistent(&self) -> Result<(), Refused> {
-        let comparisons = self.values.comparisons();
+        let (comparisons, narrowed) = self.values.compared();
         let names = self.values.names(&comparisons, "");
         let tests = inputs::tests(self.values, &comparisons, &names);
-        let table = self.values.table(&tests);
+        let table = narrowed.table(&tests);
         table.map_err(|errors| table::refused(self.text, &errors))?;
         Ok(())
     }

@@ -47,9 +47,10 @@ const RULES: &[Rule] = &[
         "fill:none;stroke:#a06c00;stroke-width:1.5;stroke-linecap:round;stroke-linejoin:round",
         "stroke:#f0b74a",
     ),
+    rule("label", "font-weight:600", ""),
     rule(
-        "label",
-        "font-weight:600;paint-order:stroke;stroke:#ffffff;stroke-width:3;stroke-linejoin:round",
+        "halo",
+        "stroke:#ffffff;stroke-width:3;stroke-linejoin:round",
         "stroke:#0d1117",
     ),
     rule(
@@ -212,7 +213,14 @@ fn draw_other(robot: &Robot, way: &[Stand], view: &View, page: &mut Page) {
     let (at, radius) = (view.at(last.position), robot.radius * view.scale);
     legend::robot("last", at, view::along(last.heading), radius, page);
     let name = robot.name.to_string();
-    page.text("name label middle", at[0], at[1] + radius + 13.0, &name);
+    named(page, at[0], at[1] + radius + 13.0, &name);
+}
+
+/// A name with a halo under it, which parts it from what is drawn there; each is a text of its own, since not every renderer knows
+/// an order of painting within one.
+fn named(page: &mut Page, x: f64, y: f64, name: &str) {
+    page.text("name label halo middle", x, y, name);
+    page.text("name label middle", x, y, name);
 }
 
 /// A path that shows its name when it is pointed at.
@@ -268,7 +276,7 @@ fn name_place(place: &Place, view: &View, wide: f64, page: &mut Page) {
         foot + 15.0
     };
     let x = x.min(wide - text / 2.0 - 4.0).max(text / 2.0 + 4.0);
-    page.text("name label middle", x, baseline, &name);
+    named(page, x, baseline, &name);
 }
 
 /// What the sensors of a robot cover from where it stands, within the arena.

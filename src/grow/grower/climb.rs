@@ -1,6 +1,7 @@
 //! One change after another, each kept if a race says so.
 
 use super::{Grower, add};
+use crate::grow::Choice;
 use crate::grow::bodies;
 use crate::grow::evidence::Sight;
 use crate::grow::field::{Aim, Field};
@@ -72,10 +73,23 @@ impl<W: World> Grower<'_, '_, '_, W> {
     }
 
     /// Smaller trees that cost little, for the front.
-    pub(super) fn refine(&mut self, base: Node, mut stage: Stage) -> (Node, Step) {
-        if !self.settings.front {
-            return (base, Step::Done);
+    pub(super) fn refine(&mut self, base: Node, stage: Stage) -> (Node, Step) {
+        match self.settings.choice {
+            Choice::Knee => (base, Step::Done),
+            Choice::Nodes(_) | Choice::Loss(_) => self.refined(base, stage, self.settings.effort),
         }
+    }
+
+    /// Looks for smaller trees than one that was chosen, with so many ticks more.
+    pub fn shrink(&mut self, root: &Node, ticks: u64) {
+        let until = self.judge.seen.ticks.saturating_add(ticks);
+        let (mut base, mut step) = (root.clone(), Step::Refine(Stage::default()));
+        while let Step::Refine(stage) = step {
+            (base, step) = self.refined(base, stage, until);
+        }
+    }
+
+    fn refined(&mut self, base: Node, mut stage: Stage, until: u64) -> (Node, Step) {
         let Some(factor) = DEARER.get(stage.number) else {
             // However few nodes are asked for, there is a tree.
             if let Some(single) = self.best_single() {
@@ -83,7 +97,7 @@ impl<W: World> Grower<'_, '_, '_, W> {
             }
             return (base, Step::Done);
         };
-        if !self.spent(1.0) {
+        if self.judge.seen.ticks < until {
             let price = self.price * factor;
             let terms = Terms::taking(price);
             self.charge(terms);

@@ -132,6 +132,8 @@ pub(super) fn read(text: &[u8]) -> Result<Valued, Vec<TableError>> {
 
 impl Head {
     fn line(&mut self, said: &str, place: &Range<usize>, builder: &mut Builder) {
+        // A spreadsheet fills each line up with commas.
+        let said = said.trim_end_matches(|letter: char| letter == ',' || letter.is_whitespace());
         let mut words = said.split_whitespace();
         let word = words.next().unwrap_or_default();
         let numbers: Option<Vec<usize>> = words.map(|word| word.parse().ok()).collect();

@@ -14,6 +14,10 @@ const LISTED: usize = 64;
 #[derive(Default)]
 struct Met {
     numbers: BTreeSet<String>,
+    /// How many cells hold these numbers.
+    counted: usize,
+    /// Whether a cell is empty.
+    lacks: bool,
     words: BTreeSet<String>,
     /// Whether `0`, `1` and their like appear.
     truths: bool,
@@ -26,9 +30,11 @@ impl Met {
                 .iter()
                 .any(|word| text.eq_ignore_ascii_case(word));
         self.truths |= truth;
-        if text == "-" || truth {
+        self.lacks |= text.is_empty();
+        if text == "-" || truth || text.is_empty() {
         } else if Decimal::parse(text).is_some() {
             self.numbers.insert(text.to_owned());
+            self.counted += 1;
         } else {
             self.words.insert(text.to_owned());
         }
@@ -37,9 +43,11 @@ impl Met {
     /// What the column holds, if that is clear.
     fn kind(&self) -> Option<Assumed> {
         match (self.numbers.is_empty(), self.words.is_empty()) {
+            // What an empty cell was to hold is told first.
+            _ if self.lacks => None,
             (true, true) => Some(Assumed::Truth),
             // One other number among 0 and 1 is a slip.
-            (false, true) if self.numbers.len() > 1 || !self.truths => Some(Assumed::Number),
+            (false, true) if self.counted > 1 || !self.truths => Some(Assumed::Number),
             (_, false) if !self.truths && self.words.len() <= LISTED => Some(Assumed::Category),
             _ => None,
         }
@@ -74,6 +82,8 @@ pub(super) fn header(text: &[u8]) -> Option<TableError> {
             }
         }
     }
+    // Beside a column of numbers another one is hardly a slip.
+    let numbers = met.iter().any(|met| met.kind() == Some(Assumed::Number));
     let mut first = None;
     let mut header = Vec::new();
     for ((name, place), met) in names.iter().zip(places).zip(&met) {
@@ -81,7 +91,8 @@ pub(super) fn header(text: &[u8]) -> Option<TableError> {
             header.push(name.clone());
             continue;
         }
-        let kind = met.kind()?;
+        let beside = numbers && !met.lacks && met.words.is_empty();
+        let kind = met.kind().or(beside.then_some(Assumed::Number))?;
         header.push(match kind {
             Assumed::Truth => name.clone(),
             Assumed::Number => format!("{name}:number"),

@@ -13,12 +13,17 @@ use std::ops::Range;
 /// The deepest nesting of a policy, and some more.
 const DEEPEST: usize = 16;
 
+/// The most nodes that stand for aliases.
+const MOST: usize = 2_000_000;
+
 /// A node of YAML with its place.
+#[derive(Clone)]
 struct Node {
     kind: Yaml,
     place: Range<usize>,
 }
 
+#[derive(Clone)]
 enum Yaml {
     Scalar(String),
     List(Vec<Node>),
@@ -134,6 +139,18 @@ impl Node {
         }
     }
 
+    /// How many nodes it has.
+    fn size(&self) -> usize {
+        match &self.kind {
+            Yaml::Scalar(_) => 1,
+            Yaml::List(items) => items.iter().map(Self::size).sum::<usize>() + 1,
+            Yaml::Map(entries) => {
+                let sizes = entries.iter().map(|(key, value)| key.size() + value.size());
+                sizes.sum::<usize>() + 1
+            }
+        }
+    }
+
     fn get(&self, key: &str) -> Option<&Node> {
         let mut entries = self.entries()?.iter();
         let found = entries.find(|(name, _)| name.scalar() == Some(key));
@@ -148,6 +165,10 @@ fn parsed(text: &str) -> Result<Node, TableError> {
     let byte = |at: usize| places.get(at).copied().unwrap_or(text.len());
     let place = |span: &Span| byte(span.start.index())..byte(span.end.index());
     let mut open: Vec<(Yaml, usize, Vec<Node>)> = Vec::new();
+    // What has been given a name, for the aliases that stand for it.
+    let mut named: BTreeMap<usize, Node> = BTreeMap::new();
+    let mut names: Vec<usize> = Vec::new();
+    let mut copied = 0_usize;
     for event in Parser::new_from_str(text) {
         let (event, span) = event.map_err(|error| {
             let at = byte(error.marker().index());
@@ -158,26 +179,43 @@ fn parsed(text: &str) -> Result<Node, TableError> {
         })?;
         let place = place(&span);
         let node = match event {
-            Event::SequenceStart(..) => {
+            Event::SequenceStart(name, ..) => {
+                names.push(name);
                 open.push((Yaml::List(Vec::new()), place.start, Vec::new()));
                 None
             }
-            Event::MappingStart(..) => {
+            Event::MappingStart(name, ..) => {
+                names.push(name);
                 open.push((Yaml::Map(Vec::new()), place.start, Vec::new()));
                 None
             }
-            Event::SequenceEnd | Event::MappingEnd => open
-                .pop()
-                .map(|(kind, start, nodes)| closed(kind, start, nodes)),
-            Event::Scalar(value, ..) => Some(Node {
-                kind: Yaml::Scalar(value.into_owned()),
-                place,
-            }),
-            Event::Alias(..) => {
-                return Err(TableError {
-                    span: place,
-                    kind: foreign("aliases are not read: write the value out".to_owned()),
-                });
+            Event::SequenceEnd | Event::MappingEnd => {
+                let node = open
+                    .pop()
+                    .map(|(kind, start, nodes)| closed(kind, start, nodes));
+                let name = names.pop().filter(|name| *name > 0);
+                named.extend(name.zip(node.clone()));
+                node
+            }
+            Event::Scalar(value, _, name, _) => {
+                let node = Node {
+                    kind: Yaml::Scalar(value.into_owned()),
+                    place,
+                };
+                named.extend((name > 0).then(|| (name, node.clone())));
+                Some(node)
+            }
+            Event::Alias(name) => {
+                let node = named.get(&name);
+                copied = copied.saturating_add(node.map_or(0, Node::size));
+                let node = node.filter(|_| copied <= MOST).ok_or_else(|| TableError {
+                    span: place.clone(),
+                    kind: foreign("this stands for too much: write the value out".to_owned()),
+                })?;
+                Some(Node {
+                    place,
+                    ..node.clone()
+                })
             }
             _ => None,
         };

@@ -38,6 +38,15 @@ struct Entry {
 
 pub(super) fn read(text: &[u8]) -> Result<Valued, Vec<TableError>> {
     let whole = decoded(text)?;
+    // A byte order mark says nothing; the places stay those of the file.
+    let unmarked: String;
+    let whole = match whole.strip_prefix('\u{feff}') {
+        Some(rest) => {
+            unmarked = format!("   {rest}");
+            &unmarked
+        }
+        None => whole,
+    };
     let mut builder = Builder::default();
     let start = whole.len() - whole.trim_start().len();
     let entries: Vec<&RawValue> = match serde_json::from_str(whole) {

@@ -98,7 +98,11 @@ impl Builder {
             Kind::Truth(atom) => atom.to_string(),
             _ => spelling::bare(name).to_owned(),
         };
-        if let Err(kind) = names::check(&name) {
+        let checked = match &kind {
+            Kind::Truth(atom) => atom.check(),
+            _ => names::check(&name),
+        };
+        if let Err(kind) = checked {
             self.report(place, kind);
         }
         if self.columns.iter().any(|open| open.column.name == name) {

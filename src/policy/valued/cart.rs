@@ -10,7 +10,13 @@ const WORK: usize = 500_000_000;
 
 /// The comparisons that a partition uses which ends where all rows of a part do the same, or cannot be told apart; `None` if
 /// that would be too much work.
-pub(super) fn used(valued: &Valued, impurity: Impurity) -> Option<BTreeSet<Comparison>> {
+///
+/// Where rows allow several behaviours, `shared` says that a part ends where all of its rows allow one.
+pub(super) fn used(
+    valued: &Valued,
+    impurity: Impurity,
+    shared: bool,
+) -> Option<BTreeSet<Comparison>> {
     let mut found = BTreeSet::new();
     let mut work = 0_usize;
     let rows = u32::try_from(valued.len()).unwrap_or(u32::MAX);
@@ -20,10 +26,14 @@ pub(super) fn used(valued: &Valued, impurity: Impurity) -> Option<BTreeSet<Compa
         if work > WORK {
             return None;
         }
-        let Some(best) = best(valued, &part, impurity) else {
+        let classes = match shared {
+            true => favoured(valued, &part),
+            false => decided(valued, &part),
+        };
+        let Some(best) = classes.and_then(|classes| best(valued, &part, &classes, impurity)) else {
             continue;
         };
-        let best = shared(valued, best, &found);
+        let best = moved(valued, best, &found);
         if !matches!(kind(valued, best.column), Some(Kind::Truth(_))) {
             found.insert(best);
         }
@@ -51,7 +61,7 @@ fn code(valued: &Valued, column: usize, row: u32) -> u32 {
 }
 
 /// A split between two values of a part, moved to where a comparison is used already, if one divides the part alike.
-fn shared(valued: &Valued, split: Split, used: &BTreeSet<Comparison>) -> Comparison {
+fn moved(valued: &Valued, split: Split, used: &BTreeSet<Comparison>) -> Comparison {
     let Split { best, next } = split;
     let (Asks::AtMost(last), Some(next)) = (best.asks, next) else {
         return best;
@@ -83,24 +93,48 @@ struct Split {
     next: Option<u32>,
 }
 
-/// The comparison that makes the two sides least mixed; `None` where all rows do the same or nothing divides them.
-fn best(valued: &Valued, part: &[u32], impurity: Impurity) -> Option<Split> {
+/// What the rows of a part do, numbered from 0; `None` where all do the same.
+fn decided(valued: &Valued, part: &[u32]) -> Option<Vec<usize>> {
+    let decided = |row: &u32| valued.decided.get(*row as usize).copied().unwrap_or(0);
+    numbered(part.iter().map(decided))
+}
+
+/// Of what each row of a part allows, what most of its rows allow, numbered from 0; `None` where all allow one.
+fn favoured(valued: &Valued, part: &[u32]) -> Option<Vec<usize>> {
+    let mut counts: FxHashMap<u32, usize> = FxHashMap::default();
+    for row in part {
+        for behavior in valued.allowed(*row as usize) {
+            *counts.entry(*behavior).or_default() += 1;
+        }
+    }
+    let count = |behavior: &u32| counts.get(behavior).copied().unwrap_or(0);
+    let favourite = |row: &u32| {
+        let all = valued.allowed(*row as usize).iter();
+        let most = all.max_by_key(|behavior| (count(behavior), std::cmp::Reverse(**behavior)));
+        most.copied().unwrap_or(0)
+    };
+    numbered(part.iter().map(favourite))
+}
+
+fn numbered(classes: impl Iterator<Item = u32>) -> Option<Vec<usize>> {
     let mut numbers: FxHashMap<u32, usize> = FxHashMap::default();
-    let local = part.iter().map(|row| {
+    let local = classes.map(|class| {
         let next = numbers.len();
-        let class = valued.decided.get(*row as usize).copied().unwrap_or(0);
         *numbers.entry(class).or_insert(next)
     });
     let local: Vec<usize> = local.collect();
-    if numbers.len() <= 1 {
-        return None;
-    }
-    let none = Mixture::new(impurity, numbers.len());
+    (numbers.len() > 1).then_some(local)
+}
+
+/// The comparison that makes the two sides least mixed by their classes; `None` where nothing divides them.
+fn best(valued: &Valued, part: &[u32], local: &[usize], impurity: Impurity) -> Option<Split> {
+    let classes = local.iter().max().map_or(0, |most| most + 1);
+    let none = Mixture::new(impurity, classes);
     let mut best: Option<(f64, Split)> = None;
     for (column, of) in valued.columns.iter().enumerate() {
         let mut left_open = none.clone();
         let mut cells: Vec<u64> = Vec::with_capacity(part.len());
-        for (row, class) in part.iter().zip(&local) {
+        for (row, class) in part.iter().zip(local) {
             match of.codes.get(*row as usize).copied().unwrap_or(OPEN) {
                 OPEN => left_open.change(*class, 1),
                 code => cells.push(u64::from(code) << 32 | *class as u64),

@@ -2,6 +2,8 @@
 
 use super::{Decimal, Kind, OPEN, Valued, cart};
 use crate::logic::impurity::Impurity;
+use rustc_hash::FxHashMap;
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 /// The most comparisons that are all made: with more, only those that a partition of the rows uses.
@@ -58,15 +60,96 @@ impl Valued {
         if all.len() <= ALL && all.len().saturating_mul(self.len()) <= AREA {
             return all;
         }
+        self.partitioned(false).unwrap_or(all)
+    }
+
+    /// The comparisons, with the table in which rows that these do not tell apart allow the same: what all of them allow.
+    ///
+    /// Where rows allow several behaviours, those that allow different ones need not be told apart: a partition of the rows says
+    /// which have to be.
+    pub fn compared(&self) -> (Vec<Comparison>, Cow<'_, Self>) {
+        let all = self.comparisons();
+        let exact = self.inputs().count() > 0 && self.leaves_choice();
+        if all.len() <= ALL || !exact {
+            return (all, Cow::Borrowed(self));
+        }
+        let Some(fewer) = self
+            .partitioned(true)
+            .filter(|fewer| fewer.len() < all.len())
+        else {
+            return (all, Cow::Borrowed(self));
+        };
+        match self.narrowed(&fewer) {
+            Some(narrowed) => (fewer, Cow::Owned(narrowed)),
+            None => (all, Cow::Borrowed(self)),
+        }
+    }
+
+    /// Whether some rows allow several behaviours, none leaves an input open, and no two say different things of one state.
+    fn leaves_choice(&self) -> bool {
+        let several = (0..self.len()).any(|row| self.allowed(row).len() > 1);
+        let open = self
+            .columns
+            .iter()
+            .any(|column| column.codes.contains(&OPEN));
+        if !several || open {
+            return false;
+        }
+        let mut known: FxHashMap<Vec<u32>, u32> = FxHashMap::default();
+        let mut rows = self.decided.iter().enumerate();
+        rows.all(|(row, decided)| {
+            let codes = (0..self.columns.len()).map(|column| self.code(column, row));
+            *known.entry(codes.collect()).or_insert(*decided) == *decided
+        })
+    }
+
+    /// The table in which rows that these comparisons do not tell apart allow what all of them do; `None` if that is nothing.
+    fn narrowed(&self, comparisons: &[Comparison]) -> Option<Self> {
+        let mut groups: FxHashMap<Vec<u32>, Vec<usize>> = FxHashMap::default();
+        let truths = self.columns.iter().enumerate();
+        let truths = truths.filter(|(_, column)| matches!(column.kind, Kind::Truth(_)));
+        let truths: Vec<usize> = truths.map(|(at, _)| at).collect();
+        for row in 0..self.len() {
+            let asked = comparisons.iter().map(|comparison| {
+                u32::from(comparison.asks.holds(self.code(comparison.column, row)))
+            });
+            let truths = truths.iter().map(|column| self.code(*column, row));
+            groups
+                .entry(asked.chain(truths).collect())
+                .or_default()
+                .push(row);
+        }
+        let mut narrowed = self.clone();
+        let mut groups: Vec<Vec<usize>> = groups.into_values().collect();
+        groups.sort_unstable();
+        for rows in groups {
+            let first = self.allowed(*rows.first()?).iter();
+            let all = first
+                .filter(|behavior| rows.iter().all(|row| self.allowed(*row).contains(behavior)));
+            let all: Vec<u32> = all.copied().collect();
+            if all.is_empty() {
+                return None;
+            }
+            let decided = narrowed.behaviors.several(all);
+            for row in rows {
+                if let Some(slot) = narrowed.decided.get_mut(row) {
+                    *slot = decided;
+                }
+            }
+        }
+        Some(narrowed)
+    }
+
+    /// The comparisons that partitions of the rows use.
+    fn partitioned(&self, shared: bool) -> Option<Vec<Comparison>> {
         let partitions = [Impurity::Gini, Impurity::Entropy];
-        let partitions = partitions.map(|impurity| cart::used(self, impurity));
+        let partitions = partitions.map(|impurity| cart::used(self, impurity, shared));
         let used: Vec<BTreeSet<Comparison>> = partitions.into_iter().flatten().collect();
         let both: BTreeSet<Comparison> = used.iter().flatten().copied().collect();
         let fewest = used.into_iter().min_by_key(BTreeSet::len);
         match fewest {
-            _ if !both.is_empty() && both.len() <= SEVERAL => both.into_iter().collect(),
-            Some(fewest) => fewest.into_iter().collect(),
-            None => all,
+            _ if !both.is_empty() && both.len() <= SEVERAL => Some(both.into_iter().collect()),
+            fewest => fewest.map(|fewest| fewest.into_iter().collect()),
         }
     }
 

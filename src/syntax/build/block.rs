@@ -359,6 +359,13 @@ impl<'i> Builder<'i> {
             self.report(diagnostic);
             return;
         }
+        if name == "return" && !same_line {
+            let diagnostic = Diagnostic::new(Code::E0101, span, "nothing is returned")
+                .label("a block is done as a whole")
+                .fix("drop it", span, "", Applicability::Unsafe);
+            self.report(diagnostic);
+            return;
+        }
         let diagnostic = if same_line && !matches!(found, "}" | "") {
             Diagnostic::new(
                 Code::E0101,

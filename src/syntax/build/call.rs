@@ -55,7 +55,7 @@ impl<'i> Builder<'i> {
             }
             let ranges = RANGING.contains(&name.name.as_str());
             let outer = std::mem::replace(&mut self.ranging, ranges);
-            let args = self.args(args);
+            let args = self.args(args, &name.name);
             self.ranging = outer;
             args
         });
@@ -80,7 +80,8 @@ impl<'i> Builder<'i> {
         self.report(diagnostic);
     }
 
-    pub(super) fn args(&mut self, node: Node<'i>) -> Vec<Arg> {
+    /// The arguments of what is called `owner`.
+    pub(super) fn args(&mut self, node: Node<'i>, owner: &str) -> Vec<Arg> {
         let mut args: Vec<Arg> = Vec::new();
         let mut is_rest = false;
         let mut range = None;
@@ -103,7 +104,7 @@ impl<'i> Builder<'i> {
                     continue;
                 }
                 (Rule::missing_arg_comma, Some(_)) => continue,
-                (Rule::missing_arg_comma, None) if self.range_is_meant(&part) => {
+                (Rule::missing_arg_comma, None) if self.range_is_meant(&part, owner) => {
                     range = Some(Range::Word);
                     continue;
                 }
@@ -121,6 +122,7 @@ impl<'i> Builder<'i> {
                         value.kind = ExprKind::Error;
                     }
                 }
+                Rule::arg if self.decimal_comma(args.last_mut(), &part) => {}
                 Rule::arg => args.push(self.arg(part)),
                 Rule::missing_arg_comma if self.no_argument(&part, args.last()) => is_rest = true,
                 Rule::missing_arg_comma => {
@@ -131,6 +133,39 @@ impl<'i> Builder<'i> {
             }
         }
         args
+    }
+
+    /// Reports `speed = 0,2 m/s`: a number without a unit, and one with a unit that touches it.
+    fn decimal_comma(&mut self, before: Option<&mut Arg>, node: &Node<'i>) -> bool {
+        // By position it may be an argument of its own: `uniform(0,5%)`.
+        let Some(ArgKind::Named(_, value)) = before.map(|arg| &mut arg.kind) else {
+            return false;
+        };
+        let ExprKind::Number(literal) = &value.kind else {
+            return false;
+        };
+        let is_digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
+        let (start, end) = (value.span.range().end, self.starts(node));
+        let (number, unit) = match node.as_str().find([' ', '%']) {
+            Some(at) => node.as_str().split_at(at),
+            None => return false,
+        };
+        let unit = unit.trim();
+        let torn = literal.unit.is_none()
+            && is_digits(&literal.digits)
+            && is_digits(number)
+            && self.text.get(start..end) == Some(",")
+            && UNITS.contains(&unit.split('/').next().unwrap_or_default());
+        if !torn {
+            return false;
+        }
+        let right = format!("{}.{number}", literal.digits);
+        let span = Span::new(self.file, value.span.range().start, end + number.len());
+        value.kind = ExprKind::Error;
+        let diagnostic = Diagnostic::new(Code::E0101, span, "a decimal fraction has a point")
+            .write(span, right, Applicability::Unsafe);
+        self.report(diagnostic);
+        true
     }
 
     /// Reports `of` and its like in `any(g of gem: …)`, where they should be `in`.
@@ -150,13 +185,22 @@ impl<'i> Builder<'i> {
     }
 
     /// Reports `to` between the ends of a range.
-    fn range_is_meant(&mut self, node: &Node<'i>) -> bool {
+    fn range_is_meant(&mut self, node: &Node<'i>, owner: &str) -> bool {
         let Some(word) = self.token_at(self.starts(node)) else {
             return false;
         };
         let is_to = word.of(self.text) == "to";
-        if is_to {
-            let span = Span::new(self.file, word.start, word.end);
+        let span = Span::new(self.file, word.start, word.end);
+        if is_to && owner == "uniform" {
+            let gap = self.text.get(..word.start).unwrap_or_default();
+            let blanks = gap.len() - gap.trim_end_matches(is_blank).len();
+            let place = Span::new(self.file, word.start - blanks, word.end);
+            let message = "the ends of `uniform` are parted by a comma";
+            let diagnostic = Diagnostic::new(Code::E0127, span, message)
+                .label("write `,`")
+                .fix("write `,`", place, ",", Applicability::Safe);
+            self.report(diagnostic);
+        } else if is_to {
             let message = "a range is written with `..`, not with `to`".to_owned();
             self.respell(Code::E0127, span, message, "..");
         }

@@ -181,10 +181,19 @@ impl<'i> Builder<'i> {
         if what == "arguments" && self.named_behind(before, place) {
             return;
         }
+        // Between two arguments an operator may be missing as well.
+        let product = before.filter(|before| {
+            let value = self.slice(*before);
+            what == "arguments" && !value.contains('=') && self.on_one_line(*before, place)
+        });
+        let applicability = match product {
+            Some(_) => Applicability::Unsafe,
+            None => Applicability::Safe,
+        };
         let mut diagnostic = Diagnostic::new(Code::E0112, place, message)
             .label("this begins another one")
             .note(format!("commas part {what}"))
-            .fix("put a comma", comma, ",", Applicability::Safe);
+            .fix("put a comma", comma, ",", applicability);
         if self.slice(place) == "not" {
             diagnostic = diagnostic.help("conditions are joined: `a and not b`");
         }
@@ -199,9 +208,10 @@ impl<'i> Builder<'i> {
             && what != "variants"
         {
             let argument = self.slice(place);
-            diagnostic = diagnostic.help(format!(
-                "if `{argument}` is an argument: `{name}({argument})`"
-            ));
+            diagnostic = diagnostic.help(match product {
+                Some(_) => format!("a product is written with `*`: `{name} * {argument}`"),
+                None => format!("if `{argument}` is an argument: `{name}({argument})`"),
+            });
         }
         self.report(diagnostic);
     }
@@ -388,6 +398,7 @@ impl<'i> Builder<'i> {
                 Applicability::Unsafe,
             )
         } else if is_word
+            && !RESERVED.contains(&found)
             && (CALLED.contains(&name)
                 || self.glance().declares_called(&LEAVES, name)
                     && !self.glance().declares_by(&LEAVES, found))
@@ -426,15 +437,14 @@ impl<'i> Builder<'i> {
         if matches!(name, "then" | "xor") {
             return true;
         }
-        let is_call = name.ends_with(')') && !self.slice(before).contains("=>");
+        let head = name.split('(').next().unwrap_or_default();
+        let runs = CALLED.contains(&head) || self.names_leaf(head);
         let diagnostic = match next {
-            "then" if is_call && CALLED.iter().any(|word| name.starts_with(word)) => {
-                Diagnostic::new(Code::E0101, place, "`then` joins no nodes")
-                    .label("not said here")
-                    .help(format!(
-                        "one after the other: `memory sequence {{ {name}, … }}`"
-                    ))
-            }
+            "then" if runs => Diagnostic::new(Code::E0101, place, "`then` joins no nodes")
+                .label("not said here")
+                .help(format!(
+                    "one after the other: `memory sequence {{ {name}, … }}`"
+                )),
             "of" if name == "one" => {
                 let message = "a list says its entries alone";
                 Diagnostic::new(Code::E0101, before.to(place), message)

@@ -67,9 +67,13 @@ impl<'i> Builder<'i> {
     fn junction(&mut self, node: Node<'i>) -> Expr {
         let span = self.span(&node);
         let mut parts = Parts::of(node);
+        let listed = std::mem::take(&mut self.in_list);
         let mut operands = vec![self.take_expr(&mut parts)];
         let mut signs = Vec::new();
         while let Some(sign) = parts.next() {
+            if listed && matches!(sign.as_str(), "|" | "||" | "&" | "&&") {
+                return self.parted_by_mark(&sign, parts, span);
+            }
             if sign.as_rule() == Rule::wrong_choice {
                 let asked = chain(operands, signs).unwrap_or_else(|| self.error_expr(span));
                 return self.wrong_choice(asked, &sign, parts);
@@ -87,6 +91,30 @@ impl<'i> Builder<'i> {
         chain(operands, signs).unwrap_or_else(|| self.error_expr(span))
     }
 
+    /// Reports `a | b` where a list has commas.
+    fn parted_by_mark(&mut self, sign: &Node<'i>, rest: Parts<'i>, span: Span) -> Expr {
+        let (mark, place) = (sign.as_str(), self.span(sign));
+        let blank = place.range().start.saturating_sub(1);
+        let from = match self.text.get(blank..place.range().start) {
+            Some(" ") => blank,
+            _ => place.range().start,
+        };
+        let message = format!("the entries of a list are parted by commas, not by `{mark}`");
+        let mut diagnostic = Diagnostic::new(Code::E0101, place, message)
+            .label("write `,`")
+            .fix(
+                "write `,`",
+                Span::new(self.file, from, place.range().end),
+                ",",
+                Applicability::Unsafe,
+            );
+        if rest.into_iter().any(|part| part.as_str() == mark) {
+            diagnostic = diagnostic.help("so are the others");
+        }
+        self.report(diagnostic);
+        self.error_expr(span)
+    }
+
     /// `a + b - c`, leaning to the left.
     fn chain(&mut self, node: Node<'i>) -> Expr {
         let compares = node.as_rule() == Rule::comparison;
@@ -96,6 +124,9 @@ impl<'i> Builder<'i> {
         while let Some(sign) = parts.next() {
             let op = self.binary(&sign);
             let right = self.take_expr(&mut parts);
+            if self.by_one(left.span, op.span, &right) {
+                return left;
+            }
             if matches!(op.node, BinaryOp::Add | BinaryOp::Sub) {
                 self.odd_sign(left.span, op.span, right.span);
             }
@@ -158,8 +189,8 @@ impl<'i> Builder<'i> {
     fn binary(&mut self, sign: &Node<'i>) -> Spanned<BinaryOp> {
         let written = sign.as_str();
         let (op, right) = match written {
-            "or" | "||" | "|" => (BinaryOp::Or, "or"),
-            "and" | "&&" | "&" => (BinaryOp::And, "and"),
+            "or" | "OR" | "Or" | "||" | "|" => (BinaryOp::Or, "or"),
+            "and" | "AND" | "And" | "but" | "&&" | "&" => (BinaryOp::And, "and"),
             "==" | "===" | "is" => (BinaryOp::Eq, "=="),
             "!=" | "!==" | "<>" | "≠" => (BinaryOp::Ne, "!="),
             "<=" | "≤" | "=<" => (BinaryOp::Le, "<="),
@@ -208,7 +239,7 @@ impl<'i> Builder<'i> {
         self.doubled_sign(&sign, &operand);
         let written = sign.as_str();
         let (op, right) = match written {
-            "not" | "!" | "¬" => (UnaryOp::Not, "not"),
+            "not" | "NOT" | "Not" | "!" | "¬" => (UnaryOp::Not, "not"),
             "+" => (UnaryOp::Pos, "+"),
             _ => (UnaryOp::Neg, "-"),
         };

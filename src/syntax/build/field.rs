@@ -168,6 +168,13 @@ impl<'i> Builder<'i> {
             }
             return Ok(format!("pose({owner})"));
         }
+        if READS.contains(&owner) && self.glance().declares(name) {
+            return Ok(format!("{owner}({name}{})", args.unwrap_or_default()));
+        }
+        let own = matches!(owner, "self" | "this" | "robot" | "me");
+        if own && args.is_none() && one_of(&["max_speed", "max_turn"]) {
+            return Ok(name.to_owned());
+        }
         if args.is_none()
             && self.glance().declares_called(&FAMILIES, owner)
             && self.glance().declares(name)
@@ -214,6 +221,34 @@ impl<'i> Builder<'i> {
             "if it is to be so, put a blank after the sign; a line of its own begins with a word",
         );
         self.report(diagnostic);
+    }
+
+    /// Reports `++n` on a line of its own, which would go on with the line above.
+    pub(super) fn by_one(&mut self, left: Span, sign: Span, right: &Expr) -> bool {
+        let (end, start) = (left.range().end, sign.range().start);
+        let on_new_line = (self.text.get(end..start)).is_some_and(|gap| gap.contains('\n'));
+        let ExprKind::Unary { operand, .. } = &right.kind else {
+            return false;
+        };
+        // Both signs are one token.
+        let place = Span::new(self.file, start, start + 2);
+        let mark = match self.slice(place) {
+            "++" => '+',
+            "--" => '-',
+            _ => return false,
+        };
+        if !on_new_line || operand.span.start != place.end {
+            return false;
+        }
+        let right = format!("{} {mark}= 1", self.slice(operand.span));
+        let message = format!("`{mark}{mark}` is no operator here");
+        let diagnostic = Diagnostic::new(Code::E0110, place, message).write(
+            place.to(operand.span),
+            right,
+            Applicability::Unsafe,
+        );
+        self.report(diagnostic);
+        true
     }
 
     /// Warns of `--5`, which is 5 and looks like something else.

@@ -90,7 +90,11 @@ impl<'i> Builder<'i> {
                     let span = self.span(&part);
                     self.stray_mark(span);
                 }
-                Rule::list_item => exprs.push(self.take_expr(&mut Parts::of(part))),
+                Rule::list_item => {
+                    self.in_list = true;
+                    exprs.push(self.take_expr(&mut Parts::of(part)));
+                    self.in_list = false;
+                }
                 _ => {}
             }
         }

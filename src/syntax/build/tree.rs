@@ -193,7 +193,7 @@ impl<'i> Builder<'i> {
         let args = list.as_ref().map(|args| self.span(args));
         let mut args = list.map(|list| {
             self.touching(&written, &list);
-            (self.args(list), args)
+            (self.args(list, ""), args)
         });
         if let Some(late) = parts.maybe(Rule::wrong_memory) {
             wrong = Some(self.span(&late));

@@ -7,11 +7,64 @@ use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::source::Span;
 use crate::spelling::quoted;
 use crate::syntax::grammar::Rule;
-use crate::syntax::tokens::Kind;
+use crate::syntax::tokens::{Kind, is_blank};
 use crate::syntax::words::{KINDS, home};
 
 /// What begins a comment elsewhere.
 const COMMENTS: [&str; 4] = ["#", "/*", "--", "<!--"];
+
+/// What is said of a comment as other languages begin it.
+pub(in crate::syntax) fn other_comment(span: Span, begins: &str) -> Diagnostic {
+    let diagnostic = Diagnostic::new(
+        Code::E0129,
+        span,
+        format!("a comment begins with `//`, not with `{begins}`"),
+    )
+    .label("write `//`")
+    .note("it goes on to the end of its line");
+    let over_lines = matches!(begins, "/*" | "<!--");
+    match over_lines {
+        true => diagnostic,
+        false => diagnostic.fix("write `//`", span, "//", Applicability::Safe),
+    }
+}
+
+/// Where comments begin with two dashes, as in other languages: on a line of their own, or before two words that no operator
+/// joins.
+pub(in crate::syntax) fn dashed(text: &str) -> Vec<usize> {
+    let mut found = Vec::new();
+    let mut start = 0;
+    for line in text.split_inclusive('\n') {
+        let at = line.find("--").filter(|at| begins_comment(line, *at));
+        found.extend(at.map(|at| start + at));
+        start += line.len();
+    }
+    found
+}
+
+fn begins_comment(line: &str, at: usize) -> bool {
+    let (before, after) = line.split_at(at);
+    let after = after.trim_start_matches('-');
+    let words = after.trim_start_matches(is_blank);
+    if before.trim_matches(is_blank).is_empty() {
+        return words.is_empty()
+            || words.len() < after.len() && words.starts_with(char::is_alphabetic);
+    }
+    let word = |text: &str| -> usize {
+        text.find(|c: char| !c.is_alphanumeric())
+            .unwrap_or(text.len())
+    };
+    let (_, rest) = words.split_at(word(words));
+    let rest = rest.strip_prefix(' ').unwrap_or_default();
+    let (second, _) = rest.split_at(word(rest));
+    let joins = ["and", "or", "not", "is", "else", "per", "of", "in", "for"].contains(&second);
+    let in_code = before.ends_with(is_blank) && !before.contains("//") && !before.contains('"');
+    in_code
+        && after.starts_with(' ')
+        && words.starts_with(char::is_alphabetic)
+        && rest.starts_with(char::is_alphabetic)
+        && !joins
+}
 
 impl Place<'_> {
     /// A comment as other languages begin it.
@@ -38,19 +91,10 @@ impl Place<'_> {
                     .note("a program uses `std`, its library, and files: `use \"other.bt\"`"),
             );
         }
-        let span = Span::new(self.file, at, at + begins.len());
-        let diagnostic = Diagnostic::new(
-            Code::E0129,
-            span,
-            format!("a comment begins with `//`, not with `{begins}`"),
-        )
-        .label("write `//`")
-        .note("it goes on to the end of its line");
-        let over_lines = matches!(begins, "/*" | "<!--");
-        Some(match over_lines {
-            true => diagnostic,
-            false => diagnostic.fix("write `//`", span, "//", Applicability::Safe),
-        })
+        Some(other_comment(
+            Span::new(self.file, at, at + begins.len()),
+            begins,
+        ))
     }
 
     /// A name with letters that a name has in backquotes only.

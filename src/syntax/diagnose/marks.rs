@@ -14,6 +14,8 @@ impl Place<'_> {
             .or_else(|| self.asked_guard())
             .or_else(|| self.full_stop())
             .or_else(|| self.question())
+            .or_else(|| self.otherwise_by_mark())
+            .or_else(|| self.compared_tick())
             .or_else(|| self.arrow_to_coordinate())
             .or_else(|| self.remainder())
             .or_else(|| self.declared_again())
@@ -64,6 +66,32 @@ impl Place<'_> {
         let mark = self.before.filter(|mark| mark.of(self.text) == "?")?;
         self.parted(mark, self.found)
             .then(|| self.too_much(mark, "a condition is asked without `?`"))
+    }
+
+    /// `charge ? patrol` among the children of a node.
+    fn otherwise_by_mark(&self) -> Option<Diagnostic> {
+        if self.failure.strict != Rule::strict_child || !self.expects(Rule::colon) {
+            return None;
+        }
+        let within = |token: &&Token| (self.failure.start..self.found.start).contains(&token.start);
+        let mut tokens = self.tokens.iter().filter(within);
+        let mark = *tokens.find(|token| token.of(self.text) == "?")?;
+        Some(
+            Diagnostic::new(Code::E0101, self.span_of(mark), "`?` joins no nodes")
+                .label("not said here")
+                .help("one if the other fails: `selector { …, … }`"),
+        )
+    }
+
+    /// `tick == charge` in a test.
+    fn compared_tick(&self) -> Option<Diagnostic> {
+        if self.failure.strict != Rule::strict_test_entry || !self.begins_with("tick") {
+            return None;
+        }
+        let within = |token: &&Token| (self.failure.start..self.found.start).contains(&token.start);
+        let mut tokens = self.tokens.iter().filter(within);
+        let sign = *tokens.find(|token| token.of(self.text) == "==")?;
+        self.told(self.span_of(sign), "what is expected follows `=>`", "=>")
     }
 
     /// `ball->x`

@@ -183,6 +183,23 @@ impl Place<'_> {
             && clause.iter().any(|word| self.line_begins_with(word));
         listed.then(|| {
             let span = self.span_of(comma);
+            if let Some(kind) = DECLARING.iter().find(|word| self.line_begins_with(word))
+                && !self.begun().contains('=')
+            {
+                let place = span.to(self.span().before());
+                return Diagnostic::new(
+                    Code::E0101,
+                    span,
+                    "each name has a declaration of its own",
+                )
+                .label("a second name follows")
+                .fix(
+                    format!("begin a line with `{kind}`"),
+                    place,
+                    format!("\n{kind} "),
+                    Applicability::Unsafe,
+                );
+            }
             Diagnostic::new(Code::E0101, span, "conditions are joined by `and` or `or`")
                 .label("a comma joins nothing here")
                 .fix(
@@ -312,15 +329,26 @@ impl Place<'_> {
 
     /// `place A = disc(…) heading -90 deg`
     fn turned_place(&self) -> Option<Diagnostic> {
-        let (close, word) = (self.second_before?, self.before?);
+        let begins = |token: &Token| token.kind == Kind::Number || token.of(self.text) == "-";
+        let (close, word) = match self.next().filter(begins) {
+            Some(_) if WAYS.contains(&self.found()) => (self.before?, self.found),
+            _ => (self.second_before?, self.before?),
+        };
         let is_place = self.failure.strict == Rule::strict_world_entry;
         let way = WAYS.contains(&word.of(self.text)) && close.of(self.text) == ")";
-        let begins = matches!(self.found.kind, Kind::Number) || self.found() == "-";
+        let follows = self.tokens.iter().find(|token| token.start >= word.end);
+        let begins = follows.is_some_and(begins);
         if !(is_place && way && begins) || self.parted(close, word) {
             return None;
         }
         let message = "the way that a robot stands in a place is its `facing`";
         self.told(self.span_of(word), message, "facing")
+    }
+
+    /// What stands on the line before what was found.
+    fn begun(&self) -> &str {
+        let head = self.text.get(..self.found.start).unwrap_or_default();
+        head.rsplit('\n').next().unwrap_or_default()
     }
 
     /// `waiting[b]`, `position[0]`: arguments and coordinates have no square brackets.

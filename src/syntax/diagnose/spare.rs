@@ -2,6 +2,7 @@
 
 use super::Place;
 use crate::diagnostic::{Applicability, Code, Diagnostic};
+use crate::source::Span;
 use crate::syntax::grammar::Rule;
 use crate::syntax::tokens::Kind;
 use crate::syntax::words::UNITS;
@@ -12,6 +13,7 @@ impl Place<'_> {
         self.spare_mark()
             .or_else(|| self.doubled_comma())
             .or_else(|| self.required_when())
+            .or_else(|| self.claimed_with_is())
             .or_else(|| self.member_by_one())
             .or_else(|| self.raised_by_letter())
     }
@@ -74,6 +76,20 @@ impl Place<'_> {
                 .label("this is said of `succeed` and `fail`")
                 .fix("drop `when`", drop, "", Applicability::Safe)
         })
+    }
+
+    /// `claim hand is never dead`
+    fn claimed_with_is(&self) -> Option<Diagnostic> {
+        let claims = matches!(self.after_found(), "never" | "reaches" | "equals");
+        let said = self.found() == "is" && self.line_begins_with("claim") && claims;
+        let next = self.next().filter(|_| said)?;
+        let drop = Span::new(self.file, self.found.start, next.start);
+        let message = format!("a claim says `{}` at once", self.after_found());
+        Some(
+            Diagnostic::new(Code::E0101, self.span(), message)
+                .label("drop `is`")
+                .fix("drop `is`", drop, "", Applicability::Safe),
+        )
     }
 
     /// `goto(A),;`

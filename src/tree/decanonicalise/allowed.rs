@@ -10,10 +10,15 @@ use crate::ir::law::Behavior;
 use crate::logic::covering::{Known, List, lists};
 use crate::logic::{Account, Bits, Columns};
 use crate::policy::{Policy, Row};
-use crate::tree::prove::Refuted;
+use crate::tree::prove::{Prover, Refuted};
 
 /// The part of the effort that the choice of behaviours may take, and that the trees that are compared may.
 const PARTS: u64 = 4;
+
+/// The rows of the first core of a table, how many cores there are, and the part of the effort that one may take.
+const FIRST: usize = 600;
+const CORES: usize = 8;
+const OF_A_CORE: u64 = 10;
 
 /// The smallest tree found that takes an allowed behaviour in every row, with the policy on which it is proved. `allowed` are the
 /// behaviours that each row allows.
@@ -24,6 +29,16 @@ pub fn allowing(
     policy: &Policy,
     allowed: &[Vec<Id<Behavior>>],
     options: &Options,
+) -> Result<(Policy, Decanonicalised), Refuted> {
+    chosen_by(policy, allowed, options, true)
+}
+
+/// The same, with a tree for a core of rows among what is tried, or without.
+fn chosen_by(
+    policy: &Policy,
+    allowed: &[Vec<Id<Behavior>>],
+    options: &Options,
+    with_core: bool,
 ) -> Result<(Policy, Decanonicalised), Refuted> {
     let classes: Vec<Bits> = policy
         .behaviors
@@ -46,12 +61,15 @@ pub fn allowing(
     let found = lists(&columns, &classes, REACH, THOROUGH, &mut known, &account);
     let lists = found.iter().rev();
     let mut choices: Vec<Vec<usize>> = lists.map(|list| by_list(&columns, list)).collect();
+    if with_core {
+        choices.extend(by_core(policy, allowed, options));
+    }
     choices.push(by_frequency(&classes, allowed.len()));
     choices.dedup();
     let policies = choices.iter().map(|choice| chosen(policy, choice));
     let policies: Vec<Policy> = policies.collect();
     let quick = Options {
-        effort: options.effort / (PARTS * policies.len().max(1) as u64),
+        effort: (options.effort / (PARTS * policies.len().max(1) as u64)).max(1),
         ..*options
     };
     let mut best: Option<(Policy, Decanonicalised)> = None;
@@ -66,10 +84,10 @@ pub fn allowing(
     }
     let (policy, first) = best.ok_or(Refuted::Empty)?;
     let found = decanonicalise(&policy, options)?;
-    let smallest = if found.size < first.size {
-        found
-    } else {
+    let smallest = if first.size < found.size {
         first
+    } else {
+        found
     };
     Ok((policy, smallest))
 }
@@ -88,6 +106,58 @@ fn by_list(columns: &Columns, list: &List) -> Vec<usize> {
         left.subtract(&decided);
     }
     choice
+}
+
+/// The behaviour of each row by a tree that is made for a few rows, which grow by some in which it takes what they do not allow.
+/// `None` in a small table, and where that does not end soon.
+fn by_core(
+    policy: &Policy,
+    allowed: &[Vec<Id<Behavior>>],
+    options: &Options,
+) -> Option<Vec<usize>> {
+    let count = policy.rows.len();
+    if count < 2 * FIRST || policy.rows.iter().any(|row| row.free.is_some()) {
+        return None;
+    }
+    let quick = Options {
+        effort: (options.effort / OF_A_CORE).max(1),
+        ..*options
+    };
+    let prover = Prover::new(policy);
+    let mut core = Bits::collect(count, (0..count).step_by(count.div_ceil(FIRST)));
+    for _ in 0..CORES {
+        if 2 * core.count() > count {
+            return None;
+        }
+        let rows = core.iter();
+        let part = Policy {
+            atoms: policy.atoms.clone(),
+            behaviors: policy.behaviors.clone(),
+            history: policy.history,
+            rows: rows
+                .filter_map(|row| policy.rows.get(row).cloned())
+                .collect(),
+            ..Policy::default()
+        };
+        let rows = core.iter();
+        let own: Vec<_> = rows.filter_map(|row| allowed.get(row).cloned()).collect();
+        let (_, found) = chosen_by(&part, &own, &quick, false).ok()?;
+        let decided = prover.decided(&found.root).ok()?;
+        let numbers = decided.iter().zip(allowed).map(|(behavior, all)| {
+            let behavior = behavior.filter(|behavior| all.contains(behavior))?;
+            policy.behaviors.iter().position(|known| *known == behavior)
+        });
+        let numbers: Vec<Option<usize>> = numbers.collect();
+        let wrong = numbers.iter().enumerate();
+        let wrong = wrong.filter_map(|(row, number)| number.is_none().then_some(row));
+        let wrong: Vec<usize> = wrong.collect();
+        if wrong.is_empty() {
+            return numbers.into_iter().collect();
+        }
+        let step = wrong.len().div_ceil(core.count() / 2).max(1);
+        core.unite(&Bits::collect(count, wrong.into_iter().step_by(step)));
+    }
+    None
 }
 
 /// The behaviour of each row with as few behaviours as possible: again and again the one that most rows left allow.

@@ -178,7 +178,14 @@ fn regrouped(
 
 /// The smallest of these that is proved. What a tree asks twice in a tick it asks once.
 fn smallest(problem: &Problem, found: Vec<(Size, Node)>) -> Option<(Node, Proof)> {
-    let once = found.iter().map(|(_, node)| asked_once(node));
+    let once = found.iter().map(|(_, node)| {
+        let once = asked_once(node);
+        let shared = shared(once.clone());
+        match Size::of(&shared) < Size::of(&once) {
+            true => shared,
+            false => once,
+        }
+    });
     let mut found = sized(once.collect());
     // Stable: of equal sizes the first found stands first.
     found.sort_by_key(|(size, _)| *size);

@@ -1,7 +1,8 @@
 //! Literals that neighbouring units have in common, once before a selector of them.
 
 use crate::ir::tree::{Composite, Guard, Node};
-use crate::tree::guard::{and, atom, conjuncts};
+use crate::tree::Size;
+use crate::tree::guard::{and, atom, conjuncts, or};
 use crate::tree::unit::{self, Unit, guarded, selector};
 
 /// The tree with shared literals taken out of the guards of neighbours wherever that makes it smaller: a unit whose
@@ -15,7 +16,7 @@ pub(super) fn shared(node: Node) -> Node {
         } => {
             let children = children.into_iter().map(shared).collect();
             match (kind, memory) {
-                (Composite::Selector, false) => grouped(children),
+                (Composite::Selector, false) => grouped(neighbours(children)),
                 _ => Node::Composite {
                     kind,
                     memory,
@@ -36,8 +37,35 @@ fn grouped(mut children: Vec<Node>) -> Node {
         };
         let run = children.get(start..end).unwrap_or_default();
         let inside = grouped(run.iter().map(|child| without(child, &literal)).collect());
-        children.splice(start..end, [guarded(literal, inside)]);
+        // What is behind one guard of its own needs no second one before it.
+        let inside = Unit::of(&inside);
+        let group = guarded(and([literal, inside.guard]), inside.body);
+        children.splice(start..end, [group]);
     }
+}
+
+/// The children of a selector, those neighbours under one guard that have one body, where that makes them smaller.
+fn neighbours(children: Vec<Node>) -> Vec<Node> {
+    let mut joined: Vec<Node> = Vec::new();
+    for child in children {
+        let both = joined.last().and_then(|before| either(before, &child));
+        match (joined.last_mut(), both) {
+            (Some(last), Some(both)) => *last = both,
+            _ => joined.push(child),
+        }
+    }
+    joined
+}
+
+/// Two units with one body, as one, if that is smaller.
+fn either(one: &Node, other: &Node) -> Option<Node> {
+    let ((first, body), (second, same)) = (unit::parts(one)?, unit::parts(other)?);
+    if body != same || !body.answers_again() {
+        return None;
+    }
+    let both = guarded(or([first.clone(), second.clone()]), body.clone());
+    let nodes = |node: &Node| Size::of(node).nodes;
+    (nodes(&both) < nodes(one) + nodes(other)).then_some(both)
 }
 
 /// The neighbours that save most behind a literal that all of them have. A group costs a sequence, the literal and a selector;

@@ -9,6 +9,8 @@ use btc::driver::decanonicalize::Options;
 use btc::driver::load::load;
 use btc::driver::table::Recorded;
 use btc::driver::verify;
+use btc::ir::tree::Node;
+use btc::tree::unit;
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -46,6 +48,12 @@ fn wrong_tables_are_told_what_is_wrong() {
     });
 }
 
+/// Whether a guard stands before nothing but another guard: `a => b => c`.
+fn has_a_chain(node: &Node) -> bool {
+    let chained = unit::parts(node).is_some_and(|(_, body)| unit::parts(body).is_some());
+    chained || node.children().iter().any(has_a_chain)
+}
+
 #[test]
 fn good_tables_become_trees_that_are_equal_to_them() {
     each("good", "table_good", |name, bytes| {
@@ -57,6 +65,8 @@ fn good_tables_become_trees_that_are_equal_to_them() {
         let formatted = btc::driver::format::format(text(name, made.text.as_bytes()));
         assert_eq!(formatted.unwrap(), made.text);
         assert_eq!(made.warnings, Vec::<String>::new());
+        let root = &made.program.trees[made.tree].root;
+        assert!(!has_a_chain(root), "{}", made.text);
         format!("{}\n{}\n{}", made.text, made.report.join("\n"), proved.text)
     });
 }

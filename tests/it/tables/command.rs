@@ -129,6 +129,16 @@ fn exit_codes_tell_what_came_of_it() {
     let (out, _, code) = ran(along, &other);
     assert!(out.contains("(nothing was recorded in 1 other)"), "{out}");
     assert_eq!(code, Some(0), "{out}");
+    // So it is where the file names the record itself.
+    let text = fs::read_to_string(bt).unwrap();
+    fs::write(bt, format!("{text}\nuse \"met.csv\"\n")).unwrap();
+    let (out, err, code) = ran(&["verify", bt, "learned", "-"], &other);
+    assert!(
+        out.contains("(nothing was recorded in 1 other)"),
+        "{out}{err}"
+    );
+    assert!(out.contains("met.csv, which the file names"), "{out}");
+    assert_eq!(code, Some(0), "{out}");
     for usage in [
         &["decanonicalize"][..],
         &["decanonicalize", "-", "--slack", "-1"],

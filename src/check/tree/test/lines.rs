@@ -193,7 +193,13 @@ impl<'a> Checker<'a> {
                 continue;
             }
             match self.stepped(test, &step.name, root) {
-                Some(id) => behaviors.push((id, step.answer.map_or(Status::Running, status))),
+                Some(id) => {
+                    let answer = step.answer.map_or(Status::Running, status);
+                    if answer != Status::Running && !self.program.may_end(id, answer) {
+                        self.answers_never(step, id);
+                    }
+                    behaviors.push((id, answer));
+                }
                 None => fine = false,
             }
         }
@@ -202,6 +208,17 @@ impl<'a> Checker<'a> {
             behaviors,
             answer: answer.map(|(status, _)| status),
         })
+    }
+
+    /// Warns of an answer that a behaviour never gives.
+    fn answers_never(&mut self, step: &Step, id: Id<Behavior>) {
+        let name = self.program.behaviors[id].name.bare();
+        let ends = match step.answer.map(|answer| answer.node) {
+            Some(Answer::Fails) => "fails",
+            _ => "succeeds",
+        };
+        self.warning(Code::W0609, step.span(), format!("`{name}` never {ends}"))
+            .label("so nothing is ever like this");
     }
 
     /// Whether a reference names the tree that is tested. Where that was not understood, its arguments do not count.
