@@ -8,6 +8,9 @@ use serde::{Deserialize, Serialize};
 /// The 97.5 % point of the standard normal distribution.
 pub(super) const Z: f64 = 1.959_963_984_540_054;
 
+/// What rounding may make of two returns whose rewards are the same and are added up in another order, in parts of a return.
+pub const ROUNDING: f64 = 1e-12;
+
 /// A mean with its 95 % interval (normal approximation: mean ± 1.96 s/√n).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Mean {

@@ -7,7 +7,7 @@ use crate::emit::svg;
 use crate::grow::{Figures, Grown, Point};
 use crate::ir::Program;
 use crate::ir::task::Task;
-use crate::learn::statistics::Mean;
+use crate::learn::statistics::{Mean, ROUNDING};
 use crate::tree::Size;
 use serde::Serialize;
 
@@ -53,9 +53,6 @@ pub fn doc(grown: &Grown, program: &Program, task: &Task) -> String {
 fn verdict(grown: &Grown) -> String {
     change(grown.gain, grown.before.summary.total.mean)
 }
-
-/// What rounding may make of two returns that are the same, in parts of a return.
-const ROUNDING: f64 = 1e-12;
 
 /// Whether a gain, with the ends of its interval, is well said as a part of a return: a part of one near zero, or of one that is
 /// left far behind, says nothing.

@@ -154,7 +154,10 @@ impl<'a> Prover<'a> {
         Ok(self.wrong_by(&plan, Reading::Furthest).0)
     }
 
-    /// What a tree without memory decides in each row, all of which stand for one minterm; `None` where it selects nothing.
+    /// What a tree decides in each row, all of which stand for one minterm; `None` where it selects nothing.
+    ///
+    /// # Errors
+    /// The tree has memory.
     pub fn decided(&self, root: &Node) -> Result<Vec<Option<Id<Behavior>>>, Refuted> {
         let plan = plan(root, After::Anything, &mut May).map_err(Refuted::Irreducible)?;
         let (wrong, selected) = self.wrong_by(&plan, Reading::Furthest);

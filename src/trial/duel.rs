@@ -6,7 +6,7 @@ use crate::ir::task::Task;
 use crate::ir::tree::Node;
 use crate::ir::{Id, Program};
 use crate::learn::episode::{Episode, play};
-use crate::learn::statistics::{Mean, Summary};
+use crate::learn::statistics::{Mean, ROUNDING, Summary};
 use crate::world::{End, Simulator, Start};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -112,9 +112,6 @@ pub fn duel(
     let (before, after) = (play(before)?, play(after)?);
     Ok((Duel::of(&before, &after, ends), [before, after]))
 }
-
-/// What rounding may make of the same rewards that are added up in another order, in parts of a return.
-const ROUNDING: f64 = 1e-10;
 
 /// What one gains over another, episode by episode.
 pub fn gain(own: &[Episode], other: &[Episode]) -> Mean {

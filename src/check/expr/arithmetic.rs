@@ -89,7 +89,7 @@ impl<'a> Checker<'a> {
         let numbers = self.within_limits(&values)?;
         let ty = numbers.first()?.ty.clone();
         match numbers.as_slice() {
-            [_, limit] if self.is_no_limit(limit) => self
+            [_, limit] if self.is_negative(limit) => self
                 .out_of_range(
                     limit.span,
                     "a limit of `clamp` is not below zero",
@@ -115,7 +115,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    fn is_no_limit(&self, limit: &Typed) -> bool {
+    /// Whether this is a constant below zero.
+    fn is_negative(&self, limit: &Typed) -> bool {
         let value = limit.scalar().and_then(|id| self.program.pool.constant(id));
         value.is_some_and(|value| value < 0.0) && !self.context.library
     }

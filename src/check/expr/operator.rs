@@ -303,25 +303,19 @@ impl<'a> Checker<'a> {
         };
         self.warn_plain_ratio(left, &b.ty);
         self.warn_plain_ratio(right, &a.ty);
-        let is_constant = |of: &Typed| {
-            let value = of.scalar().and_then(|id| self.program.pool.constant(id));
-            value.is_some()
-        };
+        let constant = |of: &Typed| of.scalar().and_then(|id| self.program.pool.constant(id));
         // Two measures may be of one thing.
-        let exact =
-            self.is_measure(&a) && is_constant(&b) || self.is_measure(&b) && is_constant(&a);
-        if equality && exact {
-            self.exact_measure(op.node == BinaryOp::Eq, span);
-        }
-        let none =
-            |of: &Typed| of.scalar().and_then(|id| self.program.pool.constant(id)) == Some(0.0);
         let exact = match op.node {
-            BinaryOp::Le => none(&b) && self.is_distance(&a),
-            BinaryOp::Ge => none(&a) && self.is_distance(&b),
+            BinaryOp::Eq | BinaryOp::Ne => {
+                self.is_measure(&a) && constant(&b).is_some()
+                    || self.is_measure(&b) && constant(&a).is_some()
+            }
+            BinaryOp::Le => constant(&b) == Some(0.0) && self.is_distance(&a),
+            BinaryOp::Ge => constant(&a) == Some(0.0) && self.is_distance(&b),
             _ => false,
         };
         if exact {
-            self.exact_measure(true, span);
+            self.exact_measure(op.node != BinaryOp::Ne, span);
         }
         let (op, a, b) = match op.node {
             BinaryOp::Eq => (Binary::Eq, a, b),

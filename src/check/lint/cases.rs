@@ -12,6 +12,8 @@ use crate::ir::program::Stays;
 use crate::ir::tree::{Atom, Guard, Status};
 use crate::ir::world::Place;
 use crate::ir::{Id, Pool, Program};
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 /// How many cases a condition may have.
@@ -197,7 +199,31 @@ pub fn of_expr<'p>(view: impl Into<View<'p>>, id: ExprId, wanted: bool) -> Cases
 
 /// As [`of_expr`], where numbers may come to `numbers`.
 pub fn when(view: View, id: ExprId, wanted: bool, numbers: Numbers) -> Cases {
-    Reader { view, numbers }.expr(id, wanted, 0)
+    let known = RefCell::default();
+    let reader = Reader {
+        view,
+        numbers,
+        known,
+    };
+    reader.expr(id, wanted, 0)
+}
+
+/// The conditions that have to hold for one to hold, each once, those of the events in it among them.
+pub fn conjuncts(program: &Program, id: ExprId) -> Vec<ExprId> {
+    let mut seen = FxHashSet::default();
+    let mut open = vec![id];
+    let mut found = Vec::new();
+    while let Some(id) = open.pop() {
+        if !seen.insert(id) {
+            continue;
+        }
+        match program.pool.get(id) {
+            Expr::Event(event) => open.push(program.events[event].when),
+            Expr::Binary(Binary::And, a, b) => open.extend([b, a]),
+            _ => found.push(id),
+        }
+    }
+    found
 }
 
 /// When a guard holds, or when it does not, as `wanted` says.
@@ -227,6 +253,8 @@ pub fn of_guard(program: &Program, guard: &Guard, wanted: bool) -> Cases {
 struct Reader<'p> {
     view: View<'p>,
     numbers: Numbers,
+    /// What has been read: events and shared expressions may stand in many places.
+    known: RefCell<FxHashMap<(ExprId, bool), Cases>>,
 }
 
 impl Reader<'_> {
@@ -234,6 +262,15 @@ impl Reader<'_> {
         if depth > DEEPEST {
             return Cases::Unknown;
         }
+        if let Some(known) = self.known.borrow().get(&(id, wanted)) {
+            return known.clone();
+        }
+        let found = self.read(id, wanted, depth);
+        self.known.borrow_mut().insert((id, wanted), found.clone());
+        found
+    }
+
+    fn read(&self, id: ExprId, wanted: bool, depth: usize) -> Cases {
         let pool = &self.view.program.pool;
         let of = |id, wanted| self.expr(id, wanted, depth + 1);
         match pool.get(id) {

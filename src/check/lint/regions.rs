@@ -98,8 +98,9 @@ impl<'a> Checker<'a> {
             let behavior = &self.program.behaviors[id];
             let view = View::of(&self.program, &behavior.name);
             let law = behavior.law.as_ref();
-            let never =
-                law.filter(|law| succeeds_never(view, law) && !choices.contains(&law.succeed));
+            let never = law.filter(|law| {
+                succeeds_never(view, law, &starting) && !choices.contains(&law.succeed)
+            });
             if let Some(law) = never {
                 if told.insert(id) {
                     let (name, why) = (behavior.name.bare(), because(view, law.succeed));
@@ -221,7 +222,7 @@ impl<'a> Checker<'a> {
             let waits = view.program.pool.constant(law.fail).is_none();
             waits && of_expr(view, law.fail, true).is_never()
         });
-        let never_succeeds = every(&|view, law| succeeds_never(view, law));
+        let never_succeeds = every(&|view, law| succeeds_never(view, law, starting));
         let fails_at_once = every(&|view, law| {
             let allowed = of_expr(view, law.requires, true);
             let goes_on = allowed.and(&of_expr(view, law.succeed, false));
@@ -320,6 +321,7 @@ impl<'a> Checker<'a> {
         &mut self,
         items: impl Iterator<Item = &'a Item> + Clone,
     ) -> BTreeSet<ExprId> {
+        let starting = Starting::of(&self.program.pool);
         let mut told = BTreeSet::new();
         let own: BTreeSet<&str> = (items.clone())
             .filter_map(|item| match &item.kind {
@@ -348,7 +350,7 @@ impl<'a> Checker<'a> {
                 let behavior = &self.program.behaviors[*id];
                 let law = behavior.law.as_ref();
                 let view = View::from(&self.program);
-                let law = law.filter(|law| succeeds_never(view, law));
+                let law = law.filter(|law| succeeds_never(view, law, &starting));
                 let at = list.and_then(|list| list.get(*place));
                 let learners = self.program.learners.values();
                 let learners = learners.filter(|learner| learner.task == task_id);
@@ -356,7 +358,7 @@ impl<'a> Checker<'a> {
                 let longest = longest.fold(checked.end_after, u64::max);
                 let calls_library = !own.contains(behavior.name.family.as_str());
                 if let (None, Some(at), Some(written)) = (law, at, behavior.law.as_ref())
-                    && succeeds_after(view, written, longest)
+                    && succeeds_after(view, written, longest, &starting)
                 {
                     late.push((at.span, behavior.name.bare(), longest));
                 }
@@ -416,18 +418,17 @@ impl<'a> Checker<'a> {
 }
 
 /// Whether a behaviour that is to succeed at some time never does: what it waits for never holds, or only where it has failed.
-fn succeeds_never(view: View, law: &Law) -> bool {
+fn succeeds_never(view: View, law: &Law, starting: &Starting) -> bool {
     let waits = view.program.pool.constant(law.succeed).is_none();
     let succeeds = of_expr(view, law.succeed, true);
     let allowed = of_expr(view, law.requires, true);
-    waits && (allowed.and(&succeeds).is_never() || fails_before(view, law, &succeeds))
+    waits && (allowed.and(&succeeds).is_never() || fails_before(view, law, &succeeds, starting))
 }
 
 /// Whether a behaviour succeeds, if ever, after more ticks than these.
-fn succeeds_after(view: View, law: &Law, ticks: u64) -> bool {
-    let pool = &view.program.pool;
+fn succeeds_after(view: View, law: &Law, ticks: u64, starting: &Starting) -> bool {
     let tick = view.program.world.as_ref().map(|world| world.tick);
-    let (Some(tick), Some(elapsed)) = (tick, Starting::of(pool).elapsed) else {
+    let (Some(tick), Some(elapsed)) = (tick, starting.elapsed) else {
         return false;
     };
     let Cases::Some(cases) = of_expr(view, law.succeed, true) else {
@@ -441,10 +442,9 @@ fn succeeds_after(view: View, law: &Law, ticks: u64) -> bool {
 }
 
 /// Whether a behaviour fails by time before it could succeed by time.
-fn fails_before(view: View, law: &Law, succeeds: &Cases) -> bool {
-    let pool = &view.program.pool;
+fn fails_before(view: View, law: &Law, succeeds: &Cases, starting: &Starting) -> bool {
     let tick = view.program.world.as_ref().map(|world| world.tick);
-    let (Some(tick), Some(elapsed)) = (tick, Starting::of(pool).elapsed) else {
+    let (Some(tick), Some(elapsed)) = (tick, starting.elapsed) else {
         return false;
     };
     let since = |case: &Case, alone: bool| match case.get(&About::Number(elapsed)) {

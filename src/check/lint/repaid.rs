@@ -1,10 +1,10 @@
 //! Rewards that are paid again in each tick, for a success that stands.
 
-use super::cases::of_expr;
+use super::cases::{conjuncts, of_expr};
 use super::tree::at_success;
 use crate::check::Checker;
 use crate::diagnostic::Code;
-use crate::ir::expr::{Binary, Expr, ExprId};
+use crate::ir::expr::{Expr, ExprId};
 use crate::ir::law::Behavior;
 use crate::ir::task::Task;
 use crate::ir::tree::Status;
@@ -37,35 +37,37 @@ impl Checker<'_> {
 
 /// The behaviour whose success is all that a condition waits for, if it stands once it has come.
 fn standing(program: &Program, condition: ExprId) -> Option<Id<Behavior>> {
-    match program.pool.get(condition) {
-        Expr::Event(event) => standing(program, program.events[event].when),
-        Expr::Ended(behavior, Status::Success) => {
-            let law = program.behaviors[behavior].law.as_ref()?;
-            let waits = program.pool.constant(law.succeed).is_none();
-            let stays = lasts(program, law.requires) && lasts(program, law.succeed);
-            (waits && stays).then_some(behavior)
+    let mut found = None;
+    for id in conjuncts(program, condition) {
+        match program.pool.get(id) {
+            Expr::Ended(behavior, Status::Success) if found.is_none() => {
+                let law = program.behaviors[behavior].law.as_ref()?;
+                let waits = program.pool.constant(law.succeed).is_none();
+                let stays = lasts(program, law.requires) && lasts(program, law.succeed);
+                found = (waits && stays).then_some(behavior);
+                found?;
+            }
+            _ if !lasts(program, id) => return None,
+            _ => {}
         }
-        Expr::Binary(Binary::And, a, b) => match (standing(program, a), standing(program, b)) {
-            (Some(behavior), None) => lasts(program, b).then_some(behavior),
-            (None, Some(behavior)) => lasts(program, a).then_some(behavior),
-            _ => None,
-        },
-        _ => None,
     }
+    found
 }
 
 /// Whether an expression keeps its value as long as the robot stands: it reads nothing but where that is.
 pub(super) fn lasts(program: &Program, id: ExprId) -> bool {
-    let of_pose = matches!(
-        program.pool.get(id),
-        Expr::Num(_)
-            | Expr::Bool(_)
-            | Expr::Pose(_)
-            | Expr::Inside(_)
-            | Expr::Visible(..)
-            | Expr::Unary(..)
-            | Expr::Binary(..)
-            | Expr::Select(..)
-    );
-    of_pose && program.pool.operands(id).all(|id| lasts(program, id))
+    let mut changes = |part| {
+        !matches!(
+            part,
+            Expr::Num(_)
+                | Expr::Bool(_)
+                | Expr::Pose(_)
+                | Expr::Inside(_)
+                | Expr::Visible(..)
+                | Expr::Unary(..)
+                | Expr::Binary(..)
+                | Expr::Select(..)
+        )
+    };
+    !program.pool.any(id, &mut changes)
 }

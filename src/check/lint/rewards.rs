@@ -33,12 +33,13 @@ const SHORT: f64 = 50.0;
 impl<'a> Checker<'a> {
     /// Warns of what a task says about rewards, ends and times without any effect.
     pub fn rewards_without_effect(&mut self, items: impl Iterator<Item = &'a Item>) {
+        let happen = self.families_that_happen();
         for item in items {
             match &item.kind {
                 ItemKind::Task(task) => {
                     let name = Name::word(&task.name.name);
                     if let Some(id) = self.program.tasks.named(&name) {
-                        self.rewards_of(task, id);
+                        self.rewards_of(task, id, &happen);
                     }
                 }
                 ItemKind::Learn(learn) => {
@@ -54,7 +55,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    fn rewards_of(&mut self, task: &'a ast::Task, id: Id<Task>) {
+    fn rewards_of(&mut self, task: &'a ast::Task, id: Id<Task>, happen: &BTreeSet<String>) {
         let checked = self.program.tasks[id].clone();
         let mut ends = 0;
         let paid = self.cases_of(checked.reward.iter().map(|line| &line.event));
@@ -62,7 +63,7 @@ impl<'a> Checker<'a> {
         for aspect in &task.aspects {
             match &aspect.kind {
                 AspectKind::Reward { lines, otherwise } => {
-                    self.lines_without_effect(lines, id, &checked);
+                    self.lines_without_effect(lines, id, &checked, happen);
                     self.prices_twice(lines);
                     let values = checked.reward.iter().map(|line| line.value);
                     let prices = checked.prices.iter().map(|price| price.per_second);
@@ -80,7 +81,7 @@ impl<'a> Checker<'a> {
                 AspectKind::EndOn(event) => {
                     // Of a line that waits for its absence another warning is told.
                     if !denied.contains(&print::expr(event)) {
-                        self.end_without_value(event, ends, &checked, &paid);
+                        self.end_without_value(event, ends, &checked, (&paid, happen));
                     }
                     ends += 1;
                 }
@@ -99,7 +100,13 @@ impl<'a> Checker<'a> {
     }
 
     /// The first line whose event happens gives the reward.
-    fn lines_without_effect(&mut self, lines: &'a [RewardLine], id: Id<Task>, checked: &Task) {
+    fn lines_without_effect(
+        &mut self,
+        lines: &'a [RewardLine],
+        id: Id<Task>,
+        checked: &Task,
+        happen: &BTreeSet<String>,
+    ) {
         let mut before: Vec<(Span, Cases)> = Vec::new();
         let ends: Vec<Cases> = self.cases_of(&checked.end_on);
         let ends = ends.get(..MOST).unwrap_or(&ends);
@@ -118,7 +125,7 @@ impl<'a> Checker<'a> {
             let earlier = before.iter().find(|(_, earlier)| first.implies(earlier));
             let covered = |cases: &Cases| before.iter().any(|(_, earlier)| cases.implies(earlier));
             if cases.iter().all(Cases::is_never) {
-                if self.waits_for_an_event(checked, place) {
+                if self.waits_for_an_event(checked, place, happen) {
                     continue;
                 }
                 self.warning(Code::W0509, here, "this reward is never paid")
@@ -297,22 +304,29 @@ impl<'a> Checker<'a> {
     }
 
     /// Whether what a line of `reward` waits for is an event, whose own condition is told.
-    fn waits_for_an_event(&self, checked: &Task, place: usize) -> bool {
+    fn waits_for_an_event(&self, checked: &Task, place: usize, happen: &BTreeSet<String>) -> bool {
         let lines = checked.written.reward.iter().zip(&checked.reward);
         let mut own = lines.filter(|(of, _)| **of == place);
-        own.all(|(_, line)| self.is_single_event(line.event))
+        own.all(|(_, line)| self.is_told_of(line.event, happen))
     }
 
     /// Whether an expression asks for an event that is not one of a family, or for one of a family that never happens.
-    fn is_single_event(&self, id: ExprId) -> bool {
-        let Expr::Event(event) = self.program.pool.get(id) else {
-            return false;
-        };
+    fn is_told_of(&self, id: ExprId, happen: &BTreeSet<String>) -> bool {
+        match self.program.pool.get(id) {
+            Expr::Event(event) => {
+                let name = &self.program.events[event].name;
+                name.arguments.is_empty() || !happen.contains(&name.family)
+            }
+            _ => false,
+        }
+    }
+
+    /// The families of events of which one may happen.
+    fn families_that_happen(&self) -> BTreeSet<String> {
         let events = self.program.events.values();
-        let name = &self.program.events[event].name;
-        let mut family = events.filter(|event| event.name.family == name.family);
-        let never = |when| of_expr(&self.program, when, true).is_never();
-        name.arguments.is_empty() || family.all(|event| never(event.when))
+        let families = events.filter(|event| !event.name.arguments.is_empty());
+        let happen = families.filter(|event| !of_expr(&self.program, event.when, true).is_never());
+        happen.map(|event| event.name.family.clone()).collect()
     }
 
     /// A line of `end on`, by its place among them; `paid` says when the lines of `reward` pay.
@@ -321,7 +335,7 @@ impl<'a> Checker<'a> {
         event: &'a ast::Expr,
         place: usize,
         checked: &Task,
-        paid: &[Cases],
+        (paid, happen): (&[Cases], &BTreeSet<String>),
     ) {
         let members = checked.written.end_on.iter().zip(&checked.end_on);
         let members = members.filter(|(of, _)| **of == place);
@@ -334,7 +348,7 @@ impl<'a> Checker<'a> {
         if ends.iter().all(Cases::is_never) {
             let all = checked.end_on.iter().zip(&checked.written.end_on);
             let mut own = all.filter(|(_, of)| **of == place).map(|(end, _)| *end);
-            if own.all(|end| self.is_single_event(end)) {
+            if own.all(|end| self.is_told_of(end, happen)) {
                 return;
             }
             self.warning(Code::W0509, event.span, "no episode ends on this")

@@ -70,8 +70,10 @@ impl<'a> Checker<'a> {
                             .help("make it slower, or the tick shorter");
                     }
                     let learns = robot.name == world.robot.name;
+                    let sent = self.sent_to();
                     let passed = world.places.values().find(|place| {
-                        learns && self.is_sent_to(&place.name) && widest(&place.shape) < step
+                        let small = learns && widest(&place.shape) < step;
+                        small && sent.contains(&place.name.to_string())
                     });
                     if let Some(place) = passed.filter(|_| step < width.min(height)) {
                         let message = format!("the robot may pass over the place `{}`", place.name);
@@ -143,13 +145,9 @@ fn widest(place: &Shape) -> f64 {
 fn beyond(wall: &Shape, world: &World) -> Option<f64> {
     let (low, high) = world.arena.bounds();
     let (from, to) = wall.bounds();
-    let [below, above] = [minus(low, from), minus(to, high)];
-    let out = [below[0].max(above[0]), below[1].max(above[1])];
+    let ([left, bottom], [right, top]) = (minus(low, from), minus(to, high));
+    let (x, y) = (left.max(right), bottom.max(top));
     let [width, height] = minus(high, low);
-    let within = (0..2).all(|axis| {
-        let at = |point: [f64; 2]| point.get(axis).copied().unwrap_or(0.0);
-        at(from) < at(high) && at(to) > at(low)
-    });
-    let [x, y] = out;
-    (within && (x > width || y > height)).then_some(x.max(y))
+    let meets = from[0] < high[0] && to[0] > low[0] && from[1] < high[1] && to[1] > low[1];
+    (meets && (x > width || y > height)).then_some(x.max(y))
 }

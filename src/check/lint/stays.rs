@@ -88,13 +88,18 @@ impl<'a> Checker<'a> {
         waiting: &[(ExprId, Set)],
     ) {
         let mut found: Vec<Staying> = Vec::new();
+        let mut families: BTreeMap<String, Vec<Id<State>>> = BTreeMap::new();
+        for (id, state) in self.program.states.iter() {
+            families
+                .entry(state.name.family.clone())
+                .or_default()
+                .push(id);
+        }
         for item in items {
             let ItemKind::State(declared) = &item.kind else {
                 continue;
             };
-            let states = self.program.states.iter();
-            let own = states.filter(|(_, state)| state.name.family == declared.name.name);
-            let own: Vec<Id<State>> = own.map(|(id, _)| id).collect();
+            let own = families.remove(&declared.name.name).unwrap_or_default();
             let stays = |id: &Id<State>| {
                 let is_set = all.get(id).is_some_and(|settings| !settings.is_empty());
                 is_set && self.program.states[*id].stays.is_one()

@@ -3,14 +3,14 @@
 //! Within a tick predicates do not change: a node is reached where all that stands before it gives way. What drives and
 //! fails gives way, too, so only what can never fail shuts off what follows it in a selector.
 
-use super::cases::{About, Cases, Says, of_expr, of_guard};
+use super::cases::{About, Cases, Says, conjuncts, of_expr, of_guard};
 use super::idle::is_switch;
 use super::mentions::Mentions;
 use super::repaid::lasts;
 use super::view::View;
 use crate::check::Checker;
 use crate::diagnostic::Code;
-use crate::ir::expr::{Binary, Expr, ExprId};
+use crate::ir::expr::{Expr, ExprId};
 use crate::ir::law::Behavior;
 use crate::ir::tree::{Atom, Composite, Decorator, Guard, Node, Status};
 use crate::ir::{Id, Name, Program};
@@ -281,47 +281,37 @@ pub fn when(program: &Program, node: &Node, status: Status) -> Cases {
 /// Where the robot is when a condition holds that waits for the success of behaviours: a step away from where they succeed, at
 /// most.
 pub fn at_success(program: &Program, id: ExprId) -> Cases {
-    succeeded(program, id, true)
+    let Some(world) = &program.world else {
+        return Cases::constant(true);
+    };
+    let drive = &world.robot.drive;
+    // Noise of eight times its deviation is never drawn.
+    let step = (drive.max_speed + 8.0 * drive.speed_noise) * world.tick;
+    let mut places = as_it_succeeds(program, id);
+    if let Cases::Some(cases) = &mut places {
+        for case in cases {
+            case.retain(|about, says| match (about, says) {
+                (About::At(_), Says::Within(within)) => {
+                    *within = within.wider(step);
+                    true
+                }
+                _ => false,
+            });
+        }
+    }
+    places
 }
 
 /// The same, as the robot stands when they succeed.
 pub fn as_it_succeeds(program: &Program, id: ExprId) -> Cases {
-    succeeded(program, id, false)
-}
-
-fn succeeded(program: &Program, id: ExprId, moved: bool) -> Cases {
-    match program.pool.get(id) {
-        Expr::Event(event) => succeeded(program, program.events[event].when, moved),
-        Expr::Binary(Binary::And, a, b) => {
-            succeeded(program, a, moved).and(&succeeded(program, b, moved))
-        }
-        Expr::Ended(behavior, Status::Success) => {
-            let name = &program.behaviors[behavior].name;
-            let world = program.world.as_ref().filter(|_| name.robot().is_none());
-            let (Some(world), Cases::Some(mut cases)) =
-                (world, where_it_succeeds(program, behavior))
-            else {
-                return Cases::constant(true);
-            };
-            if !moved {
-                return Cases::Some(cases);
-            }
-            let drive = &world.robot.drive;
-            // Noise of eight times its deviation is never drawn.
-            let step = (drive.max_speed + 8.0 * drive.speed_noise) * world.tick;
-            for case in &mut cases {
-                case.retain(|about, says| match (about, says) {
-                    (About::At(_), Says::Within(within)) => {
-                        *within = within.wider(step);
-                        true
-                    }
-                    _ => false,
-                });
-            }
-            Cases::Some(cases)
-        }
-        _ => Cases::constant(true),
-    }
+    let own = conjuncts(program, id).into_iter().filter_map(|id| {
+        let Expr::Ended(behavior, Status::Success) = program.pool.get(id) else {
+            return None;
+        };
+        let is_own = program.behaviors[behavior].name.robot().is_none();
+        is_own.then(|| where_it_succeeds(program, behavior))
+    });
+    own.fold(Cases::constant(true), |all, places| all.and(&places))
 }
 
 /// Where a behaviour may succeed, as far as that hangs on nothing but where the robot is.

@@ -68,8 +68,9 @@ impl<'a> Checker<'a> {
     /// these places from which it gets furthest. The grid is generous: a robot a cell smaller than this one would not get
     /// there. Doors are open.
     fn places_apart(&mut self, declared: &'a ast::World, world: &World) {
+        let sent = self.sent_to();
         let wanted: Vec<_> = places(declared, world)
-            .filter(|(.., place)| self.is_sent_to(&place.name))
+            .filter(|(.., place)| sent.contains(&place.name.to_string()))
             .collect();
         if wanted.is_empty() || world.walls.is_empty() {
             return;
@@ -104,14 +105,12 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Whether a robot is sent to a place.
-    pub(super) fn is_sent_to(&self, place: &Name) -> bool {
-        let mut behaviors = self.program.behaviors.values();
-        behaviors.any(|behavior| {
-            let target = behavior.name.given().next();
-            let target = target.map(|(_, given)| given.to_string());
-            behavior.name.family == "goto" && target == Some(place.to_string())
-        })
+    /// The places that a robot is sent to.
+    pub(super) fn sent_to(&self) -> BTreeSet<String> {
+        let behaviors = self.program.behaviors.values();
+        let sent = behaviors.filter(|behavior| behavior.name.family == "goto");
+        let targets = sent.filter_map(|behavior| behavior.name.given().next());
+        targets.map(|(_, given)| given.to_string()).collect()
     }
 
     /// Places in which the robot is to be, or which it is to dock at, and does not fit so near to.

@@ -31,7 +31,7 @@ pub fn table(
     of: (Text, Option<Format>),
     recorded: Option<Recorded>,
 ) -> Result<Proved, Refused> {
-    let found = beside(loaded, name, of, recorded)?;
+    let found = against(loaded, name, of, recorded)?;
     let named = loaded.tables.first().filter(|_| recorded.is_none());
     let source = named.and_then(|(file, _)| loaded.sources.get(*file));
     let Some(source) = source.filter(|_| !found.holds()) else {
@@ -45,7 +45,7 @@ pub fn table(
         transitions,
         starts: None,
     };
-    match beside(loaded, name, of, Some(recorded)) {
+    match against(loaded, name, of, Some(recorded)) {
         Ok(along) if along.holds() => Ok(Proved {
             text: format!(
                 "{}\n  along {}, which the file names",
@@ -57,7 +57,8 @@ pub fn table(
     }
 }
 
-fn beside(
+/// Compares a tree with a table, along these transitions if there are any.
+fn against(
     loaded: &Loaded,
     name: &str,
     (text, from): (Text, Option<Format>),

@@ -58,7 +58,8 @@ fn begins_comment(line: &str, at: usize) -> bool {
     let rest = rest.strip_prefix(' ').unwrap_or_default();
     let (second, _) = rest.split_at(word(rest));
     let joins = ["and", "or", "not", "is", "else", "per", "of", "in", "for"].contains(&second);
-    let in_code = before.ends_with(is_blank) && !before.contains("//") && !before.contains('"');
+    let in_code = before.ends_with(is_blank) && !before.contains("//");
+    let in_code = in_code && !before.contains(['"', '`']);
     in_code
         && after.starts_with(' ')
         && words.starts_with(char::is_alphabetic)

@@ -4,6 +4,7 @@
 //! each gives every row one of its behaviours: a policy as any other, which the tree is made of and proved on.
 
 use super::alone::{REACH, THOROUGH};
+use super::core::part;
 use super::{Decanonicalised, Options, decanonicalise};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
@@ -129,16 +130,7 @@ fn by_core(
         if 2 * core.count() > count {
             return None;
         }
-        let rows = core.iter();
-        let part = Policy {
-            atoms: policy.atoms.clone(),
-            behaviors: policy.behaviors.clone(),
-            history: policy.history,
-            rows: rows
-                .filter_map(|row| policy.rows.get(row).cloned())
-                .collect(),
-            ..Policy::default()
-        };
+        let part = part(policy, &core);
         let rows = core.iter();
         let own: Vec<_> = rows.filter_map(|row| allowed.get(row).cloned()).collect();
         let (_, found) = chosen_by(&part, &own, &quick, false).ok()?;

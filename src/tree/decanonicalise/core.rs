@@ -43,17 +43,7 @@ impl<'a, 'p> Core<'a, 'p> {
     }
 
     pub(super) fn policy(&self) -> Policy {
-        let whole = self.problem.policy;
-        let rows = self.rows.iter();
-        Policy {
-            atoms: whole.atoms.clone(),
-            behaviors: whole.behaviors.clone(),
-            history: whole.history,
-            rows: rows
-                .filter_map(|row| whole.rows.get(row).cloned())
-                .collect(),
-            ..Policy::default()
-        }
+        part(self.problem.policy, &self.rows)
     }
 
     /// Lists for cores that grow until lists are right on all rows, first quickly, then thoroughly: those that are; `None` where no list
@@ -148,5 +138,19 @@ impl<'a, 'p> Core<'a, 'p> {
             self.rows = Bits::full(all);
         }
         count == 0
+    }
+}
+
+/// Some rows of a policy, as a policy.
+pub(super) fn part(whole: &Policy, rows: &Bits) -> Policy {
+    let rows = rows.iter();
+    Policy {
+        atoms: whole.atoms.clone(),
+        behaviors: whole.behaviors.clone(),
+        history: whole.history,
+        rows: rows
+            .filter_map(|row| whole.rows.get(row).cloned())
+            .collect(),
+        ..Policy::default()
     }
 }
