@@ -201,6 +201,10 @@ fn located(file: FileId, text: &str, error: &TableError) -> Diagnostic {
                 None => found,
             }
         }
+        TableErrorKind::UnknownValue { found: cell, .. } => match truth_help(cell) {
+            Some(help) => found.help(help),
+            None => found,
+        },
         TableErrorKind::Malformed(_) if text.starts_with('{') => {
             found.help("JSON Lines has an object a line: `{\"low\": true, \"action\": \"charge\"}`")
         }
@@ -228,11 +232,46 @@ fn number_help(cell: &str) -> Option<&'static str> {
             "the unit stands in the header, `x:number m`, and the cells are plain numbers",
         );
     }
+    let minus = ['\u{2212}', '\u{2013}', '\u{2014}'];
+    if let Some(rest) = cell.strip_prefix(minus)
+        && (rest.is_empty() || digits(rest))
+    {
+        return Some("this is a dash of printed text: a minus is the `-` of the keyboard");
+    }
+    let groups: Vec<&str> = cell
+        .split([',', ' ', '_', '\'', '\u{a0}', '\u{202f}'])
+        .collect();
+    let whole = |group: &str| group.bytes().all(|byte| byte.is_ascii_digit());
+    let is_group = |group: &&str| group.len() == 3 && whole(group);
+    if let [first, rest @ ..] = groups.as_slice()
+        && !rest.is_empty()
+        && (1..=3).contains(&first.trim_start_matches('-').len())
+        && whole(first.trim_start_matches('-'))
+        && rest.iter().all(is_group)
+    {
+        return Some(
+            "the digits of a number are not grouped: `1200`; before decimals stands a point: `1.2`",
+        );
+    }
     let decimal = cell.replace(',', ".");
     if cell.contains(',') && digits(&decimal) {
         return Some("a decimal number has a point: `0.5`");
     }
     (cell.contains('_') && digits(&cell.replace('_', ""))).then_some("digits are not grouped here")
+}
+
+/// What to do about a cell that is to be a truth value and is one in other words.
+fn truth_help(cell: &str) -> Option<&'static str> {
+    let word = cell.to_ascii_lowercase();
+    let is = |words: &[&str]| words.contains(&word.as_str());
+    match () {
+        () if is(&["yes", "y", "t", "on", "1.0"]) => Some("write `1`, or `true`"),
+        () if is(&["no", "n", "f", "off", "0.0"]) => Some("write `0`, or `false`"),
+        () if is(&["*", "?", "x", "any", "\u{2013}", "\u{2212}", "\u{2014}"]) => {
+            Some("`-` stands for either")
+        }
+        () => None,
+    }
 }
 
 fn code(kind: &TableErrorKind) -> Code {

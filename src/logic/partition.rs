@@ -40,7 +40,7 @@ pub struct Classified<'a> {
 }
 
 impl<'a> Classified<'a> {
-    /// The rows of these classes.
+    /// The rows of these classes; a row may be of several, each of which is right.
     pub fn new(columns: &'a Columns, classes: &[Bits]) -> Self {
         let mut rows: Vec<Row> = Vec::new();
         for (class, members) in (0..).zip(classes) {
@@ -154,6 +154,20 @@ impl Turns {
     }
 }
 
+/// The first class of which all of these rows are.
+fn sole(rows: &[Row], local: &[usize], classes: usize) -> Option<usize> {
+    let mut counts = vec![0_usize; classes.max(1)];
+    for class in local {
+        if let Some(count) = counts.get_mut(*class) {
+            *count += 1;
+        }
+    }
+    let all = rows.chunk_by(|a, b| a.number == b.number).count();
+    let sole = counts.iter().position(|count| *count == all)?;
+    let at = local.iter().position(|class| *class == sole);
+    Some(at.and_then(|at| rows.get(at)).map_or(0, |row| row.class))
+}
+
 #[derive(Clone, Copy)]
 struct Row {
     number: usize,
@@ -193,8 +207,8 @@ impl Search<'_> {
         });
         let local: Vec<usize> = local.collect();
         let classes = numbers.len();
-        if classes <= 1 {
-            return Some(Partition::Leaf(rows.first().map_or(0, |row| row.class)));
+        if let Some(class) = sole(rows, &local, classes) {
+            return Some(Partition::Leaf(class));
         }
         let turns = rows.iter().map(|row| self.turns.of(row.number).len());
         let turns: usize = turns.sum();

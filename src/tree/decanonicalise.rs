@@ -169,6 +169,19 @@ pub fn decanonicalise(policy: &Policy, options: &Options) -> Result<Decanonicali
     })
 }
 
+/// A tree for a policy, with its proof.
+fn proved(policy: &Policy, root: Node) -> Result<Decanonicalised, Refuted> {
+    let proof = Prover::new(policy).prove(&root)?;
+    Ok(Decanonicalised {
+        size: Size::of(&root),
+        paper_size: None,
+        unfinished: Vec::new(),
+        failing: failing(policy, &proof),
+        root,
+        proof,
+    })
+}
+
 fn searched(policy: &Policy, options: &Options) -> Result<Decanonicalised, Refuted> {
     let policy = &*cared(policy, options.care);
     let split = by_minterms(policy);

@@ -154,26 +154,6 @@ impl<'a> Prover<'a> {
         Ok(self.wrong_by(&plan, Reading::Furthest).0)
     }
 
-    /// What a tree decides in each row, all of which stand for one minterm; `None` where it selects nothing.
-    ///
-    /// # Errors
-    /// The tree has memory.
-    pub fn decided(&self, root: &Node) -> Result<Vec<Option<Id<Behavior>>>, Refuted> {
-        let plan = plan(root, After::Anything, &mut May).map_err(Refuted::Irreducible)?;
-        let (wrong, selected) = self.wrong_by(&plan, Reading::Furthest);
-        let rows = self.policy.rows.iter().enumerate();
-        let right = rows.map(|(at, row)| (!wrong.contains(at)).then_some(row.behavior));
-        let mut decided: Vec<_> = right.collect();
-        for (behavior, rows) in &selected {
-            for row in rows.iter() {
-                if let Some(slot) = decided.get_mut(row) {
-                    *slot = Some(*behavior);
-                }
-            }
-        }
-        Ok(decided)
-    }
-
     /// The rows that stand for one minterm in which the tree does not decide as the policy, and what it decides there.
     fn wrong_by(&self, plan: &Plan, by: Reading) -> (Bits, Vec<(Id<Behavior>, Bits)>) {
         let none = Bits::empty(self.policy.rows.len());

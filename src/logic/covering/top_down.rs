@@ -133,7 +133,8 @@ impl Search<'_> {
 
     /// Some of these rows, of every class that has any.
     fn sample(&mut self, rows: &Bits, size: usize) -> Table {
-        let count = rows.count();
+        // A row of several classes counts for each.
+        let count: usize = self.classes.iter().map(|own| own.count_both(rows)).sum();
         let mut chosen = Bits::empty(rows.bound());
         for own in self.classes {
             let own = own.and(rows);

@@ -7,6 +7,7 @@ use crate::policy::table::BEHAVIOR;
 use crate::policy::valued::Builder;
 use crate::spelling::bare;
 use std::ops::Range;
+use strsim::osa_distance;
 
 /// What other languages call the kinds of columns.
 const FOREIGN: [&str; 15] = [
@@ -26,6 +27,9 @@ const FOREIGN: [&str; 15] = [
     "boolean",
     "bool",
 ];
+
+/// The mistakes that a word for `number` may have.
+const NEARLY: usize = 2;
 
 /// What a column says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,7 +58,8 @@ pub(super) fn divided(column: &str) -> Option<(&str, &str)> {
         let known = word == "number"
             || kind.is_empty()
             || kind.starts_with('{')
-            || FOREIGN.contains(&word.as_str());
+            || FOREIGN.contains(&word.as_str())
+            || osa_distance(&word, "number") <= NEARLY;
         (known && !name.is_empty()).then_some((name, kind))
     })
 }

@@ -4,6 +4,7 @@ use super::Units;
 use super::header::{Assumed, Role, decides, divided, is_open, role};
 use crate::policy::error::{TableError, TableErrorKind};
 use crate::policy::records::{self, Records};
+use crate::policy::table::separated;
 use crate::policy::valued::{Builder, Valued};
 use std::ops::Range;
 
@@ -45,6 +46,9 @@ pub(super) fn read(text: &[u8], units: Units) -> Result<Valued, Vec<TableError>>
     }
     let header = records::whole(&cells);
     let names = names(text, &cells);
+    if let Some(error) = separated(&names, &header) {
+        return Err(vec![error]);
+    }
     let roles = names.iter().map(|(name, place)| {
         let role = role(&mut builder, (name, place), Assumed::Truth, units);
         (role, name.clone())

@@ -35,13 +35,8 @@ impl Reading {
         columns: Vec<(String, Range<usize>)>,
         header: Range<usize>,
     ) -> Vec<Role> {
-        if let [(name, _)] = columns.as_slice()
-            && let Some(separator) = name.chars().find(|c| SEPARATORS.contains(c))
-        {
-            self.stop(TableError {
-                span: header,
-                kind: TableErrorKind::Separator(separator),
-            });
+        if let Some(error) = separated(&columns, &header) {
+            self.stop(error);
             return Vec::new();
         }
         let mut known: BTreeSet<String> = BTreeSet::new();
@@ -128,6 +123,21 @@ impl Reading {
         }
         column.map_err(|kind| self.report(place, kind)).ok()
     }
+}
+
+/// What is wrong with a header of one column that something else than a comma parts.
+pub(in crate::policy) fn separated(
+    columns: &[(String, Range<usize>)],
+    header: &Range<usize>,
+) -> Option<TableError> {
+    let [(name, _)] = columns else {
+        return None;
+    };
+    let separator = name.chars().find(|c| SEPARATORS.contains(c))?;
+    Some(TableError {
+        span: header.clone(),
+        kind: TableErrorKind::Separator(separator),
+    })
 }
 
 /// The name of a column without backquotes: two of the same are one column twice.

@@ -4,22 +4,35 @@
 //! each gives every row one of its behaviours: a policy as any other, which the tree is made of and proved on.
 
 use super::alone::{REACH, THOROUGH};
-use super::core::part;
-use super::{Decanonicalised, Options, decanonicalise};
+use super::children::Children;
+use super::problem::Problem;
+use super::share::shared;
+use super::{Decanonicalised, Options, decanonicalise, proved};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
-use crate::logic::covering::{Known, List, lists};
-use crate::logic::{Account, Bits, Columns};
+use crate::logic::covering::{Grouped, Known, List, Part, Regroup, Rule, lists, top_down};
+use crate::logic::impurity::Impurity;
+use crate::logic::partition::{Classified, Partition};
+use crate::logic::{Account, Bits, Columns, Cube, Literal};
 use crate::policy::{Policy, Row};
-use crate::tree::prove::{Prover, Refuted};
+use crate::tree::prove::Refuted;
 
 /// The part of the effort that the choice of behaviours may take, and that the trees that are compared may.
 const PARTS: u64 = 4;
 
-/// The rows of the first core of a table, how many cores there are, and the part of the effort that one may take.
+/// The lists that are made from the top.
+const SAMPLES: u64 = 3;
+
+/// The rows of the first core of a table.
 const FIRST: usize = 600;
-const CORES: usize = 8;
-const OF_A_CORE: u64 = 10;
+/// Attempts at a smaller list before it is tried on all rows, at first, and where it is wrong on few rows.
+const QUICK: usize = 40;
+const HASTY: usize = 8;
+/// Few are so many times fewer than those of the core.
+const FEW: usize = 50;
+/// A list may be wrong on one row of so many to be mended, for which one part in so many of the account is kept.
+const RARELY: usize = 50;
+const MENDED: usize = 4;
 
 /// The smallest tree found that takes an allowed behaviour in every row, with the policy on which it is proved. `allowed` are the
 /// behaviours that each row allows.
@@ -30,16 +43,6 @@ pub fn allowing(
     policy: &Policy,
     allowed: &[Vec<Id<Behavior>>],
     options: &Options,
-) -> Result<(Policy, Decanonicalised), Refuted> {
-    chosen_by(policy, allowed, options, true)
-}
-
-/// The same, with a tree for a core of rows among what is tried, or without.
-fn chosen_by(
-    policy: &Policy,
-    allowed: &[Vec<Id<Behavior>>],
-    options: &Options,
-    with_core: bool,
 ) -> Result<(Policy, Decanonicalised), Refuted> {
     let classes: Vec<Bits> = policy
         .behaviors
@@ -58,13 +61,26 @@ fn chosen_by(
     let rows = words.iter().map(|(ones, free)| (&**ones, free.as_deref()));
     let columns = Columns::with_free(policy.atoms.len(), rows);
     let effort = options.effort.saturating_mul(super::EFFORT) / PARTS;
-    let (mut known, account) = (Known::default(), Account::new(effort));
-    let found = lists(&columns, &classes, REACH, THOROUGH, &mut known, &account);
-    let lists = found.iter().rev();
-    let mut choices: Vec<Vec<usize>> = lists.map(|list| by_list(&columns, list)).collect();
-    if with_core {
-        choices.extend(by_core(policy, allowed, options));
+    let is_whole = policy.rows.iter().all(|row| row.free.is_none());
+    if is_whole {
+        let account = Account::new(PARTS * effort);
+        if let Some(list) = by_core(&columns, &classes, &account) {
+            let mut choice = vec![0; columns.rows()];
+            by_grouped(&columns, &list, Bits::full(columns.rows()), &mut choice);
+            return listed(&chosen(policy, &choice), &list, options);
+        }
     }
+    let account = Account::new(effort);
+    let mut choices = Vec::new();
+    if is_whole {
+        choices.extend(by_partition(&columns, &classes, &account));
+    }
+    if is_whole {
+        choices.extend(from_the_top(&columns, &classes, &account));
+    }
+    let mut known = Known::default();
+    let found = lists(&columns, &classes, REACH, THOROUGH, &mut known, &account);
+    choices.extend(found.iter().rev().map(|list| by_list(&columns, list)));
     choices.push(by_frequency(&classes, allowed.len()));
     choices.dedup();
     let policies = choices.iter().map(|choice| chosen(policy, choice));
@@ -93,63 +109,176 @@ fn chosen_by(
     Ok((policy, smallest))
 }
 
+/// The smallest tree found for a policy, which takes the decisions of a list.
+fn listed(
+    policy: &Policy,
+    list: &Grouped,
+    options: &Options,
+) -> Result<(Policy, Decanonicalised), Refuted> {
+    let problem = Problem::new(policy);
+    // A problem numbers the behaviours that are taken somewhere.
+    let number = |class: usize| {
+        let behavior = policy.behaviors.get(class)?;
+        problem.on.iter().position(|(taken, _)| taken == behavior)
+    };
+    let list = renumbered(list, &number);
+    let tree = shared(Children::grouped(&problem, &list).node());
+    let first = proved(policy, tree)?;
+    let found = decanonicalise(policy, options)?;
+    let smallest = match first.size < found.size {
+        true => first,
+        false => found,
+    };
+    Ok((policy.clone(), smallest))
+}
+
+/// The list with other numbers for its classes; the rules of those that have none go.
+fn renumbered(list: &Grouped, number: &impl Fn(usize) -> Option<usize>) -> Grouped {
+    let parts = list.parts.iter().filter_map(|part| {
+        Some(match part {
+            Part::Rule(rule) => Part::Rule(Rule {
+                class: number(rule.class)?,
+                cube: rule.cube.clone(),
+            }),
+            Part::Group(cube, inner) => Part::Group(cube.clone(), renumbered(inner, number)),
+        })
+    });
+    Grouped {
+        parts: parts.collect(),
+        last: number(list.last).unwrap_or(0),
+    }
+}
+
+/// The behaviour of each row by the smallest of a few lists with groups that are made from the top.
+fn from_the_top(columns: &Columns, classes: &[Bits], account: &Account) -> Option<Vec<usize>> {
+    let part = account.part(2);
+    let made = (0..SAMPLES).map_while(|sample| top_down(columns, classes, sample, &part));
+    let least = made.min_by_key(Grouped::nodes);
+    account.settle(&part);
+    let mut choice = vec![0; columns.rows()];
+    by_grouped(columns, &least?, Bits::full(columns.rows()), &mut choice);
+    Some(choice)
+}
+
+/// The behaviour of each of these rows by a list with groups, by its number.
+fn by_grouped(columns: &Columns, list: &Grouped, mut rows: Bits, choice: &mut [usize]) {
+    for part in &list.parts {
+        let decided = columns.cube_rows(part.cube(), &rows);
+        rows.subtract(&decided);
+        match part {
+            Part::Rule(rule) => decide(choice, &decided, rule.class),
+            Part::Group(_, inner) => by_grouped(columns, inner, decided, choice),
+        }
+    }
+    decide(choice, &rows, list.last);
+}
+
+/// The behaviour of each row by the partition with the fewest parts.
+fn by_partition(columns: &Columns, classes: &[Bits], account: &Account) -> Option<Vec<usize>> {
+    let classified = Classified::new(columns, classes);
+    let part = account.part(4);
+    let made = Impurity::ALL.into_iter();
+    let made = made.filter_map(|impurity| classified.partition(impurity, &part));
+    let least = made.min_by_key(Partition::leaves);
+    account.settle(&part);
+    let mut choice = vec![0; columns.rows()];
+    by_parts(columns, &least?, Bits::full(columns.rows()), &mut choice);
+    Some(choice)
+}
+
+fn by_parts(columns: &Columns, partition: &Partition, rows: Bits, choice: &mut [usize]) {
+    match partition {
+        Partition::Leaf(class) => decide(choice, &rows, *class),
+        Partition::Split { atom, parts } => {
+            let literal = Literal {
+                atom: *atom,
+                positive: true,
+            };
+            let holds = columns.cube_rows(&Cube::new([literal]), &rows);
+            let [zero, one] = &**parts;
+            by_parts(columns, zero, rows.minus(&holds), choice);
+            by_parts(columns, one, holds, choice);
+        }
+    }
+}
+
 /// The behaviour of each row by a list, by its number.
 fn by_list(columns: &Columns, list: &List) -> Vec<usize> {
     let mut choice = vec![list.last; columns.rows()];
     let mut left = Bits::full(columns.rows());
     for rule in &list.rules {
         let decided = columns.cube_rows(&rule.cube, &left);
-        for row in decided.iter() {
-            if let Some(slot) = choice.get_mut(row) {
-                *slot = rule.class;
-            }
-        }
+        decide(&mut choice, &decided, rule.class);
         left.subtract(&decided);
     }
     choice
 }
 
-/// The behaviour of each row by a tree that is made for a few rows, which grow by some in which it takes what they do not allow.
-/// `None` in a small table, and where that does not end soon.
-fn by_core(
-    policy: &Policy,
-    allowed: &[Vec<Id<Behavior>>],
-    options: &Options,
-) -> Option<Vec<usize>> {
-    let count = policy.rows.len();
-    if count < 2 * FIRST || policy.rows.iter().any(|row| row.free.is_some()) {
+/// Lets these rows take a behaviour.
+fn decide(choice: &mut [usize], rows: &Bits, class: usize) {
+    for row in rows.iter() {
+        if let Some(slot) = choice.get_mut(row) {
+            *slot = class;
+        }
+    }
+}
+
+/// A list that is made for a few rows, which grow by some for which it takes what they do not allow.
+/// One that is wrong on few rows at the end is sought anew from where it is. `None` in a small table, and where that does not end soon.
+fn by_core(columns: &Columns, classes: &[Bits], account: &Account) -> Option<Grouped> {
+    let count = columns.rows();
+    if count < 2 * FIRST {
         return None;
     }
-    let quick = Options {
-        effort: (options.effort / OF_A_CORE).max(1),
-        ..*options
-    };
-    let prover = Prover::new(policy);
     let mut core = Bits::collect(count, (0..count).step_by(count.div_ceil(FIRST)));
-    for _ in 0..CORES {
-        if 2 * core.count() > count {
-            return None;
-        }
-        let part = part(policy, &core);
-        let rows = core.iter();
-        let own: Vec<_> = rows.filter_map(|row| allowed.get(row).cloned()).collect();
-        let (_, found) = chosen_by(&part, &own, &quick, false).ok()?;
-        let decided = prover.decided(&found.root).ok()?;
-        let numbers = decided.iter().zip(allowed).map(|(behavior, all)| {
-            let behavior = behavior.filter(|behavior| all.contains(behavior))?;
-            policy.behaviors.iter().position(|known| *known == behavior)
+    let (mut known, mut patience) = (Known::default(), QUICK);
+    let mut right = None;
+    let mut nearly: Option<(usize, List)> = None;
+    let whole = account.but(MENDED);
+    while 2 * core.count() <= count && !whole.is_spent() {
+        let rows: Vec<usize> = core.iter().collect();
+        let own = classes.iter().map(|own| {
+            let held = rows.iter().enumerate();
+            let held = held.filter(|(_, row)| own.contains(**row));
+            Bits::collect(rows.len(), held.map(|(at, _)| at))
         });
-        let numbers: Vec<Option<usize>> = numbers.collect();
-        let wrong = numbers.iter().enumerate();
-        let wrong = wrong.filter_map(|(row, number)| number.is_none().then_some(row));
-        let wrong: Vec<usize> = wrong.collect();
+        let own: Vec<Bits> = own.collect();
+        let part = columns.pick(&rows);
+        let found = lists(&part, &own, REACH, patience, &mut known, &whole);
+        let Some(list) = found.last() else { break };
+        let choice = by_list(columns, list);
+        whole.spend((list.rules.len() * count / 16) as u64);
+        let wrong = choice.iter().enumerate();
+        let wrong = wrong
+            .filter(|(row, class)| !classes.get(**class).is_some_and(|own| own.contains(*row)));
+        let wrong: Vec<usize> = wrong.map(|(row, _)| row).collect();
+        if nearly
+            .as_ref()
+            .is_none_or(|(least, _)| wrong.len() < *least)
+        {
+            nearly = Some((wrong.len(), list.clone()));
+        }
         if wrong.is_empty() {
-            return numbers.into_iter().collect();
+            right = Some(list.clone());
+            if patience == THOROUGH {
+                break;
+            }
+            patience = THOROUGH;
+        } else if right.is_none() && FEW * wrong.len() < core.count() {
+            patience = HASTY;
         }
         let step = wrong.len().div_ceil(core.count() / 2).max(1);
         core.unite(&Bits::collect(count, wrong.into_iter().step_by(step)));
     }
-    None
+    account.settle(&whole);
+    if let Some(right) = right {
+        return Some(right.into());
+    }
+    let (wrong, list) = nearly?;
+    if RARELY * wrong > count {
+        return None;
+    }
+    Regroup::new(columns, classes, account).smaller(&list.into(), 0, &mut known)
 }
 
 /// The behaviour of each row with as few behaviours as possible: again and again the one that most rows left allow.
@@ -165,11 +294,7 @@ fn by_frequency(classes: &[Bits], rows: usize) -> Vec<usize> {
         let Some(own) = classes.get(class) else {
             break;
         };
-        for row in own.and(&left).iter() {
-            if let Some(slot) = choice.get_mut(row) {
-                *slot = class;
-            }
-        }
+        decide(&mut choice, &own.and(&left), class);
         left.subtract(own);
     }
     choice

@@ -28,7 +28,11 @@ fn count(table: &Table, among: &Bits, left: &mut usize, account: &Account) -> Op
 fn divide(table: &Table, among: &Bits, left: &mut usize, account: &Account) -> Option<()> {
     let classes = table.classes.iter().map(|(_, own)| own.and(among));
     let classes: Vec<Bits> = classes.filter(|own| !own.is_empty()).collect();
-    let Some(atom) = best(table, &classes, account) else {
+    // A row may be of several classes.
+    let rows = among.count();
+    let divided = classes.iter().all(|own| own.count() < rows);
+    let atom = divided.then(|| best(table, &classes, account));
+    let Some(atom) = atom.flatten() else {
         *left = left.checked_sub(1)?;
         return Some(());
     };
