@@ -20,6 +20,8 @@ pub struct Bodies<'a> {
     pub clean: BTreeMap<Span, bool>,
     /// The bodies that are being checked within one another, to find circles.
     pub open: Vec<Open<'a>>,
+    /// Whether the tree at hand is run by the robot that learns, and by no other.
+    pub of_the_acting: bool,
     /// How many bodies have been unrolled so far.
     unrolled: usize,
     /// Whether it was reported that definitions grow too large.
@@ -50,7 +52,8 @@ impl<'a> Bodies<'a> {
 
     /// Whether it is left open which robot reads what is at hand: it is checked for itself, or for a body that is.
     pub fn of_any_robot(&self) -> bool {
-        self.open.iter().any(|open| !open.unrolls)
+        let known = |open: &Open| open.unrolls || open.of_tree && self.of_the_acting;
+        !self.open.iter().all(known)
     }
 
     /// Whether what is at hand belongs to an expression or a behaviour that is checked for itself.

@@ -8,7 +8,7 @@ use super::decl::event::EventId;
 use super::decl::input::InputSlot;
 use super::decl::predicate::PredicateId;
 use super::decl::state::StateSlot;
-use super::lint::{Again, Asked, Condition, FailClause};
+use super::lint::{Again, Asked, Causes, Condition, FailClause, Links};
 use super::meaning::Meanings;
 use super::members::{Kinds, Member};
 use super::merge;
@@ -58,6 +58,12 @@ pub struct Checker<'a> {
     pub endings: BTreeSet<Asked>,
     /// The conditions of events, effects, doors, prices and branches.
     pub conditions: Vec<Condition>,
+    /// The values that states never have and of which a warning has been told.
+    pub causes: Causes,
+    /// The families of predicates that always or never hold.
+    pub constant: BTreeSet<String>,
+    /// The conditions of each `else if`.
+    pub links: Links,
     /// Where a program calls behaviours of the library.
     pub library_calls: BTreeMap<Span, Id<Behavior>>,
     /// Each `fail when`, by where it stands, as the behaviours have it.
@@ -78,6 +84,8 @@ pub struct Checker<'a> {
     pub tunes: Tunes,
     /// The names that bodies of the user bind, by where they are bound.
     pub bound: BTreeMap<Span, Bound<'a>>,
+    /// Where names are bound of which it was told that nothing reads them.
+    pub unread: BTreeSet<Span>,
     /// The predicates, by name with arguments, of another robot with its name; `None` for one with a mistake.
     pub predicates: BTreeMap<Name, Option<PredicateId>>,
     /// The behaviours, by name with arguments; `None` for one with a mistake.
@@ -104,6 +112,15 @@ pub struct Checker<'a> {
     pub has_world: bool,
     /// Whether the drive of some robot was not understood.
     pub drive_unsure: bool,
+    /// Whether an entry of the world was not understood, which may be one more member of a kind.
+    pub entries_lost: bool,
+    /// Whether a kind was likely meant to be another one: what ranges over that one lacks a member, and what never happens or
+    /// never matters follows from that.
+    pub kind_misspelt: bool,
+    /// Whether the file pins the record of a tree that was learned.
+    pub recorded: bool,
+    /// Whether nobody knows which robot learns, or what another one runs.
+    pub robots_unsure: bool,
     /// Whether it was reported that the library is not used.
     pub library_missed: bool,
     /// How many names may still be looked at for one that was likely meant.
@@ -132,6 +149,9 @@ impl<'a> Checker<'a> {
             asked: Vec::new(),
             endings: BTreeSet::new(),
             conditions: Vec::new(),
+            causes: Causes::new(),
+            links: Links::new(),
+            constant: BTreeSet::new(),
             plain_ratios: BTreeMap::new(),
             needed: Vec::new(),
             library_calls: BTreeMap::new(),
@@ -144,6 +164,7 @@ impl<'a> Checker<'a> {
             wanted: None,
             tunes: Tunes::default(),
             bound: BTreeMap::new(),
+            unread: BTreeSet::new(),
             predicates: BTreeMap::new(),
             behaviors: BTreeMap::new(),
             inputs: BTreeMap::new(),
@@ -155,6 +176,10 @@ impl<'a> Checker<'a> {
             tick: None,
             has_world: false,
             drive_unsure: false,
+            entries_lost: false,
+            kind_misspelt: false,
+            recorded: false,
+            robots_unsure: false,
             library_missed: false,
             guesses: Cell::new(GUESSES),
         }
@@ -246,6 +271,7 @@ impl<'a> Checker<'a> {
             self.meanings.declaration(name)
         });
         twice::misnamed(&mut self.diagnostics);
+        twice::shown_by_bodies(&mut self.diagnostics);
         Checked {
             program: self.program,
             tunes: self.tunes.sites(),

@@ -188,26 +188,8 @@ impl<'a> Checker<'a> {
         let name = binding.name;
         self.binds(name, what);
         self.is_of_type(name, &binding.ty);
-        if what == "value"
-            && !self.context.library
-            && matches!(
-                self.names.value(&name.name, false),
-                Some((Decl::State(_), _))
-            )
-        {
-            let called = &name.name;
-            self.warning(
-                Code::W0204,
-                name.span,
-                format!("this `let` hides the state `{called}`"),
-            )
-            .label("from here on the name means this value")
-            .help(format!(
-                "to set the state, write `{called} = …` without `let`"
-            ));
-            // Whether it is read, and whether the state is ever set, depends on what is meant.
-            self.reads(name.span);
-            self.hidden.insert(called);
+        if what == "value" && !self.context.library {
+            self.hides_what_is_set(name);
         }
         let mut beside = self.context.scope.iter().skip(depth);
         if let Some(first) = beside.find(|bound| bound.name.name == name.name) {
@@ -221,6 +203,33 @@ impl<'a> Checker<'a> {
             .also(first, "first declared here");
         }
         self.context.scope.push(binding);
+    }
+
+    /// Warns of a `let` that hides a state or a local: mostly an assignment was meant.
+    fn hides_what_is_set(&mut self, name: &'a Ident) {
+        let called = &name.name;
+        let outer = self.context.lookup(called);
+        let local = outer.filter(|outer| outer.locals.is_some());
+        let what = if let Some(local) = local.map(|local| local.name.span) {
+            self.reads(local);
+            "local"
+        } else if matches!(self.names.value(called, false), Some((Decl::State(_), _))) {
+            self.hidden.insert(called);
+            "state"
+        } else {
+            return;
+        };
+        self.warning(
+            Code::W0204,
+            name.span,
+            format!("this `let` hides the {what} `{called}`"),
+        )
+        .label("from here on the name means this value")
+        .help(format!(
+            "to set the {what}, write `{called} = …` without `let`"
+        ));
+        // Whether it is read, and whether what it hides is ever set, depends on what is meant.
+        self.reads(name.span);
     }
 
     /// Notes that a binding is read.
@@ -244,6 +253,7 @@ impl<'a> Checker<'a> {
             if bound.read || name.starts_with('_') {
                 continue;
             }
+            self.unread.insert(span);
             self.warning(
                 Code::W0201,
                 span,

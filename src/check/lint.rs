@@ -4,16 +4,21 @@
 
 mod apart;
 mod cases;
+mod causes;
+mod chains;
 mod choices;
 mod claims;
 mod conditions;
 mod endings;
 mod exclusions;
+mod follows;
 mod geometry;
 mod idle;
 mod interval;
+mod lasting;
 mod mentions;
 mod moments;
+mod overwritten;
 mod predicates;
 mod ranges;
 mod regions;
@@ -31,6 +36,8 @@ mod world;
 
 use super::{Checker, Input};
 use crate::diagnostic::Diagnostic;
+pub use causes::Causes;
+pub use chains::Links;
 pub use conditions::Condition;
 pub use endings::Asked;
 pub use exclusions::exclusions;
@@ -53,8 +60,15 @@ impl<'a> Checker<'a> {
         self.values_of_states(items());
         self.unread_names();
         self.unused_declarations(files);
+        if self.kind_misspelt {
+            return;
+        }
         self.same_on_both_sides();
+        self.values_overwritten(items());
+        let kept = self.bound_by_episodes();
+        self.find_constant_predicates();
         self.conditions_without_effect();
+        self.branches_never_taken();
         self.choices_alike(items());
         self.regions_without_effect(items());
         let told = self.choices_that_never_succeed(items());
@@ -67,8 +81,12 @@ impl<'a> Checker<'a> {
         self.subtrees_without_effect(items());
         self.claims_beyond_episodes(items());
         self.sides_without_effect();
+        for (state, stays) in kept {
+            self.program.states[state].stays = stays;
+        }
         self.world_without_effect(items());
         self.sizes_out_of_proportion(items());
+        self.without_what_follows(items());
     }
 
     fn has_errors(&self) -> bool {

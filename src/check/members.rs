@@ -14,6 +14,7 @@ use crate::ir::world::{Robot, World};
 use crate::ir::{Id, Name};
 use crate::source::Span;
 use crate::syntax::ast::{ArgKind, Ident, Params, Ref};
+use std::collections::BTreeSet;
 
 /// The places and walls of the world in the order of their declaration, each with its kind.
 #[derive(Clone, Debug, Default)]
@@ -22,6 +23,8 @@ pub struct Kinds {
     pub places: Vec<(Name, Option<String>)>,
     /// The walls.
     pub walls: Vec<(Name, Option<String>)>,
+    /// Those of them whose shapes were not understood: they are members of their kinds, and nothing more is known of them.
+    pub unknown: BTreeSet<Name>,
 }
 
 /// The most members that a family may have.

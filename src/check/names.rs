@@ -162,6 +162,8 @@ pub struct Names<'a> {
     pub lacking: BTreeSet<String>,
     /// Whether the variants of an enum are missing, so that any name may be one of them.
     pub lost_values: bool,
+    /// Whether a type is not declared: what nothing is called, nor nearly, may be one of its variants.
+    pub lost_type: bool,
     /// Whether a world was not understood.
     pub lost_world: bool,
     /// Where a `use` could be put into the main file.

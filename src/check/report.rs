@@ -2,7 +2,7 @@
 
 use super::Checker;
 use super::types::Typed;
-use crate::diagnostic::{Applicability, Code, Diagnostic, suggest};
+use crate::diagnostic::{Applicability, Code, Diagnostic, Fix, suggest};
 use crate::source::Span;
 use crate::spelling::spelled;
 use crate::syntax::ast::{Expr, ExprKind, Ident};
@@ -235,7 +235,25 @@ impl<'a> Checker<'a> {
 
     /// Reports a number outside its range.
     pub fn out_of_range(&mut self, span: Span, why: impl Into<String>, label: &str) -> Draft<'_> {
-        self.error(Code::E0309, span, why).label(label)
+        let slip = self.likely_slip(span);
+        let draft = self.error(Code::E0309, span, why).label(label);
+        slip.into_iter().fold(draft, |draft, fix| {
+            draft.with(|mut diagnostic| {
+                diagnostic.fixes.push(fix);
+                diagnostic
+            })
+        })
+    }
+
+    /// What mends a number within `span` of which was just warned that it is likely a slip. Where the number is wrong as
+    /// well, one message is enough.
+    fn likely_slip(&mut self, span: Span) -> Option<Fix> {
+        let warned = self.diagnostics.pop_if(|last| {
+            let at = last.span();
+            let within = at.file == span.file && span.start <= at.start && at.end <= span.end;
+            within && matches!(last.code, Code::W0301 | Code::W0402)
+        })?;
+        warned.fixes.into_iter().next()
     }
 
     /// Reports that `what` needs a world in a program without one.

@@ -9,9 +9,11 @@ use super::Checker;
 use super::context::{Context, Region};
 use super::expr::plain_ref;
 use super::names::Decl;
+use super::report::Draft;
 use super::types::Type;
-use crate::diagnostic::Code;
-use crate::ir::expr::{Binary, Expr as Pooled};
+use super::types::units::Dim;
+use crate::diagnostic::{Applicability, Code};
+use crate::ir::expr::{Binary, Expr as Pooled, ExprId};
 use crate::ir::law::Behavior;
 use crate::ir::program::Predicate;
 use crate::ir::task::{History, Price, RewardLine, Task, Written};
@@ -76,8 +78,7 @@ impl<'a> Checker<'a> {
                         None => Some(vec![Vec::new()]),
                     };
                     let events = self.for_each_member(scopes.unwrap_or_default(), |checker, _| {
-                        let what = "what an episode ends on";
-                        checker.expect(event, &Type::Bool, what).scalar()
+                        checker.ends_on(event, aspect.span)
                     });
                     let text = print::expr(event);
                     for event in events.into_iter().flatten() {
@@ -173,6 +174,31 @@ impl<'a> Checker<'a> {
         (chosen, places)
     }
 
+    /// What the aspect at `aspect` says that an episode ends on.
+    fn ends_on(&mut self, event: &'a Expr, aspect: Span) -> Option<ExprId> {
+        let role = "what an episode ends on";
+        let typed = self.expr_like(event, &Type::Bool);
+        if typed.ty.dim() != Some(Dim::TIME) {
+            return self.coerce(typed, event, &Type::Bool, role).scalar();
+        }
+        // That is how long it lasts at most: it is said, though by another word.
+        self.names.lose("end");
+        let words = Span {
+            end: event.span.start,
+            ..aspect
+        };
+        let message = format!("{role} is {}, not {}", Type::Bool, typed.ty);
+        self.unlike(&typed, &Type::Bool, message)
+            .this_is(&typed.ty)
+            .fix(
+                "how long it lasts at most is said by `end after`",
+                words,
+                "end after ",
+                Applicability::Unsafe,
+            )
+            .none()
+    }
+
     pub fn once<T: PartialEq>(&mut self, list: &mut Vec<T>, item: T, span: Span) {
         if list.contains(&item) {
             self.error(Code::E0503, span, "this is in the list already")
@@ -203,20 +229,26 @@ impl<'a> Checker<'a> {
         }
         let seconds = self.constant(expr, &Type::TIME, role)?;
         let tick = self.tick?;
-        let ticks = (seconds / tick).round();
+        let exact = seconds / tick;
+        let ticks = exact.round();
         if (1.0..=1e15).contains(&ticks) {
             return Some(ticks as u64);
         }
-        let label = if seconds <= 0.0 {
+        self.less_than_a_tick(expr.span, role, exact)
+            .note_if((tick >= 1.0).then(|| format!("a tick of this world takes {tick} s")))
+            .none()
+    }
+
+    /// Reports a time of so many `ticks`, which is no time, none that is counted, or too long.
+    pub fn less_than_a_tick(&mut self, span: Span, role: &str, ticks: f64) -> Draft<'_> {
+        let label = if ticks <= 0.0 {
             "this takes no time"
-        } else if ticks < 1.0 {
+        } else if ticks.round() < 1.0 {
             "this is less than half a tick"
         } else {
             "this is too long"
         };
-        self.out_of_range(expr.span, format!("{role} is at least one tick"), label)
-            .note_if((tick >= 1.0).then(|| format!("a tick of this world takes {tick} s")))
-            .none()
+        self.out_of_range(span, format!("{role} is at least one tick"), label)
     }
 
     fn reward(

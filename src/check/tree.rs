@@ -47,9 +47,11 @@ impl<'a> Checker<'a> {
         let scope = self.unknown_parameters(tree.params.as_ref());
         let mut root = None;
         self.asked.clear();
+        self.bodies.of_the_acting = tree.task.is_some() && !self.robots_unsure;
         self.body_for_itself(&tree.name, Region::Tree, scope, |checker| {
             root = checker.node(&tree.root);
         });
+        self.bodies.of_the_acting = false;
         let Some(root) = root.filter(|_| tree.params.is_none()) else {
             return;
         };

@@ -1,7 +1,9 @@
-//! A name that is declared twice where another one is declared nowhere.
+//! One message of two that one slip brings about: a name that is declared twice where another one is declared nowhere,
+//! a parameter whose name or type disagrees with its body and with its uses.
 
-use crate::diagnostic::{Applicability, Code, Diagnostic};
+use crate::diagnostic::{Applicability, Code, Diagnostic, Label};
 use crate::spelling::spelled;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Makes one mistake of two: of what is declared twice, one was likely to bear the only name that nothing declares, as
 /// happens to a line that was copied.
@@ -31,6 +33,85 @@ pub fn misnamed(found: &mut Vec<Diagnostic>) {
         *first = other;
     }
     found.remove(follows);
+}
+
+/// Leaves out what is told of uses where the body that they use shows the same.
+pub fn shown_by_bodies(found: &mut Vec<Diagnostic>) {
+    let mut unknown: BTreeMap<(String, String), usize> = BTreeMap::new();
+    let mut unlike: BTreeSet<(String, String)> = BTreeSet::new();
+    let mut never: BTreeSet<String> = BTreeSet::new();
+    for (at, it) in found.iter().enumerate() {
+        match it.code {
+            Code::E0202 => {
+                unknown.extend(renamed(it, "", " is not declared").map(|names| (names, at)));
+            }
+            Code::E0302 => {
+                let sides = it.message.split_once(" cannot be compared with ");
+                unlike.extend(sides.map(|(one, other)| (one.to_owned(), other.to_owned())));
+            }
+            Code::E0611 => {
+                never.insert(it.message.clone());
+            }
+            _ => {}
+        }
+    }
+    let mut uses: BTreeMap<usize, Vec<Diagnostic>> = BTreeMap::new();
+    let mut follows = |it: &Diagnostic| match it.code {
+        Code::E0305 => {
+            let begins = it.message.find(" has no parameter ");
+            let owner = begins.and_then(|end| it.message.get(..end));
+            let before = owner.map(|owner| format!("{owner} has no parameter "));
+            let names = before.and_then(|before| renamed(it, &before, ""));
+            let body = names.and_then(|names| unknown.get(&names));
+            if let Some(body) = body {
+                uses.entry(*body).or_default().push(it.clone());
+            }
+            body.is_some()
+        }
+        Code::E0302 => given(&it.message).is_some_and(|(is, wanted)| {
+            let both =
+                |one: &str, other: &str| unlike.contains(&(one.to_owned(), other.to_owned()));
+            both(is, wanted) || both(wanted, is)
+        }),
+        // What never ends is told where something waits for it.
+        Code::W0609 => never.contains(&it.message),
+        _ => false,
+    };
+    let gone: Vec<bool> = found.iter().map(&mut follows).collect();
+    for (body, uses) in uses {
+        if let Some(body) = found.get_mut(body) {
+            for of in uses {
+                let places = of.labels.into_iter().take(1);
+                body.labels.extend(places.map(|place| Label {
+                    message: "and here".to_owned(),
+                    ..place
+                }));
+                let edits = of.fixes.into_iter().flat_map(|fix| fix.edits);
+                if let Some(fix) = body.fixes.first_mut() {
+                    fix.edits.extend(edits);
+                }
+            }
+        }
+    }
+    let mut gone = gone.into_iter();
+    found.retain(|_| !gone.next().unwrap_or(false));
+}
+
+/// The name that a message is about, between what stands `before` and `after` it, with the one that its fix writes.
+fn renamed(found: &Diagnostic, before: &str, after: &str) -> Option<(String, String)> {
+    let name = found.message.strip_prefix(before)?.strip_suffix(after)?;
+    let [fix] = found.fixes.as_slice() else {
+        return None;
+    };
+    let (_, right) = fix.edits.first()?;
+    Some((name.trim_matches('`').to_owned(), right.clone()))
+}
+
+/// The type that a parameter is of, and the one that it is given: "`c` of `carries` is …, not …".
+fn given(message: &str) -> Option<(&str, &str)> {
+    let (parameter, types) = message.split_once(" is ")?;
+    parameter.contains("` of `").then_some(())?;
+    types.split_once(", not ")
 }
 
 /// The name that a diagnostic misses, where no other is near it.

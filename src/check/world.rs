@@ -8,13 +8,13 @@ pub mod shape;
 use super::Checker;
 use super::context::{Context, Region};
 use super::types::Type;
-use crate::diagnostic::Code;
+use crate::diagnostic::{Applicability, Code};
 use crate::geometry::Shape;
 use crate::ir::Name;
 use crate::ir::table::Table;
 use crate::ir::world::{Place, Wall, World};
 use crate::source::Span;
-use crate::syntax::ast::{self, Expr, Item, ItemKind, WorldEntryKind};
+use crate::syntax::ast::{self, Expr, ExprKind, Item, ItemKind, Literal, WorldEntryKind};
 use robot::no_robot;
 use std::ops::RangeInclusive;
 
@@ -44,6 +44,8 @@ impl<'a> Checker<'a> {
             self.world(world);
         } else if self.names.lost_world {
             self.has_world = true;
+            self.drive_unsure = true;
+            self.robots_unsure = true;
             self.stand_in(Name::default(), None);
         }
     }
@@ -53,10 +55,7 @@ impl<'a> Checker<'a> {
         self.program.world = Some(World {
             name,
             tick: self.tick.unwrap_or(0.1),
-            arena: arena.unwrap_or(Shape::Disc {
-                center: [0.0; 2],
-                radius: 1.0,
-            }),
+            arena: arena.unwrap_or_else(no_shape),
             walls: Table::default(),
             places: Table::default(),
             robot: no_robot(),
@@ -80,6 +79,11 @@ impl<'a> Checker<'a> {
                 self.missing(Code::E0402, world.name.span, "the world", name, example);
             }
         }
+        // What is not understood may be the robot.
+        let is_lost = |entry: &ast::WorldEntry| entry.kind == WorldEntryKind::Error;
+        self.entries_lost = world.entries.iter().any(is_lost);
+        self.drive_unsure |= self.entries_lost;
+        self.robots_unsure |= self.entries_lost;
         self.tick = tick.and_then(|field| self.tick(&field.value));
         let arena_field = arena;
         let arena = arena.and_then(|field| self.arena(&field.value));
@@ -94,6 +98,11 @@ impl<'a> Checker<'a> {
                     shape,
                     facing,
                 } => {
+                    // One that is declared again is no second member.
+                    if !self.names.counts(name) {
+                        self.shape_of(shape, "a place");
+                        continue;
+                    }
                     let kind = of_kind.as_ref().map(|kind| kind.name.clone());
                     self.kinds.places.push((Name::word(&name.name), kind));
                     let away = self.place(name, shape, facing.as_ref(), arena.as_ref());
@@ -106,6 +115,10 @@ impl<'a> Checker<'a> {
                     shape,
                     ..
                 } => {
+                    if !self.names.counts(name) {
+                        self.shape_of(shape, "a wall");
+                        continue;
+                    }
                     let kind = of_kind.as_ref().map(|kind| kind.name.clone());
                     self.kinds.walls.push((Name::word(&name.name), kind));
                     self.wall(name, shape);
@@ -138,7 +151,28 @@ impl<'a> Checker<'a> {
 
     /// The length of a tick in seconds.
     fn tick(&mut self, value: &'a Expr) -> Option<f64> {
-        let tick = self.constant(value, &Type::TIME, "the length of a tick")?;
+        let role = "the length of a tick";
+        // So many seconds would be a long tick.
+        if let ExprKind::Number(Literal {
+            value: number,
+            unit: None,
+            ..
+        }) = &value.kind
+            && *number > 1.0
+        {
+            let message = format!("{role} is a time (s), not a plain number");
+            return self
+                .error(Code::E0301, value.span, message)
+                .this_is(Type::NUMBER)
+                .fix(
+                    "give it its unit, ` ms`",
+                    value.span.after(),
+                    " ms",
+                    Applicability::Unsafe,
+                )
+                .none();
+        }
+        let tick = self.constant(value, &Type::TIME, role)?;
         if TICK.contains(&tick) {
             return Some(tick);
         }
@@ -205,7 +239,19 @@ impl<'a> Checker<'a> {
             let angle = self.constant(facing, &Type::ANGLE, "`facing`");
             angle.unwrap_or_default()
         });
-        let Some(shape) = shape else { return false };
+        let Some(shape) = shape else {
+            let name = Name::word(&name.name);
+            self.kinds.unknown.insert(name.clone());
+            if let Some(world) = &mut self.program.world {
+                let shape = no_shape();
+                world.places.push(Place {
+                    name,
+                    shape,
+                    facing: None,
+                });
+            }
+            return false;
+        };
         let outside = arena.is_some_and(|arena| !arena.contains(shape.center()));
         if let Some(world) = &mut self.program.world {
             world.places.push(Place {
@@ -219,12 +265,22 @@ impl<'a> Checker<'a> {
 
     fn wall(&mut self, name: &'a ast::Ident, shape: &'a Expr) {
         let shape = self.shape_of(shape, "a wall");
-        if let (Some(shape), Some(world)) = (shape, &mut self.program.world) {
-            world.walls.push(Wall {
-                name: Name::word(&name.name),
-                shape,
-                when: None,
-            });
+        let name = Name::word(&name.name);
+        if shape.is_none() {
+            self.kinds.unknown.insert(name.clone());
         }
+        if let Some(world) = &mut self.program.world {
+            let shape = shape.unwrap_or_else(no_shape);
+            let when = None;
+            world.walls.push(Wall { name, shape, when });
+        }
+    }
+}
+
+/// What stands for a shape that was not understood.
+fn no_shape() -> Shape {
+    Shape::Disc {
+        center: [0.0; 2],
+        radius: 1.0,
     }
 }

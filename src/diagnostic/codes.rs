@@ -173,6 +173,7 @@ codes! {
     W0304 "a measure that is to be exact",
     W0305 "a point in a whole number",
     W0306 "a bearing where a direction is meant",
+    W0307 "a value that is overwritten",
 
     W0401 "a part of the world that does nothing",
     W0402 "a size out of proportion",

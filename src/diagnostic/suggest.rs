@@ -3,7 +3,7 @@
 use strsim::osa_distance;
 
 /// What people who come from other languages and tools write, and what it is called here, where that is known at all.
-const FOREIGN: [(&str, &str); 192] = [
+const FOREIGN: [(&str, &str); 194] = [
     // shapes and worlds
     ("circle", "disc"),
     ("disk", "disc"),
@@ -203,6 +203,9 @@ const FOREIGN: [(&str, &str); 192] = [
     ("ultrasound", "range_finder"),
     ("footprint", "body"),
     ("radius", "within"),
+    // how something stands
+    ("death", "dead"),
+    ("died", "dead"),
 ];
 
 /// The candidate that `name` is in the singular or the plural or is called elsewhere, or else the nearest one, if it is near enough to be what was meant; the

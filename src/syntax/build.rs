@@ -9,6 +9,7 @@ mod entries;
 mod expr;
 mod field;
 mod item;
+mod layout;
 mod learn;
 mod lost;
 mod number;
@@ -40,6 +41,8 @@ pub(super) struct Builder<'i> {
     diagnostics: Vec<Diagnostic>,
     /// Where the last text that could not be parsed failed: what begins before that place has been reported.
     failed_at: Option<usize>,
+    /// Up to where statements are the rest of one that was not understood.
+    lost_until: usize,
     /// What the mistakes have taken so far.
     lost: Lost,
     /// Where a `{` is missing, so that a `}` may be missing around it.
@@ -72,6 +75,7 @@ impl<'i> Builder<'i> {
             base: 0,
             diagnostics: Vec::new(),
             failed_at: None,
+            lost_until: 0,
             lost: Lost::default(),
             unopened: Vec::new(),
             ranging: false,

@@ -77,7 +77,13 @@ pub(super) fn failure(
     }
     let cut = place.cut_line().or_else(|| place.cut_value());
     if let Some((last, diagnostic)) = cut.or_else(|| place.cut_before_entry()) {
-        return (last.end, diagnostic);
+        return match place.unopened_body(last) {
+            Some((end, brace)) => (
+                end,
+                diagnostic.fix("open the body", brace, " {", Applicability::Unsafe),
+            ),
+            None => (last.end, diagnostic),
+        };
     }
     let diagnostic = place
         .look_alike()

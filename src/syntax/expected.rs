@@ -255,7 +255,13 @@ fn name(rule: Rule) -> Option<(Rank, &'static str)> {
         | Rule::wrong_factor
         | Rule::assign_ahead
         | Rule::type_op
+        | Rule::wrong_node_call
+        | Rule::wrong_spaced_call
+        | Rule::lone_equals
         | Rule::wrong_equals
+        | Rule::wrong_paren_equals
+        | Rule::wrong_paid_equals
+        | Rule::wrong_guard_equals
         | Rule::wrong_is
         | Rule::wrong_comma
         | Rule::wrong_choice
@@ -327,6 +333,7 @@ fn name(rule: Rule) -> Option<(Rank, &'static str)> {
         | Rule::strict_learn_entry
         | Rule::strict_test_entry
         | Rule::strict_child
-        | Rule::strict_stmt => return None,
+        | Rule::strict_stmt
+        | Rule::strict_choice => return None,
     })
 }

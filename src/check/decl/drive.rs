@@ -4,6 +4,7 @@ use crate::check::Checker;
 use crate::check::context::Region;
 use crate::check::expr::plain_ref;
 use crate::check::signature::{Signature, Takes};
+use crate::check::types::units::Dim;
 use crate::check::types::{Type, Typed};
 use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::ir::expr::{Binary, Expr, Pose, Unary};
@@ -45,6 +46,7 @@ impl<'a> Checker<'a> {
         let matched = self.matched(&signature, call.args.as_deref().unwrap_or_default());
         let mut fine = matched.fine;
         let told = self.diagnostics.len();
+        let only = call.args.as_ref().is_some_and(|args| args.len() == 1);
         let mut commands = [None, None, None, None];
         for ((arg, (name, ty)), command) in matched.args().zip(COMMANDS).zip(&mut commands) {
             let Some((arg, value)) = arg else { continue };
@@ -58,9 +60,21 @@ impl<'a> Checker<'a> {
                 fine = false;
                 continue;
             }
-            *command = Some(self.expect(value, &ty, &format!("`{name}`")));
+            let given = self.expr_like(value, &ty);
+            let angle = given.ty.dim() == Some(Dim::ANGLE);
+            *command = Some(self.coerce(given, value, &ty, &format!("`{name}`")));
             if name == "course" {
                 self.bearing_for_course(value);
+            } else if let (ArgKind::Named(word, _), true, Some(last)) =
+                (&arg.kind, angle && only, self.diagnostics.last_mut())
+                && last.fixes.is_empty()
+            {
+                *last = last.clone().fix(
+                    "a direction is a `course`",
+                    word.span,
+                    "course",
+                    Applicability::Unsafe,
+                );
             }
         }
         fine &= !self.commands_by_name(call.args.as_deref().unwrap_or_default(), told);
@@ -77,6 +91,9 @@ impl<'a> Checker<'a> {
             (Some(_), None) => Some(("`turn`", "to go straight on, write `turn = 0 rad/s`")),
             (Some(_), Some(_)) => None,
         };
+        // Which command was meant by one that is wrong, nobody knows.
+        let wrong = [&speed, &turn].into_iter().flatten();
+        fine &= wrong.into_iter().all(|given| given.ty != Type::Error);
         if let Some((what, still)) = lacks.filter(|_| fine) {
             let message = format!("`drive` needs its {what}");
             self.error(Code::E0305, call.name.span, message)

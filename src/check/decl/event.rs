@@ -186,7 +186,10 @@ impl<'a> Checker<'a> {
         let unbound = |arg: &Arg| match &arg.kind {
             ArgKind::Positional(value) => {
                 let name = plain_ref(value).filter(|name| name.args.is_none());
-                name.is_some_and(|name| self.may_bind(&name.name.name))
+                name.is_some_and(|name| {
+                    let name = name.name.name.as_str();
+                    self.names.types.contains_key(name) || self.may_bind(name)
+                })
             }
             _ => false,
         };
@@ -202,7 +205,10 @@ impl<'a> Checker<'a> {
             return None;
         }
         let typed = params.iter().enumerate().map(|(at, param)| {
-            let name = given.get(at).copied().unwrap_or(&param.name.name);
+            // Who names the kind alone has not said what a member is called.
+            let given = given.get(at).copied();
+            let given = given.filter(|name| !self.names.types.contains_key(name));
+            let name = given.unwrap_or(&param.name.name);
             let factors = param.ty.factors.iter().map(|(name, _)| name.name.as_str());
             format!("{name}{binds}{}", factors.collect::<String>())
         });

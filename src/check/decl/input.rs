@@ -130,7 +130,7 @@ impl<'a> Checker<'a> {
         let (reference, values, value) = match (self.categorical(left), self.categorical(right)) {
             (Some((reference, values)), _) => (reference, values, right),
             (None, Some((reference, values))) => (reference, values, left),
-            (None, None) => return None,
+            (None, None) => return self.value_of_an_unknown(left, right, span),
         };
         let failed = Typed::unknown(Type::Bool, span);
         let name = &reference.name.name;
@@ -188,6 +188,32 @@ impl<'a> Checker<'a> {
         };
         let id = pool.binary(op, input, code);
         Some(Typed::new(Type::Bool, Some(id), span))
+    }
+
+    /// A comparison of a name that nothing declares with a value that an input has: that input was meant, whose value
+    /// is no name of its own.
+    fn value_of_an_unknown(
+        &mut self,
+        left: &'a Expr,
+        right: &'a Expr,
+        span: Span,
+    ) -> Option<Typed> {
+        let unknown = |expr: &'a Expr| {
+            let name = plain_ref(expr).filter(|name| name.args.is_none())?;
+            let name = name.name.name.as_str();
+            let bound = self.context.lookup(name).is_some();
+            let known = bound || self.names.value(name, self.context.library).is_some();
+            (!known).then_some(name)
+        };
+        let (one, other) = (unknown(left)?, unknown(right)?);
+        let is_value = |name: &str| self.input_with(name).is_some();
+        let input = match (is_value(one), is_value(other)) {
+            (false, true) => left,
+            (true, false) => right,
+            _ => return None,
+        };
+        self.expr(input);
+        Some(Typed::unknown(Type::Bool, span))
     }
 
     /// The input that an expression names, if it has one of some values.

@@ -25,7 +25,12 @@ impl<'a> Checker<'a> {
     }
 
     fn predicate_body(&mut self, predicate: &'a ast::Predicate) -> Option<ExprId> {
-        let value = predicate.value.as_ref()?;
+        let Some(value) = predicate.value.as_ref() else {
+            // What it says of its arguments is said by those who use it.
+            let params = predicate.params.iter().flat_map(|it| &it.params);
+            params.for_each(|param| self.reads(param.name.span));
+            return None;
+        };
         let role = format!("the predicate `{}`", predicate.name.name);
         self.expect(value, &Type::Bool, &role).scalar()
     }

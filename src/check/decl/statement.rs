@@ -12,6 +12,7 @@ use crate::ir::expr::{Binary, Expr, ExprId, Local, Temp};
 use crate::ir::law::{Block, Stmt};
 use crate::ir::program::State;
 use crate::ir::{Id, Name};
+use crate::source::Span;
 use crate::syntax::ast::{self, AssignOp, Else, Ref, StmtKind};
 
 /// What an assignment can set.
@@ -51,7 +52,7 @@ impl<'a> Checker<'a> {
                 domain,
                 block,
             } => self.for_stmt(name, domain, block),
-            StmtKind::Branch(branch) => self.branch(branch).map(|stmt| vec![stmt]),
+            StmtKind::Branch(branch) => self.branch(branch, &mut Vec::new()).map(|stmt| vec![stmt]),
             StmtKind::Assign { target, op, value } => self.assign(target, *op, value),
             StmtKind::Call(call) => self.call_stmt(call).map(|stmt| vec![stmt]),
             StmtKind::Error => None,
@@ -105,9 +106,15 @@ impl<'a> Checker<'a> {
         known.then_some(stmts)
     }
 
-    fn branch(&mut self, branch: &'a ast::Branch) -> Option<Stmt> {
+    /// A branch, and those after it; `before` holds what those before it ask.
+    fn branch(
+        &mut self,
+        branch: &'a ast::Branch,
+        before: &mut Vec<(Span, ExprId)>,
+    ) -> Option<Stmt> {
         let condition = self.expect(&branch.cond, &Type::Bool, "a condition");
         self.branches_on(&branch.cond, condition.scalar());
+        self.links(&branch.cond, condition.scalar(), before);
         if let Some(Else::Block(otherwise)) = branch.otherwise.as_deref() {
             self.same_blocks(&branch.then, otherwise);
         }
@@ -115,7 +122,7 @@ impl<'a> Checker<'a> {
         let otherwise = match branch.otherwise.as_deref() {
             None => Some(Block::default()),
             Some(Else::Block(block)) => self.block(block),
-            Some(Else::If(inner)) => self.branch(inner).map(|stmt| Block(vec![stmt])),
+            Some(Else::If(inner)) => self.branch(inner, before).map(|stmt| Block(vec![stmt])),
         };
         Some(Stmt::If(condition.scalar()?, then?, otherwise?))
     }

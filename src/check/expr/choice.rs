@@ -5,14 +5,26 @@ use crate::check::context::Binding;
 use crate::check::expr::expect::is_literal;
 use crate::check::types::{Type, Typed, Value};
 use crate::diagnostic::Code;
+use crate::ir::expr::ExprId;
 use crate::source::Span;
 use crate::syntax::ast::{self, Expr, Otherwise};
 
 impl<'a> Checker<'a> {
     /// `if … { … } else { … }`
     pub fn choice(&mut self, choice: &'a ast::Choice, span: Span) -> Option<Typed> {
+        self.choice_after(choice, span, &mut Vec::new())
+    }
+
+    /// A choice; `before` holds what the choices around it ask, in whose `else` it stands.
+    fn choice_after(
+        &mut self,
+        choice: &'a ast::Choice,
+        span: Span,
+        before: &mut Vec<(Span, ExprId)>,
+    ) -> Option<Typed> {
         let condition = self.expect(&choice.cond, &Type::Bool, "a condition");
         self.chooses_by(&choice.cond, condition.scalar());
+        self.links(&choice.cond, condition.scalar(), before);
         let then = self.yielded(&choice.then);
         if let Otherwise::Yield(other) = &choice.otherwise
             && choice.then.bindings.is_empty()
@@ -21,7 +33,7 @@ impl<'a> Checker<'a> {
             self.same_branches(&choice.then.value, &other.value);
         }
         let (otherwise, last) = match &choice.otherwise {
-            Otherwise::If(inner, span) => (self.choice(inner, *span), None),
+            Otherwise::If(inner, span) => (self.choice_after(inner, *span, before), None),
             Otherwise::Yield(other) => (Some(self.yielded(other)), Some(&*other.value)),
         };
         let otherwise = otherwise?;

@@ -25,6 +25,7 @@ impl<'a> Checker<'a> {
                 .help("draw it in a `local`, an effect or a `start` line, and read that")
                 .none();
         }
+        self.same_draws(reference);
         match function {
             Function::Uniform | Function::Normal => {
                 let [a, b] = self.two_alike(reference)?;
@@ -42,6 +43,7 @@ impl<'a> Checker<'a> {
                 };
                 let p = self.expect(value, &Type::Ratio, "a chance");
                 self.probability(&p, "a chance")?;
+                self.draws_always(value, p.scalar());
                 Some(self.lift(Type::Bool, span, [&p], |pool, [p]| {
                     pool.draw(Draw::Chance(p))
                 }))

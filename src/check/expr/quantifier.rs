@@ -121,6 +121,9 @@ impl<'a> Checker<'a> {
         let Some(says) = says.into_iter().collect::<Option<Vec<ExprId>>>() else {
             return Some(Typed::unknown(ty, span));
         };
+        if let (Function::Count | Function::Nearest, Some(body)) = (function, body) {
+            self.picks_by(body, &says);
+        }
         let pool = &mut self.program.pool;
         let value = match function {
             Function::Any => {

@@ -5,6 +5,7 @@ use crate::check::builtin;
 use crate::check::context::Region;
 use crate::check::expr::plain_ref;
 use crate::check::names::{Decl, is_built_in};
+use crate::check::report::listed;
 use crate::check::task::history::NO_END;
 use crate::check::types::{Type, Typed, Value};
 use crate::diagnostic::{Applicability, Code, suggest};
@@ -13,6 +14,12 @@ use crate::ir::world::{Robot, World};
 use crate::ir::{Id, Name};
 use crate::source::Span;
 use crate::syntax::ast::{Arg, ArgKind, Ident, Ref};
+
+/// How many places a world has at most where one is looked for to name it.
+const LOOKED_AT: usize = 100;
+
+/// How many places are listed where none of a name is known.
+const LISTED: usize = 6;
 
 impl<'a> Checker<'a> {
     /// A name, or a call.
@@ -233,11 +240,41 @@ impl<'a> Checker<'a> {
             "uniform" if self.is_given_names(reference) => "one_of",
             _ => likely,
         });
+        if self.names.lost_type && likely.is_none() && !called {
+            return None;
+        }
         let what = match reference.args {
             Some(_) => "function, predicate or `let`",
             None => "state, event, place or `let`",
         };
-        self.undeclared(name, what, likely).none()
+        // A kind is no place, and a letter more likely a parameter that is missing.
+        let is_kind = self.names.types.contains_key(name.name.as_str());
+        let is_letter = name.name.len() == 1 && self.context.region != Region::Tree;
+        let places = match likely {
+            None if !called && !is_kind && !is_letter => self.places_of(wanted.as_ref()),
+            _ => None,
+        };
+        self.undeclared(name, what, likely).help_if(places).none()
+    }
+
+    /// The places that are meant where one is wanted, as advice; a long list says little.
+    fn places_of(&self, wanted: Option<&Type>) -> Option<String> {
+        let kind = match wanted? {
+            Type::Place(kind) => kind,
+            Type::Target => &None,
+            _ => return None,
+        };
+        let of_kind = self.kinds.places.iter().take(LOOKED_AT);
+        let of_kind = of_kind.filter(|(_, of)| kind.is_none() || of == kind);
+        let names: Vec<String> = of_kind.map(|(name, _)| name.to_string()).collect();
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        match names.as_slice() {
+            [] => None,
+            several if several.len() <= LISTED && self.kinds.places.len() <= LOOKED_AT => {
+                Some(format!("the places are {}", listed(several, "and")))
+            }
+            _ => None,
+        }
     }
 
     fn declared_reference(
@@ -272,12 +309,14 @@ impl<'a> Checker<'a> {
                 (Type::Enum(of.name.name.clone()), Some(Value::Scalar(id)))
             }
             Decl::Place(_, kind) => {
-                let id = world.and_then(|world| world.places.named(&name));
+                let known = world.filter(|_| !self.kinds.unknown.contains(&name));
+                let id = known.and_then(|world| world.places.named(&name));
                 let kind = kind.map(|kind| kind.name.clone());
                 (Type::Place(kind), id.map(Value::Place))
             }
             Decl::Wall(_, kind) => {
-                let id = world.and_then(|world| world.walls.named(&name));
+                let known = world.filter(|_| !self.kinds.unknown.contains(&name));
+                let id = known.and_then(|world| world.walls.named(&name));
                 let kind = kind.map(|kind| kind.name.clone());
                 (Type::Wall(kind), id.map(Value::Wall))
             }

@@ -6,10 +6,11 @@ use super::tree::at_success;
 use crate::check::Checker;
 use crate::check::context::Region;
 use crate::diagnostic::Code;
-use crate::ir::expr::{Expr, ExprId};
+use crate::ir::expr::{Binary, Expr, ExprId, Unary};
+use crate::ir::{Pool, Program};
 use crate::source::{FileId, Span};
 use crate::syntax::ast::{self, ExprKind};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A condition that stands in the text.
 #[derive(Clone, Copy, Debug)]
@@ -22,13 +23,13 @@ pub struct Condition {
     nameless: bool,
     /// Whether any robot may ask it.
     of_any_robot: bool,
-    /// Whether `and` or `or` joins it with another one.
+    /// Whether it is a part of another one, or of a value.
     joined: bool,
 }
 
 /// Places in the text, joined where they overlap: by file and start, the end.
 #[derive(Default)]
-struct Places(BTreeMap<(FileId, u32), u32>);
+pub struct Places(BTreeMap<(FileId, u32), u32>);
 
 impl Places {
     /// The last place that begins before the end of this one, if they overlap.
@@ -43,11 +44,18 @@ impl Places {
         (last.file == at.file && last.end > at.start).then_some(last)
     }
 
-    fn overlap(&self, at: Span) -> bool {
+    /// Whether this one overlaps with any.
+    pub fn overlap(&self, at: Span) -> bool {
         self.last(at).is_some()
     }
 
-    fn add(&mut self, mut at: Span) {
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Adds one.
+    pub fn add(&mut self, mut at: Span) {
         while let Some(last) = self.last(at) {
             self.0.remove(&(last.file, last.start));
             at.start = at.start.min(last.start);
@@ -77,6 +85,17 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Notes what `count` or `nearest` asks of each member.
+    pub fn picks_by(&mut self, written: &'a ast::Expr, says: &[ExprId]) {
+        let of_any_robot = self.context.region != Region::Event;
+        for asked in says {
+            if let Some(noted) = self.notes(written.span, Some(*asked)) {
+                noted.of_any_robot = of_any_robot;
+                noted.joined = true;
+            }
+        }
+    }
+
     /// Notes the condition of a branch in an effect or a control law. Of one that depends on parameters, nothing is said.
     pub fn branches_on(&mut self, written: &'a ast::Expr, condition: Option<ExprId>) {
         let of_a_law = self.context.region == Region::Control;
@@ -95,6 +114,17 @@ impl<'a> Checker<'a> {
             && let Some(noted) = self.notes(written.span, condition)
         {
             noted.nameless = true;
+        }
+    }
+
+    /// Notes a chance that is written as a number and leaves nothing to chance.
+    pub fn draws_always(&mut self, written: &'a ast::Expr, chance: Option<ExprId>) {
+        let constant = chance.and_then(|id| self.program.pool.constant(id));
+        if let (true, Some(chance @ (0.0 | 1.0))) = (is_nameless(written), constant) {
+            let holds = self.program.pool.bool(chance == 1.0);
+            if let Some(noted) = self.notes(written.span, Some(holds)) {
+                noted.nameless = true;
+            }
         }
     }
 
@@ -118,7 +148,20 @@ impl<'a> Checker<'a> {
         let noted = std::mem::take(&mut self.conditions);
         let (sides, whole) = noted.into_iter().partition(|it| it.joined);
         self.conditions = sides;
-        self.hold_always_or_never(whole);
+        let constant = self.constant_predicates();
+        self.hold_always_or_never(whole, &constant);
+    }
+
+    /// Warns of those of these conditions that always or never hold, and notes them no longer; whether there are any.
+    pub fn conditions_of(&mut self, asked: &BTreeSet<ExprId>) -> bool {
+        let noted = std::mem::take(&mut self.conditions);
+        let (these, others) = noted
+            .into_iter()
+            .partition(|it| !it.joined && asked.contains(&it.asks));
+        self.conditions = others;
+        let before = self.diagnostics.len();
+        self.hold_always_or_never(these, &BTreeSet::new());
+        self.diagnostics.len() > before
     }
 
     /// Warns of the sides of `and` and `or` that always or never hold, where the whole does not: of the innermost.
@@ -127,12 +170,14 @@ impl<'a> Checker<'a> {
         let known = self.diagnostics.iter();
         let known = known.filter(|found| found.code == Code::W0601);
         known.for_each(|found| told.add(found.span()));
-        let mut sides = std::mem::take(&mut self.conditions);
-        sides.sort_by_key(|side| side.at.end - side.at.start);
-        for side in sides {
-            let (at, before) = (side.at, self.diagnostics.len());
+        let constant = self.constant_predicates();
+        // One in a text for each member of a kind is one side for each.
+        let mut sides = by_place(std::mem::take(&mut self.conditions));
+        sides.sort_by_key(|(at, _)| at.end - at.start);
+        for (at, side) in sides {
+            let before = self.diagnostics.len();
             if !told.overlap(at) {
-                self.hold_always_or_never(vec![side]);
+                self.hold_always_or_never(side, &constant);
             }
             if self.diagnostics.len() > before {
                 told.add(at);
@@ -140,47 +185,76 @@ impl<'a> Checker<'a> {
         }
     }
 
-    fn hold_always_or_never(&mut self, noted: Vec<Condition>) {
+    fn hold_always_or_never(&mut self, noted: Vec<Condition>, constant: &BTreeSet<ExprId>) {
         let world = self.program.world.as_ref();
         let alone = world.is_none_or(|world| world.others.is_empty());
-        let mut places: BTreeMap<Span, Vec<Condition>> = BTreeMap::new();
-        for condition in noted {
-            places.entry(condition.at).or_default().push(condition);
-        }
-        for (at, conditions) in places {
+        for (at, conditions) in by_place(noted) {
             let pool = &self.program.pool;
             let told = |it: &Condition| {
                 // Of an event that never happens it is told where that is declared.
                 pool.constant(it.asks).is_some() && !it.nameless
                     || matches!(pool.get(it.asks), Expr::Event(_))
                     || it.of_any_robot && !it.nameless && !alone
+                    || parts(pool, it.asks).any(|part| constant.contains(&part))
             };
             if conditions.iter().any(told) || self.says_one_thing_twice(at) {
                 continue;
             }
-            let never = |wanted| {
+            let never = |program: &Program, wanted| {
                 let mut all = conditions.iter();
                 all.all(|it| {
-                    let cases = of_expr(&self.program, it.asks, wanted);
+                    let cases = of_expr(program, it.asks, wanted);
                     match wanted {
-                        true => cases.and(&at_success(&self.program, it.asks)).is_never(),
+                        true => cases.and(&at_success(program, it.asks)).is_never(),
                         false => cases.is_never(),
                     }
                 })
             };
-            let says = match (never(true), never(false)) {
-                (true, _) => "never",
-                (_, true) => "always",
+            let (says, wanted) = match [true, false].map(|wanted| never(&self.program, wanted)) {
+                [true, _] => ("never", true),
+                [_, true] => ("always", false),
                 _ => continue,
             };
+            let asked: Vec<ExprId> = conditions.iter().map(|it| it.asks).collect();
+            let cause = self.cause(&asked, &|program| never(program, wanted));
+            if self.has_told(cause, at) {
+                continue;
+            }
             let why = conditions
                 .first()
                 .and_then(|it| because(&self.program, it.asks));
             self.warning(Code::W0601, at, format!("this condition {says} holds"))
                 .label("whatever happens in the world")
                 .note_if(why);
+            self.tells(cause);
         }
     }
+}
+
+/// Conditions by where they stand.
+fn by_place(noted: Vec<Condition>) -> Vec<(Span, Vec<Condition>)> {
+    let mut places: BTreeMap<Span, Vec<Condition>> = BTreeMap::new();
+    for condition in noted {
+        places.entry(condition.at).or_default().push(condition);
+    }
+    places.into_iter().collect()
+}
+
+/// A condition and what `not`, `and` and `or` join in it.
+fn parts(pool: &Pool, id: ExprId) -> impl Iterator<Item = ExprId> {
+    let mut seen = BTreeSet::new();
+    let mut open = vec![id];
+    std::iter::from_fn(move || {
+        let id = open.pop()?;
+        match pool.get(id) {
+            Expr::Unary(Unary::Not, of) => open.extend(Some(of).filter(|of| seen.insert(*of))),
+            Expr::Binary(Binary::And | Binary::Or, a, b) => {
+                open.extend([a, b].into_iter().filter(|of| seen.insert(*of)));
+            }
+            _ => {}
+        }
+        Some(id)
+    })
 }
 
 /// Whether an expression is written without any name.

@@ -3,7 +3,7 @@
 use crate::syntax::ast::{
     Arg, ArgKind, AspectKind, AssignOp, Behavior, BehaviorBody, Binding, Block, Branch, Choice,
     ClaimWhat, ClauseKind, Else, Expr, ExprKind, Ident, Item, ItemKind, LearnEntry, LetBody, Node,
-    NodeKind, Otherwise, Paid, Params, Ref, RobotEntryKind, Start, StmtKind, Task, Trigger,
+    NodeKind, Otherwise, Paid, Params, Ref, RobotEntryKind, Start, Stmt, StmtKind, Task, Trigger,
     TypeExpr, World, WorldEntryKind, Yield,
 };
 use std::collections::BTreeSet;
@@ -189,27 +189,30 @@ impl<'a> Mentions<'a> {
     }
 
     fn block(&mut self, block: &'a Block) {
-        for stmt in &block.stmts {
-            match &stmt.kind {
-                StmtKind::Let(binding) => self.binding(binding),
-                StmtKind::For { domain, block, .. } => {
-                    self.goes_through(domain);
-                    self.block(block);
-                }
-                StmtKind::Branch(branch) => self.branch(branch),
-                StmtKind::Assign { target, op, value } => {
-                    self.set.insert(&target.name.name);
-                    self.args(target.args.as_deref().unwrap_or_default());
-                    // `x = x + 1` reads `x` for nothing but itself, as `x += 1` does.
-                    let had = self.read.contains(target.name.name.as_str());
-                    self.expr(value);
-                    if !had && op.node == AssignOp::Set {
-                        self.read.remove(target.name.name.as_str());
-                    }
-                }
-                StmtKind::Call(call) => self.reference(call),
-                StmtKind::Error => {}
+        block.stmts.iter().for_each(|stmt| self.statement(stmt));
+    }
+
+    /// Takes in what a statement mentions.
+    pub fn statement(&mut self, stmt: &'a Stmt) {
+        match &stmt.kind {
+            StmtKind::Let(binding) => self.binding(binding),
+            StmtKind::For { domain, block, .. } => {
+                self.goes_through(domain);
+                self.block(block);
             }
+            StmtKind::Branch(branch) => self.branch(branch),
+            StmtKind::Assign { target, op, value } => {
+                self.set.insert(&target.name.name);
+                self.args(target.args.as_deref().unwrap_or_default());
+                // `x = x + 1` reads `x` for nothing but itself, as `x += 1` does.
+                let had = self.read.contains(target.name.name.as_str());
+                self.expr(value);
+                if !had && op.node == AssignOp::Set {
+                    self.read.remove(target.name.name.as_str());
+                }
+            }
+            StmtKind::Call(call) => self.reference(call),
+            StmtKind::Error => {}
         }
     }
 

@@ -9,11 +9,13 @@ use crate::check::names::Decl;
 use crate::diagnostic::Code;
 use crate::ir::expr::ExprId;
 use crate::ir::program::Predicate;
-use crate::ir::{Id, Name};
+use crate::ir::world::Robot;
+use crate::ir::{Id, Name, Program};
 use crate::spelling::spelled;
 use crate::syntax::ast::{
     AspectKind, BehaviorBody, BinaryOp, ClauseKind, Expr, ExprKind, Item, ItemKind, Ref, Task,
 };
+use std::collections::{BTreeMap, BTreeSet};
 
 impl<'a> Checker<'a> {
     /// Warns of predicates that always or never hold, of pairs that say the same, and of what a behaviour requires and
@@ -21,8 +23,10 @@ impl<'a> Checker<'a> {
     pub fn predicates_without_effect(&mut self, items: impl Iterator<Item = &'a Item> + Clone) {
         for item in items.clone() {
             match &item.kind {
-                ItemKind::Predicate(predicate) if predicate.params.is_none() => {
-                    if let Some(value) = &predicate.value {
+                ItemKind::Predicate(predicate) => {
+                    if let Some(value) = &predicate.value
+                        && self.constant.contains(&predicate.name.name)
+                    {
                         self.constant_predicate(&predicate.name.name, value);
                     }
                 }
@@ -48,20 +52,69 @@ impl<'a> Checker<'a> {
         if self.says_one_thing_twice(value.span) {
             return;
         }
-        let never = |wanted| {
-            let mut read = read.iter();
-            read.all(|(view, when)| of_expr(*view, *when, wanted).is_never())
+        let why = because(view, when);
+        let read: Vec<(Id<Robot>, ExprId)> = read
+            .iter()
+            .map(|(view, when)| (view.robot, *when))
+            .collect();
+        let never = |program: &Program, wanted| {
+            read.iter().all(|(robot, when)| {
+                let view = View {
+                    robot: *robot,
+                    ..View::from(program)
+                };
+                of_expr(view, *when, wanted).is_never()
+            })
         };
-        let says = match (never(true), never(false)) {
-            (true, _) => "never",
-            (_, true) => "always",
+        let (says, wanted) = match [true, false].map(|wanted| never(&self.program, wanted)) {
+            [true, _] => ("never", true),
+            [_, true] => ("always", false),
             _ => return,
         };
+        let asked: Vec<ExprId> = read.iter().map(|(_, when)| *when).collect();
+        let cause = self.cause(&asked, &|program| never(program, wanted));
+        if self.has_told(cause, value.span) {
+            return;
+        }
         let message = format!("the predicate `{name}` {says} holds");
-        let why = because(view, when);
         self.warning(Code::W0601, value.span, message)
             .label("whatever happens in the world")
             .note_if(why);
+        self.tells(cause);
+    }
+
+    /// Finds the predicates that always or never hold, whoever reads them, and whichever of a family it is: that is told where they
+    /// are defined.
+    pub fn find_constant_predicates(&mut self) {
+        let program = &self.program;
+        let mut families: BTreeMap<&str, [bool; 2]> = BTreeMap::new();
+        for predicate in program.predicates.values() {
+            let Some(when) = predicate.when else {
+                continue;
+            };
+            let view = View::of(program, &predicate.name);
+            // What an argument makes constant depends on the argument.
+            let open = predicate.name.arguments.is_empty() || program.pool.constant(when).is_none();
+            let family = families.entry(&predicate.name.family).or_insert([true; 2]);
+            for (never, wanted) in family.iter_mut().zip([true, false]) {
+                *never = *never && open && of_expr(view, when, wanted).is_never();
+            }
+        }
+        let constant = families
+            .into_iter()
+            .filter(|(_, never)| never.contains(&true));
+        self.constant = constant.map(|(family, _)| family.to_owned()).collect();
+    }
+
+    /// What those predicates ask.
+    pub fn constant_predicates(&self) -> BTreeSet<ExprId> {
+        let program = &self.program;
+        let told = program.predicates.values();
+        let told = told.filter(|it| self.constant.contains(&it.name.family));
+        let asked = told.filter_map(|it| it.when);
+        asked
+            .filter(|when| program.pool.constant(*when).is_none())
+            .collect()
     }
 
     /// The references of a list of the task, each with the predicate that it observes.
@@ -108,6 +161,17 @@ impl<'a> Checker<'a> {
                 } else {
                     continue;
                 };
+                // Of a family that does not read its parameter, that is told.
+                if let Some((Decl::Predicate(family), _)) =
+                    self.names.value(&reference.name.name, false)
+                    && let Some(params) = &family.params
+                    && params
+                        .params
+                        .iter()
+                        .any(|it| self.unread.contains(&it.name.span))
+                {
+                    break;
+                }
                 let names = [id, other].map(|id| self.program.predicates[id].name.to_string());
                 let [name, of] = names.map(|name| name.trim_matches('`').to_owned());
                 let message = format!("`{name}` {what} `{of}`");

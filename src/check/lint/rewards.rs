@@ -128,8 +128,10 @@ impl<'a> Checker<'a> {
                 if self.waits_for_an_event(checked, place, happen) {
                     continue;
                 }
-                self.warning(Code::W0509, here, "this reward is never paid")
-                    .label("this never happens");
+                let members = checked.written.reward.iter().zip(&checked.reward);
+                let members = members.filter(|(of, _)| **of == place);
+                let asked: Vec<ExprId> = members.map(|(_, line)| line.event).collect();
+                self.never_happens(here, "this reward is never paid", &asked);
             } else if let Some((earlier, _)) = earlier.filter(|_| cases.iter().all(covered)) {
                 let earlier = *earlier;
                 // Of a condition that always holds it has been told.
@@ -347,12 +349,11 @@ impl<'a> Checker<'a> {
         }
         if ends.iter().all(Cases::is_never) {
             let all = checked.end_on.iter().zip(&checked.written.end_on);
-            let mut own = all.filter(|(_, of)| **of == place).map(|(end, _)| *end);
-            if own.all(|end| self.is_told_of(end, happen)) {
-                return;
+            let own = all.filter(|(_, of)| **of == place).map(|(end, _)| *end);
+            let own: Vec<ExprId> = own.collect();
+            if !own.iter().all(|end| self.is_told_of(*end, happen)) {
+                self.never_happens(event.span, "no episode ends on this", &own);
             }
-            self.warning(Code::W0509, event.span, "no episode ends on this")
-                .label("this never happens");
             return;
         }
         if paid.len() > MOST {
@@ -366,6 +367,19 @@ impl<'a> Checker<'a> {
             self.warning(Code::W0511, event.span, "this end is neither good nor bad")
                 .label("no line of `reward` says what it is worth")
                 .help("reward it, or make it cost something, such as `on EVENT: -5`");
+        }
+    }
+
+    /// Warns of what waits for something that never happens.
+    fn never_happens(&mut self, at: Span, message: &str, asked: &[ExprId]) {
+        let cause = self.cause(asked, &|program| {
+            let mut asked = asked.iter();
+            asked.all(|id| of_expr(program, *id, true).is_never())
+        });
+        if !self.has_told(cause, at) {
+            self.warning(Code::W0509, at, message)
+                .label("this never happens");
+            self.tells(cause);
         }
     }
 

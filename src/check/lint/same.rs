@@ -40,6 +40,24 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Notes it where all that is drawn from is the same.
+    pub fn same_draws(&mut self, draw: &'a Ref) {
+        let args = draw.args.as_deref().unwrap_or_default();
+        let values = args.iter().filter_map(|arg| match &arg.kind {
+            ArgKind::Positional(value) => Some(value),
+            _ => None,
+        });
+        let values: Vec<&Expr> = values.collect();
+        let [first, .., last] = values.as_slice() else {
+            return;
+        };
+        let draws = matches!(draw.name.name.as_str(), "uniform" | "one_of");
+        if draws && !self.context.library && values.iter().all(|value| is_like(first, value)) {
+            let message = format!("`{}` draws from one value", draw.name.name);
+            self.again(last.span, first.span, message, "the same again");
+        }
+    }
+
     /// Notes it where both branches of a choice are the same.
     pub fn same_branches(&mut self, then: &'a Expr, otherwise: &'a Expr) {
         if !self.context.library && is_like(then, otherwise) {
@@ -165,7 +183,7 @@ fn is_like(a: &Expr, b: &Expr) -> bool {
 }
 
 /// Whether two blocks are written alike and do the same.
-fn does_the_same(a: &Block, b: &Block) -> bool {
+pub fn does_the_same(a: &Block, b: &Block) -> bool {
     let mut both = a.stmts.iter().zip(&b.stmts);
     a.stmts.len() == b.stmts.len() && both.all(|(a, b)| is_like_stmt(a, b))
 }
@@ -204,7 +222,7 @@ fn is_like_branch(a: &Branch, b: &Branch) -> bool {
 }
 
 /// Whether two references are written alike and have one value.
-fn is_same(a: &Ref, b: &Ref) -> bool {
+pub fn is_same(a: &Ref, b: &Ref) -> bool {
     let draws = DRAWS.contains(&a.name.name.as_str());
     if draws || a.name.name != b.name.name || a.args.is_some() != b.args.is_some() {
         return false;

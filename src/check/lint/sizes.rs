@@ -69,6 +69,14 @@ impl<'a> Checker<'a> {
                             .label(label)
                             .help("make it slower, or the tick shorter");
                     }
+                    let (noise, speed) = (robot.drive.speed_noise, robot.drive.max_speed);
+                    if noise > speed && speed > 0.0 {
+                        let message = "the robot goes by chance, not as it is told";
+                        let (noise, speed) = (short(noise), short(speed));
+                        let label = format!("its noise is {noise} m/s, its speed {speed} m/s");
+                        self.warning(Code::W0402, field.value.span, message)
+                            .label(label);
+                    }
                     let learns = robot.name == world.robot.name;
                     let sent = self.sent_to();
                     let passed = world.places.values().find(|place| {
@@ -101,15 +109,23 @@ impl<'a> Checker<'a> {
                 }
                 RobotEntryKind::Sensor { name, value } => {
                     let mut sensors = robot.sensors.values();
-                    let sensor = sensors.find(|sensor| sensor.name.is(&name.name));
-                    let range = match sensor.map(|sensor| &sensor.kind) {
-                        Some(
-                            SensorKind::Scanner { range, .. }
-                            | SensorKind::RangeFinder { range, .. },
-                        ) => *range,
-                        _ => continue,
+                    let Some(sensor) = sensors.find(|sensor| sensor.name.is(&name.name)) else {
+                        continue;
                     };
-                    if range <= robot.radius {
+                    let (SensorKind::Scanner { range, .. }
+                    | SensorKind::RangeFinder { range, .. }
+                    | SensorKind::Beacon { range, .. }) = sensor.kind;
+                    if sensor.noise >= range {
+                        let message = format!("the sensor `{}` tells nothing", name.name);
+                        let label = format!(
+                            "its noise is {} m, its range {} m",
+                            short(sensor.noise),
+                            short(range)
+                        );
+                        self.warning(Code::W0402, value.span, message).label(label);
+                    }
+                    let echoes = !matches!(sensor.kind, SensorKind::Beacon { .. });
+                    if echoes && range <= robot.radius {
                         let message = format!("the sensor `{}` never sees anything", name.name);
                         self.warning(Code::W0402, value.span, message)
                             .label("it sees no farther than the robot's own body reaches")

@@ -12,7 +12,7 @@ use crate::ir::task::StartLine;
 use crate::ir::world::{Robot, World};
 use crate::ir::{Id, Program};
 use crate::syntax::ast::{Ident, Item, ItemKind};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What sets a state: the robot that reads it, and the value.
 type Setting = (Id<Robot>, ExprId);
@@ -26,10 +26,10 @@ impl<'a> Checker<'a> {
     /// Of a state that nothing sets, or that is set to itself, nothing is found out: that is told where it stands. Nor is
     /// anything where a value may be another one than it says.
     ///
-    /// An effect counts where what it waits for can happen, by the values that are found.
+    /// An effect counts where what it waits for can happen, by the values that are found; and where it cannot whatever the
+    /// values are: that is told of what it waits for, and nothing else is to follow from it.
     pub fn values_of_states(&mut self, items: impl Iterator<Item = &'a Item>) {
-        let unsure = |found: &Diagnostic| matches!(found.code, Code::W0204 | Code::W0301);
-        if self.diagnostics.iter().any(unsure) {
+        if self.values_are_unsure() {
             return;
         }
         let mut always = set_in_ticks(&self.program);
@@ -41,11 +41,16 @@ impl<'a> Checker<'a> {
             add(&mut all, &set);
             (effect.on, set)
         });
-        let mut waiting: Vec<(ExprId, Set)> = effects.collect();
+        let waiting: Vec<(ExprId, Set)> = effects.collect();
         let to_itself =
             |state, (_, value): &Setting| self.program.pool.get(*value) == Expr::State(state);
         all.retain(|state, settings| !settings.iter().any(|it| to_itself(*state, it)));
         let mut set = always;
+        let (never, may) = waiting
+            .into_iter()
+            .partition(|(on, _)| of_expr(&self.program, *on, true).is_never());
+        let (never, mut waiting): (Vec<(ExprId, Set)>, Vec<_>) = (never, may);
+        never.iter().for_each(|(_, more)| add(&mut set, more));
         for round in 0.. {
             self.stay_by(&all, &set);
             let (happen, wait) = waiting.into_iter().partition(|(on, _)| {
@@ -58,7 +63,21 @@ impl<'a> Checker<'a> {
             }
             happen.iter().for_each(|(_, more)| add(&mut set, more));
         }
-        self.states_that_stay(items, &all, &waiting);
+        let stay = self.states_that_stay(items, &all, &waiting);
+        if waiting.is_empty() {
+            return;
+        }
+        // From what never happens nothing else is to follow.
+        self.stay_by(&all, &all);
+        for state in stay {
+            self.program.states[state].stays = Stays::ANY;
+        }
+    }
+
+    /// Whether a value may be another one than it says.
+    pub fn values_are_unsure(&self) -> bool {
+        let unsure = |found: &Diagnostic| matches!(found.code, Code::W0204 | Code::W0301);
+        self.diagnostics.iter().any(unsure)
     }
 
     /// Finds out which values the states that `all` sets may have, where only `set` does.
@@ -80,13 +99,13 @@ impl<'a> Checker<'a> {
     }
 
     /// Warns of states that keep the value of their declaration, though there are effects that set them; those that are
-    /// `waiting` never happen. Of what follows from that, nothing is said.
+    /// `waiting` never happen. Of what follows from that, nothing is said. Gives the states.
     fn states_that_stay(
         &mut self,
         items: impl Iterator<Item = &'a Item>,
         all: &Set,
         waiting: &[(ExprId, Set)],
-    ) {
+    ) -> Vec<Id<State>> {
         let mut found: Vec<Staying> = Vec::new();
         let mut families: BTreeMap<String, Vec<Id<State>>> = BTreeMap::new();
         for (id, state) in self.program.states.iter() {
@@ -125,7 +144,15 @@ impl<'a> Checker<'a> {
         // The others wait for one that holds itself back.
         let holds_back = |checker: &mut Self, it: &Staying| it.same || checker.frees(it, waiting);
         let causes: Vec<bool> = found.iter().map(|it| holds_back(self, it)).collect();
-        let any = causes.contains(&true);
+        let kept: Vec<(Id<State>, Stays)> = found
+            .iter()
+            .flat_map(|it| &it.own)
+            .map(|id| {
+                let stays = &mut self.program.states[*id].stays;
+                (*id, std::mem::replace(stays, Stays::ANY))
+            })
+            .collect();
+        let any = causes.contains(&true) | self.waits_in_vain(waiting);
         for (at, (it, cause)) in found.iter().zip(causes).enumerate() {
             if !cause && (any || at > 0) {
                 continue;
@@ -139,9 +166,23 @@ impl<'a> Checker<'a> {
                 .label("it stays as it is declared here")
                 .note(why);
         }
-        for id in found.into_iter().flat_map(|it| it.own) {
-            self.program.states[id].stays = Stays::ANY;
-        }
+        kept.into_iter().map(|(id, _)| id).collect()
+    }
+
+    /// Tells of what effects wait for and never happens.
+    fn waits_in_vain(&mut self, waiting: &[(ExprId, Set)]) -> bool {
+        let never = waiting.iter().map(|(on, _)| *on);
+        let never = never.filter(|on| of_expr(&self.program, *on, true).is_never());
+        let mut asked: BTreeSet<ExprId> = never.collect();
+        let events = asked
+            .iter()
+            .filter_map(|on| match self.program.pool.get(*on) {
+                Expr::Event(event) => Some(self.program.events[event].when),
+                _ => None,
+            });
+        let events: Vec<ExprId> = events.collect();
+        asked.extend(events);
+        self.conditions_of(&asked)
     }
 
     /// Whether something that sets a state could happen if the state had any value.
@@ -285,7 +326,7 @@ impl Stays {
 
     /// These numbers, with all that is less, or all that is greater.
     #[must_use]
-    fn endless(&self, less: bool, greater: bool) -> Self {
+    pub fn endless(&self, less: bool, greater: bool) -> Self {
         let Self::Within(ends) = self else {
             return Self::ANY;
         };
@@ -356,6 +397,16 @@ fn one_of(program: &Program, state: Id<State>, value: ExprId) -> Option<u64> {
 fn bit(index: f64) -> Option<u64> {
     let fits = index >= 0.0 && index < f64::from(u64::BITS);
     fits.then(|| 1 << index as u32)
+}
+
+/// What sets each state, whenever that is.
+pub fn all_settings(program: &Program) -> Set {
+    let mut all = set_in_ticks(program);
+    set_at_starts(program, &mut all);
+    for effect in program.effects.iter() {
+        of_block(&effect.block, World::acting(), &mut all);
+    }
+    all
 }
 
 /// What sets each state as an episode starts.

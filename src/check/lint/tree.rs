@@ -26,6 +26,8 @@ impl<'a> Checker<'a> {
             .clone()
             .filter(is_tree)
             .for_each(|item| of_trees.item(item));
+        let pins = |item: &Item| matches!(&item.kind, ItemKind::Use(it) if it.pin.is_some());
+        self.recorded = items.clone().any(pins);
         for item in items {
             let ItemKind::Tree(tree) = &item.kind else {
                 continue;
@@ -59,6 +61,9 @@ impl<'a> Checker<'a> {
                 self.asked_already(guard, asked, held);
                 let held = held.and(&of_guard(&self.program, asked, true));
                 self.nodes_of(inner, node, &within, &held);
+            }
+            (NodeKind::Leaf(expr), Node::Behavior(id)) => {
+                self.fails_where_it_stands(expr.span, *id, held);
             }
             (NodeKind::Leaf(expr), Node::Condition(asked)) => {
                 let literal = matches!(expr.kind, ExprKind::Bool(_));
@@ -126,9 +131,17 @@ impl<'a> Checker<'a> {
                 self.nodes_of(child, node, &open, &held);
             }
             // What follows from a constant predicate is told by the warning of that.
-            if let Node::Condition(guard) = node
-                && asks_a_constant(&self.program, guard)
-            {
+            let asked = match (&child.kind, node) {
+                (_, Node::Condition(guard)) => Some(guard),
+                (NodeKind::Guarded { .. }, Node::Composite { children, .. }) => {
+                    match children.first() {
+                        Some(Node::Condition(guard)) => Some(guard),
+                        _ => None,
+                    }
+                }
+                _ => None,
+            };
+            if asked.is_some_and(|guard| self.asks_a_constant(guard)) {
                 return;
             }
             let status = match kind {
@@ -192,42 +205,58 @@ impl<'a> Checker<'a> {
 
     /// Whether a guard always or never holds; warned of if so.
     fn asks_nothing(&mut self, written: &'a ast::Expr, guard: &Guard) -> bool {
-        let never = |wanted| of_guard(&self.program, guard, wanted).is_never();
-        let says = match (never(true), never(false)) {
-            (true, _) => "never",
-            (_, true) => "always",
+        let never = |program: &Program, wanted| of_guard(program, guard, wanted).is_never();
+        let (says, wanted) = match [true, false].map(|wanted| never(&self.program, wanted)) {
+            [true, _] => ("never", true),
+            [_, true] => ("always", false),
             _ => return false,
         };
         // A predicate that is constant by its definition has its warning there.
         let plain = matches!(&written.kind, ExprKind::Ref(_));
-        if !plain
-            && !asks_a_constant(&self.program, guard)
-            && !self.says_one_thing_twice(written.span)
-        {
-            self.warning(
-                Code::W0601,
-                written.span,
-                format!("this guard {says} holds"),
-            )
-            .label("it asks nothing");
+        if !plain && !self.asks_a_constant(guard) && !self.says_one_thing_twice(written.span) {
+            let asked = self.asked_by(guard);
+            let cause = self.cause(&asked, &|program| never(program, wanted));
+            if !self.has_told(cause, written.span) {
+                let message = format!("this guard {says} holds");
+                self.warning(Code::W0601, written.span, message)
+                    .label("it asks nothing");
+                self.tells(cause);
+            }
         }
         true
     }
 }
 
-/// Whether a guard asks a predicate without parameters that is constant by its definition.
-fn asks_a_constant(program: &Program, guard: &Guard) -> bool {
-    match guard {
-        Guard::Const(_) => false,
-        Guard::Not(guard) => asks_a_constant(program, guard),
-        Guard::And(parts) | Guard::Or(parts) => {
-            parts.iter().any(|part| asks_a_constant(program, part))
+impl Checker<'_> {
+    /// Whether a guard asks a predicate that is constant by its definition.
+    fn asks_a_constant(&self, guard: &Guard) -> bool {
+        let mut any = false;
+        guard.visit_atoms(&mut |atom| {
+            if let Atom::Predicate(id) = atom {
+                any |= self
+                    .constant
+                    .contains(&self.program.predicates[id].name.family);
+            }
+        });
+        any
+    }
+
+    /// Warns of a behaviour that requires what never holds where `held` does. Of a tree that was learned and stands beside its
+    /// record it was told as it was learned.
+    fn fails_where_it_stands(&mut self, at: Span, id: Id<Behavior>, held: &Cases) {
+        let program = &self.program;
+        let behavior = &program.behaviors[id];
+        let Some(law) = &behavior.law else {
+            return;
+        };
+        let allowed = of_expr(View::of(program, &behavior.name), law.requires, true);
+        if self.recorded || allowed.is_never() || held.is_never() || !held.and(&allowed).is_never()
+        {
+            return;
         }
-        Guard::Atom(Atom::Predicate(id)) => {
-            let never = |wanted| of_guard(program, guard, wanted).is_never();
-            program.predicates[*id].name.arguments.is_empty() && (never(true) || never(false))
-        }
-        Guard::Atom(_) => false,
+        let message = format!("`{}` always fails here", behavior.name.bare());
+        self.warning(Code::W0302, at, message)
+            .label("what it requires never holds where what stands around it does");
     }
 }
 

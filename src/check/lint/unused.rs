@@ -99,6 +99,7 @@ impl<'a> Checker<'a> {
                     let message = format!("nothing speaks of the kind {shown}");
                     self.warning(Code::W0201, kind.span, message)
                         .likely(kind, Some(meant));
+                    self.kind_misspelt = true;
                     continue;
                 }
             }

@@ -6,6 +6,7 @@ use crate::check::meaning::{Entity, Meaning, Meanings};
 use crate::check::report::Draft;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::syntax::ast::{Ident, Item, ItemKind, RobotEntryKind, World, WorldEntryKind};
+use std::collections::BTreeSet;
 
 impl<'a> Names<'a> {
     /// Collects the names of all files; a name that is declared twice is reported once.
@@ -52,8 +53,16 @@ impl<'a> Collector<'_, 'a> {
     fn item(&mut self, item: &'a Item) {
         match &item.kind {
             ItemKind::Enum(decl) => {
+                // An enum that is declared twice is told as a whole.
+                let first = match self.names.types.get(decl.name.name.as_str()) {
+                    Some(TypeDecl::Enum(first)) => first.variants.as_slice(),
+                    _ => &[],
+                };
+                let known: BTreeSet<&str> = first.iter().map(|it| it.name.as_str()).collect();
                 for (index, name) in decl.variants.iter().enumerate() {
-                    self.value(Decl::Variant(name, decl, index));
+                    if !known.contains(name.name.as_str()) {
+                        self.value(Decl::Variant(name, decl, index));
+                    }
                 }
                 self.type_name(TypeDecl::Enum(decl));
             }

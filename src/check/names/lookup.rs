@@ -183,7 +183,7 @@ impl<'a> Checker<'a> {
     }
 
     /// The input that has a value of this name.
-    fn input_with(&self, value: &str) -> Option<&'a str> {
+    pub fn input_with(&self, value: &str) -> Option<&'a str> {
         let has = |input: &ast::Input| match &input.kind {
             ast::InputKind::Category(values) => values.iter().any(|known| known.name == value),
             ast::InputKind::Number(_) => false,

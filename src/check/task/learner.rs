@@ -12,10 +12,10 @@ use crate::ir::task::{Discount, Learner, Method, Objective, Task};
 use crate::ir::{Id, Name};
 use crate::source::Span;
 use crate::spelling::spelled;
-use crate::syntax::ast::{self, ExprKind, LearnEntry, Link, Ref, Setting};
+use crate::syntax::ast::{self, AspectKind, ExprKind, LearnEntry, Link, Ref, Setting};
 use crate::syntax::print;
 use crate::syntax::words::{LEARNER, home};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The methods, by name.
 const METHODS: [(&str, Method); 3] = [
@@ -111,7 +111,8 @@ impl<'a> Checker<'a> {
                 }
                 _ => false,
             };
-            if built.method != Method::Model && !learn.entries.iter().any(lost) {
+            let lost = learn.entries.iter().any(lost) || self.names.is_lost("method");
+            if built.method != Method::Model && !lost {
                 let help = "say `method = model`, or give a `discount`";
                 self.error(
                     Code::E0501,
@@ -150,8 +151,20 @@ impl<'a> Checker<'a> {
         let (Some(setting), Some(unseen), Some(task)) = (setting, built.unseen, task) else {
             return;
         };
-        let choices = &self.program.tasks[task].choose;
+        let known = &self.program.tasks[task];
+        let choices = &known.choose;
         if choices.is_empty() || choices.contains(&unseen) {
+            return;
+        }
+        // Of a choice that was not understood nobody knows what it is.
+        let tasks = self.names.tasks.get(learn.task.name.as_str()).into_iter();
+        let mut aspects = tasks.flat_map(|task| &task.aspects);
+        let listed = aspects.find_map(|aspect| match &aspect.kind {
+            AspectKind::Choose(list) => Some(list.len()),
+            _ => None,
+        });
+        let understood: BTreeSet<usize> = known.written.choose.iter().copied().collect();
+        if listed.is_some_and(|listed| understood.len() < listed) {
             return;
         }
         let message = format!("`{}` does not choose this", self.program.tasks[task].name);

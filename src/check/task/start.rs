@@ -3,10 +3,11 @@
 use crate::check::Checker;
 use crate::check::builtin::Constant;
 use crate::check::context::{Context, Region};
+use crate::check::expr::plain_ref;
 use crate::check::names::{Decl, START_WORDS};
 use crate::check::task::history::is_no_end;
 use crate::check::types::{Type, Value};
-use crate::diagnostic::Code;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::Id;
 use crate::ir::expr::ExprId;
 use crate::ir::task::{History, Placing, StartLine};
@@ -35,6 +36,8 @@ impl<'a> Checker<'a> {
                     },
                 );
             match first {
+                // A kind with one member may lack the other one.
+                Some(_) if self.lacks_a_member(&line.target) => {}
                 Some((first, _)) => {
                     let message = match first.name == name.name {
                         true => format!("`{}` is set twice", name.name),
@@ -51,6 +54,27 @@ impl<'a> Checker<'a> {
         }
         self.kept = None;
         lines
+    }
+
+    /// Whether what is set is a member of a kind of which another member may be missing: an entry of the world was not
+    /// understood, or another kind has nearly its name and something is wrong already.
+    fn lacks_a_member(&self, target: &ast::Ref) -> bool {
+        let args = target.args.as_deref().unwrap_or_default();
+        args.iter().any(|arg| {
+            let ast::ArgKind::Positional(member) = &arg.kind else {
+                return false;
+            };
+            let name = plain_ref(member).map(|member| member.name.name.as_str());
+            let decl = name.and_then(|name| self.names.value(name, false));
+            let Some((Decl::Place(_, Some(kind)) | Decl::Wall(_, Some(kind)), _)) = decl else {
+                return false;
+            };
+            let members = self.kinds.places.iter().chain(&self.kinds.walls);
+            let kinds = members.filter_map(|(_, of)| of.as_deref());
+            let others = kinds.filter(|other| *other != kind.name);
+            let like = self.likely(&kind.name, others).is_some();
+            self.entries_lost || like && self.diagnostics.iter().any(Diagnostic::is_error)
+        })
     }
 
     fn start_line(&mut self, line: &'a ast::StartLine) -> Option<Vec<StartLine>> {

@@ -1,6 +1,6 @@
 //! Nodes: composites, decorators, behaviours, subtrees unrolled.
 
-use super::uncounted::counted;
+use super::uncounted::TIMEOUT;
 use crate::check::Checker;
 use crate::check::context::Region;
 use crate::check::expr::plain_ref;
@@ -120,10 +120,10 @@ impl<'a> Checker<'a> {
                     .none()
             }
             (true, Some([arg])) => match &arg.kind {
-                ArgKind::Positional(value) if word.node == Word::Timeout => {
-                    let counted = counted(value).filter(|_| !self.has_world);
-                    counted.or_else(|| self.ticks(value, "a timeout"))
-                }
+                ArgKind::Positional(value) if word.node == Word::Timeout => match self.has_world {
+                    true => self.ticks(value, TIMEOUT),
+                    false => self.counted_ticks(value),
+                },
                 ArgKind::Positional(value) => self.times(name, value),
                 ArgKind::Named(parameter, value) => {
                     let until_value = Span {

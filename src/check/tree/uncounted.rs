@@ -3,9 +3,10 @@
 use crate::check::Checker;
 use crate::check::expr::plain_ref;
 use crate::check::names::Decl;
-use crate::diagnostic::Diagnostic;
+use crate::check::types::Type;
+use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::source::Span;
-use crate::syntax::ast::{self, ArgKind, Expr, ExprKind, Node, NodeKind, Word};
+use crate::syntax::ast::{self, ArgKind, Expr, ExprKind, Node, NodeKind, Unit, Word};
 use std::collections::BTreeSet;
 
 impl<'a> Checker<'a> {
@@ -23,10 +24,38 @@ impl<'a> Checker<'a> {
             let mut times = self.timeouts_of(tree, &mut seen);
             times.retain(|time| !wrong.contains(time));
             for time in times {
-                self.no_world(time, "a timeout", "how many ticks are these?")
+                self.no_world(time, TIMEOUT, "how many ticks are these?")
                     .also(asked, "they are counted for this")
                     .help("count them: `timeout(50 ticks) { … }`");
             }
+        }
+    }
+
+    /// The ticks of a timeout, which no world counts: what is not written as a number of them is a time.
+    pub(super) fn counted_ticks(&mut self, time: &'a Expr) -> Option<u64> {
+        let number = match &time.kind {
+            ExprKind::Number(number) => number,
+            _ => return self.ticks(time, TIMEOUT),
+        };
+        match &number.unit {
+            None => self
+                .error(
+                    Code::E0301,
+                    time.span,
+                    format!("{TIMEOUT} is a time (s), not a plain number"),
+                )
+                .this_is(Type::NUMBER)
+                .fix(
+                    "without a world, count ticks",
+                    time.span.after(),
+                    " ticks",
+                    Applicability::Unsafe,
+                )
+                .none(),
+            Some(unit) if is_tick(unit) && number.value <= 0.0 => {
+                self.less_than_a_tick(time.span, TIMEOUT, 0.0).none()
+            }
+            Some(_) => counted(time).or_else(|| self.ticks(time, TIMEOUT)),
         }
     }
 
@@ -71,6 +100,14 @@ impl<'a> Checker<'a> {
     }
 }
 
+/// What a `timeout` takes, in messages.
+pub(super) const TIMEOUT: &str = "a timeout";
+
+/// Whether a unit counts ticks.
+fn is_tick(unit: &Unit) -> bool {
+    matches!(unit.text.as_str(), "tick" | "ticks")
+}
+
 /// A whole number of ticks, as it is written.
 pub(super) fn counted(time: &Expr) -> Option<u64> {
     let ExprKind::Number(number) = &time.kind else {
@@ -78,5 +115,5 @@ pub(super) fn counted(time: &Expr) -> Option<u64> {
     };
     let unit = number.unit.as_ref()?;
     let whole = number.value.fract() == 0.0 && (1.0..=1e15).contains(&number.value);
-    (whole && matches!(unit.text.as_str(), "tick" | "ticks")).then_some(number.value as u64)
+    (whole && is_tick(unit)).then_some(number.value as u64)
 }

@@ -106,6 +106,8 @@ impl<'a> Checker<'a> {
                 let built_in = BUILT_IN.iter().map(|(name, _)| *name);
                 let known = built_in.chain(self.names.types.keys().copied());
                 let likely = self.likely(&name.name, known);
+                let other = self.names.value(&name.name, self.context.library);
+                self.names.lost_type |= likely.is_none() && other.is_none();
                 self.undeclared(name, "type", likely);
                 Type::Error
             }

@@ -6,13 +6,14 @@ use crate::check::context::{Context, Region};
 use crate::check::expr::plain_ref;
 use crate::check::names::Decl;
 use crate::check::types::Type;
-use crate::diagnostic::Code;
+use crate::diagnostic::{Applicability, Code};
 use crate::ir::table::Table;
 use crate::ir::tree::Node;
 use crate::ir::world::{Contact, Drive, DriveKind, Robot, Scripted};
 use crate::ir::{Id, Name};
+use crate::source::Span;
 use crate::syntax::ast::{
-    self, Expr, ExprKind, Ident, Ref, RobotEntry, RobotEntryKind, WorldEntryKind,
+    self, ArgKind, Expr, ExprKind, Ident, Ref, RobotEntry, RobotEntryKind, WorldEntryKind,
 };
 
 impl<'a> Checker<'a> {
@@ -44,6 +45,7 @@ impl<'a> Checker<'a> {
                 RobotEntryKind::Error => true,
                 RobotEntryKind::Sensor { .. } => false,
             });
+            self.robots_unsure |= odd || acting.is_some();
             if acting.is_some() && odd {
                 // What it runs is likely what is unknown.
                 self.robot(name, entries);
@@ -178,11 +180,36 @@ impl<'a> Checker<'a> {
         Some(robot)
     }
 
+    /// Reports `disc(centre, radius)` as a body, whose centre is the robot's own.
+    fn centred_body(&mut self, reference: &Ref) -> bool {
+        let args = reference.args.as_deref().unwrap_or_default();
+        let [center, radius] = args else { return false };
+        let ArgKind::Positional(Expr {
+            kind: ExprKind::Point(..),
+            ..
+        }) = center.kind
+        else {
+            return false;
+        };
+        let gap = Span {
+            end: radius.span.start,
+            ..center.span
+        };
+        let message = "the disc of a body takes its radius alone";
+        self.error(Code::E0305, center.span, message)
+            .label("its centre is where the robot is")
+            .fix("drop the centre", gap, "", Applicability::Unsafe);
+        true
+    }
+
     /// `body = disc(radius)`
     fn body(&mut self, value: &'a Expr) -> Option<f64> {
         if let ExprKind::Ref(reference) = &value.kind
             && Function::named(&reference.name.name) == Some(Function::Disc)
         {
+            if self.centred_body(reference) {
+                return None;
+            }
             let values = self.positional(reference, 1, 1)?;
             return self.radius(values.first()?);
         }

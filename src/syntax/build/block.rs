@@ -11,6 +11,9 @@ use crate::syntax::grammar::{Node, Parts, Rule};
 use crate::syntax::tokens::Kind;
 use crate::syntax::words::{RATE, TYPES};
 
+/// The words that declare what statements set.
+const SET: [&str; 2] = ["state", "local"];
+
 impl<'i> Builder<'i> {
     pub(super) fn take_block(&mut self, parts: &mut Parts<'i>) -> Block {
         match parts.maybe(Rule::block) {
@@ -35,7 +38,16 @@ impl<'i> Builder<'i> {
         let span = self.span(&node);
         let mut stmts: Vec<Stmt> = Vec::new();
         self.entries(Parts::of(node), Rule::strict_stmt, |builder, node, span| {
+            if span.range().start < builder.lost_until {
+                let kind = StmtKind::Error;
+                stmts.push(Stmt { kind, span });
+                return;
+            }
             let known = builder.units_missed;
+            let gives = stmts
+                .last_mut()
+                .is_some_and(|last| builder.lacks_its_equals(last, node.as_ref(), span));
+            let node = node.filter(|_| !gives);
             let kind = node.map_or(StmtKind::Error, |node| builder.stmt(node));
             // What was to be a unit, or the rest of a value, makes what stands before it one without meaning.
             let is_rest = matches!(kind, StmtKind::Error)
@@ -51,6 +63,50 @@ impl<'i> Builder<'i> {
             stmts.push(Stmt { kind, span });
         });
         Block { stmts, span }
+    }
+
+    /// Reports a state whose value follows without `=`, and says whether what stands at `span` is that value, which
+    /// reads as a statement of its own.
+    fn lacks_its_equals(&mut self, last: &mut Stmt, next: Option<&Node<'i>>, span: Span) -> bool {
+        let Some(next) = next.filter(|_| self.on_one_line(last.span, span)) else {
+            return false;
+        };
+        let name = match &last.kind {
+            StmtKind::Call(target) => target.name.name.as_str(),
+            // The name alone has been reported.
+            StmtKind::Error if next.as_rule() == Rule::branch => {
+                let written = self.slice(last.span);
+                return self.glance().declares_by(&SET, written);
+            }
+            _ => return false,
+        };
+        if !self.glance().declares_by(&SET, name) {
+            return false;
+        }
+        let Some(first) = self.token_at(span.range().start) else {
+            return false;
+        };
+        let at = Span::new(self.file, first.start, first.end);
+        let diagnostic = self.expected_equals(last.span, at);
+        self.report(diagnostic);
+        last.kind = StmtKind::Error;
+        true
+    }
+
+    /// The message for what is set at `target` to what begins at `value`, without `=`.
+    fn expected_equals(&mut self, target: Span, value: Span) -> Diagnostic {
+        let (name, found) = (self.slice(target), self.slice(value));
+        let message = format!("expected `=` after `{name}`, found `{found}`");
+        let diagnostic = Diagnostic::new(Code::E0101, value, message).label("expected `=`");
+        let plain = name.split('(').next().unwrap_or(name);
+        let begins =
+            found.starts_with(|c: char| c.is_alphanumeric() || matches!(c, '_' | '`' | '-'));
+        match begins && self.glance().declares_by(&SET, plain) {
+            true => diagnostic.fix("put a `=`", target.after(), " =", Applicability::Unsafe),
+            false => diagnostic.help(format!(
+                "a call is written `{name}(…)`, an assignment `{name} = …`"
+            )),
+        }
     }
 
     /// Whether two places stand on one line.
@@ -260,6 +316,12 @@ impl<'i> Builder<'i> {
                     diagnose::failure(self.file, self.text, self.tokens, &failure);
                 self.failed_at = Some(until);
                 self.report(diagnostic);
+                if self
+                    .token_at(at.range().end)
+                    .is_some_and(|value| value.of(self.text) == "if")
+                {
+                    self.lose_layout(start);
+                }
                 return;
             }
         }
@@ -367,12 +429,7 @@ impl<'i> Builder<'i> {
             return;
         }
         let diagnostic = if same_line && !matches!(found, "}" | "") {
-            Diagnostic::new(
-                Code::E0101,
-                at,
-                format!("expected `=` after `{name}`, found `{found}`"),
-            )
-            .label("expected `=`")
+            self.expected_equals(span, at)
         } else {
             Diagnostic::new(
                 Code::E0101,
@@ -380,10 +437,11 @@ impl<'i> Builder<'i> {
                 format!("the name `{name}` alone is not a statement"),
             )
             .label("a statement sets something or calls something")
+            .help(format!(
+                "a call is written `{name}(…)`, an assignment `{name} = …`"
+            ))
         };
-        self.report(diagnostic.help(format!(
-            "a call is written `{name}(…)`, an assignment `{name} = …`"
-        )));
+        self.report(diagnostic);
     }
 }
 

@@ -1,9 +1,10 @@
 //! Choices, and the values in braces that they choose from.
 
 use super::Builder;
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Applicability, Code, Diagnostic, suggest};
 use crate::source::Span;
 use crate::syntax::ast::{Choice, Otherwise, Yield};
+use crate::syntax::diagnose;
 use crate::syntax::grammar::{Node, Parts, Rule};
 
 impl<'i> Builder<'i> {
@@ -36,24 +37,7 @@ impl<'i> Builder<'i> {
             return Otherwise::If(Box::new(choice), span.to(end));
         }
         if parts.has(Rule::missing_else) {
-            let rest = self.text.get(then.range().end..).unwrap_or_default();
-            if let Some(rest) = rest.trim_start().strip_prefix("else") {
-                let end = self.text.len() - rest.len();
-                let word = Span::new(self.file, end - "else".len(), end);
-                let diagnostic = Diagnostic::new(
-                    Code::E0126,
-                    place,
-                    "both values of a choice stand in braces",
-                )
-                .label("write `if CONDITION { … } else { … }`")
-                .also(word, "what follows has none");
-                self.report(diagnostic);
-                return Otherwise::Yield(self.no_yield(then.after()));
-            }
-            let diagnostic = Diagnostic::new(Code::E0126, place, "a value by `if` needs an `else`")
-                .label("what is the value if this does not hold?")
-                .also(then, "the value if it holds");
-            self.report(diagnostic);
+            self.missing_else(place, then);
             return Otherwise::Yield(self.no_yield(then.after()));
         }
         parts.has(Rule::kw_else);
@@ -64,6 +48,62 @@ impl<'i> Builder<'i> {
             }
             None => Otherwise::Yield(self.take_yield(&mut parts)),
         }
+    }
+
+    /// Reports what follows the value `then` of the `if` at `place` and is no `else` with a value.
+    fn missing_else(&mut self, place: Span, then: Span) {
+        let start = place.range().start;
+        if self.is_reported(start) {
+            return;
+        }
+        let next = self.token_at(then.range().end);
+        let next = next.map(|next| Span::new(self.file, next.start, next.end));
+        let next = next.filter(|next| self.on_one_line(then, *next));
+        let word = next.map_or("", |next| self.slice(next));
+        if word == "else" && next.is_some_and(|next| self.is_choice_behind(next)) {
+            // What is wrong stands behind the `else`.
+            let failure = self.failure(Rule::strict_choice, start, start);
+            let (at, diagnostic) = diagnose::failure(self.file, self.text, self.tokens, &failure);
+            self.failed_at = Some(at);
+            self.report(diagnostic);
+            self.lose_layout(start);
+            return;
+        }
+        let diagnostic = match next {
+            Some(next) if word == "else" => Diagnostic::new(
+                Code::E0126,
+                place,
+                "both values of a choice stand in braces",
+            )
+            .label("write `if CONDITION { … } else { … }`")
+            .also(next, "what follows has none"),
+            Some(next) if matches!(word, "if" | "{") => {
+                self.lose_layout(start);
+                Diagnostic::new(Code::E0126, next, "an `else` is missing before this")
+                    .label("the other value of the choice")
+                    .also(place, "it begins here")
+                    .fix("put `else`", next.before(), "else ", Applicability::Unsafe)
+            }
+            Some(next) if suggest::is_near(word, "else") => {
+                self.lose_layout(start);
+                let message = "a value by `if` needs an `else`";
+                Diagnostic::new(Code::E0126, next, message)
+                    .label("did you mean `else`?")
+                    .fix("write `else`", next, "else", Applicability::Unsafe)
+            }
+            _ => Diagnostic::new(Code::E0126, place, "a value by `if` needs an `else`")
+                .label("what is the value if this does not hold?")
+                .also(then, "the value if it holds"),
+        };
+        self.report(diagnostic);
+    }
+
+    /// Whether the other value of a choice, or the choice of it, seems to follow its `else`.
+    fn is_choice_behind(&self, word: Span) -> bool {
+        let rest = self.text.get(word.range().end..).unwrap_or_default();
+        let line = rest.lines().next().unwrap_or_default();
+        let line = line.split("//").next().unwrap_or_default().trim();
+        line.is_empty() || line.starts_with("if ") || line.contains('{')
     }
 
     fn take_yield(&mut self, parts: &mut Parts<'i>) -> Yield {

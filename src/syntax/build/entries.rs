@@ -89,7 +89,25 @@ impl<'i> Builder<'i> {
         }
         let (at, diagnostic) = diagnose::failure(self.file, self.text, self.tokens, &failure);
         self.failed_at = Some(at);
+        self.lose_meant(&diagnostic);
         self.report(diagnostic);
+    }
+
+    /// What a misspelt word was to say is not missing as well.
+    fn lose_meant(&mut self, diagnostic: &Diagnostic) {
+        let meant = match (diagnostic.code, diagnostic.fixes.as_slice()) {
+            (Code::E0105 | Code::E0123, [fix]) => fix.edits.first(),
+            _ => None,
+        };
+        let meant = meant.and_then(|(_, right)| right.split(' ').next());
+        self.lost.names.extend(match meant {
+            // What a learner learns is called so where it says no other name.
+            Some("learn") => Some("learned".to_owned()),
+            Some("observe" | "choose" | "history" | "end" | "reward" | "episodes") => {
+                meant.map(str::to_owned)
+            }
+            _ => None,
+        });
     }
 
     /// How the text at byte `start` fails to parse as `strict` entries, read from byte `from` on.

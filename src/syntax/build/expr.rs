@@ -46,10 +46,14 @@ impl<'i> Builder<'i> {
     }
 
     fn condition(&mut self, node: Node<'i>) -> Expr {
-        let span = self.span(&node);
         let mut parts = Parts::of(node);
         let left = self.take_expr(&mut parts);
-        let Some(sign) = parts.maybe(Rule::wrong_equals) else {
+        self.compared(left, &mut parts, Rule::wrong_equals)
+    }
+
+    /// What `left` is compared with by a `=`, which is reported; `left` itself where the next part is no `wrong` sign.
+    pub(super) fn compared(&mut self, left: Expr, parts: &mut Parts<'i>, wrong: Rule) -> Expr {
+        let Some(sign) = parts.maybe(wrong) else {
             return left;
         };
         let place = self.span(&sign);
@@ -59,8 +63,8 @@ impl<'i> Builder<'i> {
             let message = "`=` gives a value; two values are compared with `==`".to_owned();
             self.respell(Code::E0109, place, message, "==");
         }
-        self.take_expr(&mut parts);
-        self.error_expr(span)
+        let right = self.take_expr(parts);
+        self.error_expr(left.span.to(right.span))
     }
 
     /// `a or b or c`
@@ -318,7 +322,8 @@ impl<'i> Builder<'i> {
             let second = self.take_expr(&mut parts);
             ExprKind::Point(Box::new(first), Box::new(second))
         } else {
-            ExprKind::Paren(Box::new(first))
+            let inner = self.compared(first, &mut parts, Rule::wrong_paren_equals);
+            ExprKind::Paren(Box::new(inner))
         }
     }
 

@@ -167,7 +167,12 @@ impl<'i> Builder<'i> {
                 }
                 _ => {
                     parts.has(Rule::kw_on);
-                    Some(Paid::On(builder.take_expr(&mut parts)))
+                    let event = builder.take_expr(&mut parts);
+                    Some(Paid::On(builder.compared(
+                        event,
+                        &mut parts,
+                        Rule::wrong_paid_equals,
+                    )))
                 }
             };
             parts.has(Rule::kw_otherwise);

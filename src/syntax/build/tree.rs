@@ -74,6 +74,7 @@ impl<'i> Builder<'i> {
         }
         let outer = std::mem::replace(&mut self.in_tree, true);
         let expr = self.take_expr(&mut parts);
+        let expr = self.compared(expr, &mut parts, Rule::wrong_guard_equals);
         self.in_tree = outer;
         let Some(arrow) = parts.maybe(Rule::guards) else {
             return NodeKind::Leaf(expr);
@@ -179,6 +180,12 @@ impl<'i> Builder<'i> {
     fn composite(&mut self, node: Node<'i>) -> NodeKind {
         let mut parts = Parts::of(node);
         let memory = parts.maybe(Rule::kw_memory).map(|node| self.span(&node));
+        let called = parts
+            .maybe(Rule::wrong_node_call)
+            .or_else(|| parts.maybe(Rule::wrong_spaced_call));
+        if let Some(word) = called {
+            return self.in_parentheses(memory, &word, parts);
+        }
         let written = parts.maybe(Rule::node_word);
         let Some(written) = written.or_else(|| parts.maybe(Rule::known_word)) else {
             return NodeKind::Error;
@@ -226,6 +233,50 @@ impl<'i> Builder<'i> {
                 children,
             },
             None => NodeKind::Error,
+        }
+    }
+
+    /// A composite whose children stand in parentheses, which is reported.
+    fn in_parentheses(
+        &mut self,
+        memory: Option<Span>,
+        written: &Node<'i>,
+        mut parts: Parts<'i>,
+    ) -> NodeKind {
+        let (Some(word), Some(args)) = (
+            self.node_word(written, memory.is_some()),
+            parts.maybe(Rule::args),
+        ) else {
+            return NodeKind::Error;
+        };
+        let span = self.span(&args);
+        let (open, close) = (span.range().start, span.range().end);
+        let spelling = word.node.spelling();
+        let place = Span::new(self.file, open, open + 1);
+        let last = Span::new(self.file, close.saturating_sub(1), close);
+        let mut diagnostic = Diagnostic::new(
+            Code::E0101,
+            place,
+            format!("the children of a node stand in braces: `{spelling} {{ …, … }}`"),
+        )
+        .label("expected `{`")
+        .fix("write braces", place, "{", Applicability::Safe);
+        if let Some(fix) = diagnostic.fixes.first_mut() {
+            fix.edits.push((last, "}".to_owned()));
+        }
+        self.report(diagnostic);
+        let children = self.args(args, "").into_iter().map(|arg| ast::Node {
+            span: arg.span,
+            kind: match arg.kind {
+                ArgKind::Positional(value) => NodeKind::Leaf(value),
+                _ => NodeKind::Error,
+            },
+        });
+        NodeKind::Composite {
+            memory,
+            word,
+            args: None,
+            children: children.collect(),
         }
     }
 

@@ -118,6 +118,16 @@ impl Place<'_> {
             let before = self.span().before();
             return diagnostic.fix(title, before, ">= ", Applicability::Unsafe);
         }
+        // `on hot, per 1 s: -1`
+        if self.failure.strict == Rule::strict_reward
+            && found == ","
+            && self.begins_with("on")
+            && self.after_found() == "per"
+            && let Some(word) = self.begins()
+        {
+            let title = "what time costs is said by `while`";
+            return diagnostic.fix(title, self.span_of(word), "while", Applicability::Unsafe);
+        }
         let help = match (self.failure.strict, found) {
             _ if self.is_node_without_braces() => {
                 "the children of a node stand in braces: `selector { …, … }`"

@@ -4,6 +4,7 @@ use super::Place;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::expected;
+use crate::syntax::grammar::Rule;
 use crate::syntax::tokens::{Kind, Token};
 
 /// Tokens after which a value must come.
@@ -57,6 +58,23 @@ impl Place<'_> {
         let begins_entry = matches!(self.found(), "=" | ":") && word.kind == Kind::Word;
         let is_cut = OPEN_ENDS.contains(&last.of(self.text)) && self.parted(last, word);
         (begins_entry && is_cut).then(|| (last, self.after(last, "a value", "line")))
+    }
+
+    /// Where the body of a `let` ends whose `=`, the `last` token of its line, lacks the `{`: at a `}` in the margin,
+    /// before which all lines are indented. With the place of the brace.
+    pub(super) fn unopened_body(&self, last: Token) -> Option<(usize, Span)> {
+        let begins = self.begins_with("let") && self.failure.strict == Rule::strict_item;
+        if !begins || last.of(self.text) != "=" {
+            return None;
+        }
+        let rest = self.text.get(last.end..)?;
+        let (_, body) = rest.split_once('\n')?;
+        let within = |line: &&str| line.trim().is_empty() || line.starts_with([' ', '\t']);
+        let lines = body.split_inclusive('\n').take_while(within);
+        let end = self.text.len() - body.len() + lines.map(str::len).sum::<usize>();
+        let closes = self.text.get(end..)?.starts_with('}');
+        let place = self.span_of(last).after();
+        closes.then_some((end, place))
     }
 
     /// What was to come after a token, and the line or the file ends.

@@ -2,7 +2,7 @@
 
 use super::Place;
 use crate::syntax::grammar::Rule;
-use crate::syntax::tokens::is_blank;
+use crate::syntax::tokens::{Token, is_blank};
 
 /// The words that begin an item, with the form of that item.
 const ITEMS: [(&str, &str); 16] = [
@@ -115,6 +115,13 @@ impl Place<'_> {
         }
         self.form_of(word)
             .map(|form| format!("its form is `{form}`"))
+    }
+
+    /// The token with which the text that does not parse begins.
+    pub(super) fn begins(&self) -> Option<Token> {
+        let before = |token: &Token| token.start < self.failure.start;
+        let first = self.tokens.partition_point(before);
+        self.tokens.get(first).copied()
     }
 
     /// Whether the text that does not parse begins with a word.

@@ -33,11 +33,10 @@ impl Place<'_> {
         if self.failure.strict != Rule::strict_child || !self.begins_with("if") {
             return None;
         }
-        let begins = |token: &Token| token.start < self.failure.start;
-        let first = self.tokens.get(self.tokens.partition_point(begins))?;
+        let first = self.begins()?;
         let rest = self.text.get(first.end..)?.lines().next()?;
         let guards = rest.contains("=>") && !rest.contains('{');
-        guards.then(|| self.too_much(*first, "a guard begins with its condition"))
+        guards.then(|| self.too_much(first, "a guard begins with its condition"))
     }
 
     /// `goto(exit).` at the end of the children of a node.

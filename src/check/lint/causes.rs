@@ -1,0 +1,174 @@
+//! Why conditions hold never or always: of all that follows from the values of one state the first is told, and shows the rest.
+
+use crate::check::Checker;
+use crate::ir::expr::{Expr, ExprId};
+use crate::ir::program::{State, Stays, ValueKind};
+use crate::ir::tree::{Atom, Guard};
+use crate::ir::{Id, Program};
+use crate::source::Span;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// How many states are looked at for a cause.
+const MOST: usize = 64;
+
+/// How many places a warning shows beside its own.
+const SHOWN: usize = 3;
+
+/// What a state, or one of a family, would have to be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Lacks {
+    Less,
+    Greater,
+    Value(u32),
+}
+
+/// A value that a state never has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Cause {
+    /// The first of its family.
+    state: Id<State>,
+    lacks: Lacks,
+}
+
+/// The causes that have been told, each with the place of its warning, and how many places that shows.
+pub type Causes = BTreeMap<Cause, (usize, usize)>;
+
+impl Checker<'_> {
+    /// The value that a state lacks, if what `rests` says of conditions would not be so with that value.
+    pub fn cause(&mut self, asked: &[ExprId], rests: &dyn Fn(&Program) -> bool) -> Option<Cause> {
+        for family in self.families_of(asked) {
+            let first = *family.first()?;
+            for lacks in self.lacking(first) {
+                let kept: Vec<Stays> = family.iter().map(|id| self.free(*id, lacks)).collect();
+                let rested = rests(&self.program);
+                for (id, stays) in family.iter().zip(kept) {
+                    self.program.states[*id].stays = stays;
+                }
+                if !rested {
+                    return Some(Cause {
+                        state: first,
+                        lacks,
+                    });
+                }
+            }
+        }
+        None
+    }
+
+    /// Whether a warning of this cause has been told; it then shows this place, too.
+    pub fn has_told(&mut self, cause: Option<Cause>, at: Span) -> bool {
+        let Some((told, shown)) = cause.and_then(|cause| self.causes.get_mut(&cause)) else {
+            return false;
+        };
+        *shown += 1;
+        if *shown <= SHOWN
+            && let Some(told) = self.diagnostics.get_mut(*told)
+        {
+            *told = told.clone().also(at, "this is so for the same reason");
+        }
+        true
+    }
+
+    /// Notes that the warning that was told last has this cause, and says it.
+    pub fn tells(&mut self, cause: Option<Cause>) {
+        let (Some(cause), Some(last)) = (cause, self.diagnostics.len().checked_sub(1)) else {
+            return;
+        };
+        let state = &self.program.states[cause.state];
+        let name = &state.name.family;
+        let note = match (cause.lacks, &state.kind) {
+            (Lacks::Less, _) => format!("in an episode nothing makes `{name}` any less"),
+            (Lacks::Greater, _) => format!("in an episode nothing makes `{name}` any greater"),
+            (Lacks::Value(value), ValueKind::Enum(variants)) => {
+                let variant = variants.get(value as usize).map(ToString::to_string);
+                format!("nothing sets `{name}` to `{}`", variant.unwrap_or_default())
+            }
+            (Lacks::Value(value), _) => format!("nothing sets `{name}` to `{}`", value == 1),
+        };
+        if let Some(told) = self.diagnostics.get_mut(last) {
+            *told = told.clone().note(note);
+        }
+        self.causes.insert(cause, (last, 0));
+    }
+
+    /// The values that a state never has, as far as they may make a difference.
+    fn lacking(&self, state: Id<State>) -> Vec<Lacks> {
+        let State { kind, stays, .. } = &self.program.states[state];
+        let count = match kind {
+            ValueKind::Enum(variants) => variants.len(),
+            _ => 2,
+        };
+        match stays {
+            Stays::Within(ends) => {
+                let less = ends.start().is_finite().then_some(Lacks::Less);
+                let greater = ends.end().is_finite().then_some(Lacks::Greater);
+                less.into_iter().chain(greater).collect()
+            }
+            Stays::Among(among) => {
+                let values = 0..count.min(u64::BITS as usize) as u32;
+                let lacking = values.filter(|value| among & 1 << value == 0);
+                lacking.map(Lacks::Value).collect()
+            }
+        }
+    }
+
+    /// Lets a state have what it lacks; gives what it had.
+    fn free(&mut self, state: Id<State>, lacks: Lacks) -> Stays {
+        let stays = &mut self.program.states[state].stays;
+        let freed = match (lacks, &*stays) {
+            (Lacks::Less, stays) => stays.endless(true, false),
+            (Lacks::Greater, stays) => stays.endless(false, true),
+            (Lacks::Value(value), Stays::Among(among)) => Stays::Among(among | 1 << value),
+            (Lacks::Value(_), Stays::Within(_)) => Stays::ANY,
+        };
+        std::mem::replace(stays, freed)
+    }
+
+    /// The families of states that conditions ask, those of events among them.
+    fn families_of(&self, asked: &[ExprId]) -> Vec<Vec<Id<State>>> {
+        let mut seen = BTreeSet::new();
+        let mut open = asked.to_vec();
+        let mut states = BTreeSet::new();
+        while let Some(id) = open.pop() {
+            if !seen.insert(id) {
+                continue;
+            }
+            open.extend(self.program.pool.operands(id));
+            match self.program.pool.get(id) {
+                Expr::State(state) => {
+                    states.insert(state);
+                }
+                Expr::Event(event) => open.push(self.program.events[event].when),
+                _ => {}
+            }
+        }
+        let mut families: BTreeMap<&str, Vec<Id<State>>> = BTreeMap::new();
+        for id in states.into_iter().take(MOST) {
+            let family = &self.program.states[id].name.family;
+            families.entry(family).or_insert_with(|| self.family(id));
+        }
+        families.into_values().collect()
+    }
+
+    /// The states of the family of this one, which are declared in one place.
+    fn family(&self, id: Id<State>) -> Vec<Id<State>> {
+        let states = &self.program.states;
+        let own = |at: &usize| {
+            *at < states.len() && states[Id::new(*at)].name.family == states[id].name.family
+        };
+        let first = (0..id.index()).rev().take_while(own).last();
+        let all = (first.unwrap_or(id.index())..).take_while(own);
+        all.map(Id::new).collect()
+    }
+
+    /// What the predicates of a guard ask.
+    pub fn asked_by(&self, guard: &Guard) -> Vec<ExprId> {
+        let mut asked = Vec::new();
+        guard.visit_atoms(&mut |atom| {
+            if let Atom::Predicate(id) = atom {
+                asked.extend(self.program.predicates[id].when);
+            }
+        });
+        asked
+    }
+}

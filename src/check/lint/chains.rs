@@ -1,0 +1,69 @@
+//! Branches of `if … else if …` that an earlier one leaves nothing.
+
+use super::cases::{Cases, of_expr};
+use crate::check::Checker;
+use crate::diagnostic::Code;
+use crate::ir::expr::ExprId;
+use crate::source::Span;
+use crate::syntax::ast;
+use std::collections::BTreeMap;
+
+/// The condition of an `else if`.
+#[derive(Clone, Debug)]
+pub struct Link {
+    /// What it asks.
+    asks: ExprId,
+    /// What the branches before it ask.
+    before: Vec<ExprId>,
+}
+
+/// The conditions of an `else if`, by where each stands: several, where a text stands for several members.
+pub type Links = BTreeMap<Span, (Span, Vec<Link>)>;
+
+/// How many branches before one are looked at.
+const MOST: usize = 16;
+
+impl<'a> Checker<'a> {
+    /// Notes a condition of a chain of branches, and adds it to those before the next one.
+    pub fn links(
+        &mut self,
+        written: &'a ast::Expr,
+        asks: Option<ExprId>,
+        before: &mut Vec<(Span, ExprId)>,
+    ) {
+        let Some(asks) = asks.filter(|_| !self.context.library && before.len() < MOST) else {
+            return;
+        };
+        if let Some((first, _)) = before.last() {
+            let link = Link {
+                asks,
+                before: before.iter().map(|(_, asks)| *asks).collect(),
+            };
+            let links = self.links.entry(written.span);
+            links.or_insert_with(|| (*first, Vec::new())).1.push(link);
+        }
+        before.push((written.span, asks));
+    }
+
+    /// Warns of the branches that are never taken, since an earlier one is wherever they could be.
+    pub fn branches_never_taken(&mut self) {
+        for (at, (first, links)) in std::mem::take(&mut self.links) {
+            let program = &self.program;
+            let never = |link: &Link| {
+                let own = of_expr(program, link.asks, true);
+                let before = link.before.iter();
+                let rest = before.fold(own.clone(), |rest, asks| {
+                    rest.and(&of_expr(program, *asks, false))
+                });
+                !own.is_never() && own != Cases::Unknown && rest.is_never()
+            };
+            let constant = |link: &Link| program.pool.constant(link.asks).is_some();
+            if links.iter().any(constant) || !links.iter().all(never) {
+                continue;
+            }
+            self.warning(Code::W0601, at, "this branch is never taken")
+                .label("wherever this holds, a branch before it is taken")
+                .also(first, "branches are looked at in their order");
+        }
+    }
+}

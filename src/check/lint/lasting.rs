@@ -1,0 +1,167 @@
+//! What times come to while an episode lasts: one that grows by a tick in each tick is bounded by the ticks there are.
+//!
+//! That holds of episodes alone, so the warnings know it, and no proof does: a robot may run for longer.
+
+use super::ranges::range;
+use super::stays::{Set, all_settings};
+use super::view::View;
+use crate::check::Checker;
+use crate::ir::Id;
+use crate::ir::expr::{Binary, Expr, ExprId};
+use crate::ir::program::{State, Stays, ValueKind};
+
+/// How many values a setting may choose among.
+const MOST: usize = 32;
+
+/// An end that would come in an episode so many times as long is a precaution.
+const TIMES: f64 = 5.0;
+
+/// From where to where something may go.
+#[derive(Clone, Copy)]
+struct Reach {
+    low: f64,
+    high: f64,
+}
+
+impl Reach {
+    const NONE: Self = Self {
+        low: f64::INFINITY,
+        high: f64::NEG_INFINITY,
+    };
+
+    fn or(self, other: Self) -> Self {
+        Self {
+            low: self.low.min(other.low),
+            high: self.high.max(other.high),
+        }
+    }
+}
+
+/// What settings make of a state: the values that they give it, and by how much they change it.
+struct Settings {
+    values: Reach,
+    change: Reach,
+}
+
+impl Checker<'_> {
+    /// The ticks of the longest episode, if there is any task.
+    pub fn longest_episode(&self) -> Option<u64> {
+        let tasks = self.program.tasks.values().map(|task| task.end_after);
+        let learners = self.program.learners.values();
+        let learners = learners.map(|learner| learner.episode_ticks);
+        tasks.chain(learners).max()
+    }
+
+    /// Bounds the times that the program counts by what an episode leaves time for; gives what was known of them before.
+    pub fn bound_by_episodes(&mut self) -> Vec<(Id<State>, Stays)> {
+        let tick = self.program.world.as_ref().map(|world| world.tick);
+        let (Some(ticks), Some(tick), false) =
+            (self.longest_episode(), tick, self.values_are_unsure())
+        else {
+            return Vec::new();
+        };
+        let settings: Set = all_settings(&self.program);
+        let mut bounded = Vec::new();
+        for (id, state) in self.program.states.iter() {
+            let (ValueKind::Quantity, Stays::Within(ends)) = (&state.kind, &state.stays) else {
+                continue;
+            };
+            if ends.start().is_finite() && ends.end().is_finite() {
+                continue;
+            }
+            let initial = range(View::from(&self.program), state.initial).ends();
+            let mut all = Settings {
+                values: Reach {
+                    low: initial.0,
+                    high: initial.1,
+                },
+                change: Reach {
+                    low: 0.0,
+                    high: 0.0,
+                },
+            };
+            let known = settings
+                .get(&id)
+                .into_iter()
+                .flatten()
+                .all(|(robot, value)| {
+                    let view = View {
+                        robot: *robot,
+                        ..View::from(&self.program)
+                    };
+                    let Some(own) = setting(view, id, *value) else {
+                        return false;
+                    };
+                    all.values = all.values.or(own.values);
+                    // Each may happen once in a tick.
+                    all.change.low += own.change.low.min(0.0);
+                    all.change.high += own.change.high.max(0.0);
+                    true
+                });
+            let counts = all.change.low == -tick || all.change.high == tick;
+            if !known || !counts {
+                continue;
+            }
+            let ticks = TIMES * (ticks + 1) as f64;
+            let low = (all.values.low + ticks * all.change.low).max(*ends.start());
+            let high = (all.values.high + ticks * all.change.high).min(*ends.end());
+            if low.is_finite() != ends.start().is_finite()
+                || high.is_finite() != ends.end().is_finite()
+            {
+                bounded.push((id, Stays::Within(low..=high)));
+            }
+        }
+        let kept = bounded.into_iter().map(|(id, stays)| {
+            let before = std::mem::replace(&mut self.program.states[id].stays, stays);
+            (id, before)
+        });
+        kept.collect()
+    }
+}
+
+/// What a setting makes of a state; `None` where that is not known.
+fn setting(view: View, state: Id<State>, value: ExprId) -> Option<Settings> {
+    let pool = &view.program.pool;
+    let mut found = Settings {
+        values: Reach::NONE,
+        change: Reach::NONE,
+    };
+    let mut open = vec![value];
+    let mut looked = 0;
+    while let Some(id) = open.pop() {
+        looked += 1;
+        if looked > MOST {
+            return None;
+        }
+        let reads = |id: ExprId| pool.any(id, &mut |part| part == Expr::State(state));
+        let is_state = |id: ExprId| pool.get(id) == Expr::State(state);
+        if !reads(id) {
+            let (low, high) = range(view, id).ends();
+            found.values = found.values.or(Reach { low, high });
+            continue;
+        }
+        match pool.get(id) {
+            Expr::State(_) => {}
+            Expr::Select(_, a, b) | Expr::Binary(Binary::Min | Binary::Max, a, b) => {
+                open.extend([a, b]);
+            }
+            Expr::Binary(Binary::Add, a, b) if is_state(a) && !reads(b) => {
+                let (low, high) = range(view, b).ends();
+                found.change = found.change.or(Reach { low, high });
+            }
+            Expr::Binary(Binary::Add, a, b) if is_state(b) && !reads(a) => {
+                let (low, high) = range(view, a).ends();
+                found.change = found.change.or(Reach { low, high });
+            }
+            Expr::Binary(Binary::Sub, a, b) if is_state(a) && !reads(b) => {
+                let (low, high) = range(view, b).ends();
+                found.change = found.change.or(Reach {
+                    low: -high,
+                    high: -low,
+                });
+            }
+            _ => return None,
+        }
+    }
+    Some(found)
+}
