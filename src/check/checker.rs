@@ -271,7 +271,10 @@ impl<'a> Checker<'a> {
             self.meanings.declaration(name)
         });
         twice::misnamed(&mut self.diagnostics);
-        twice::shown_by_bodies(&mut self.diagnostics);
+        let names = &self.names;
+        twice::shown_by_bodies(&mut self.diagnostics, |name| {
+            names.value(name, false)?.0.body()
+        });
         Checked {
             program: self.program,
             tunes: self.tunes.sites(),

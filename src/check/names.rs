@@ -43,6 +43,26 @@ pub enum Decl<'a> {
 }
 
 impl<'a> Decl<'a> {
+    /// Where the body of something with parameters stands.
+    pub fn body(self) -> Option<Span> {
+        match self {
+            Decl::Predicate(it) => it.value.as_ref().map(|value| value.span),
+            Decl::Event(it) => Some(it.value.span),
+            Decl::Let(it) => Some(match &it.body {
+                ast::LetBody::Expr(value) => value.span,
+                ast::LetBody::Yield(body) => body.value.span,
+            }),
+            Decl::Behavior(it) => match &it.body {
+                ast::BehaviorBody::Clauses(clauses) => {
+                    let (first, last) = (clauses.first()?, clauses.last()?);
+                    Some(first.span.to(last.span))
+                }
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
     /// The kind of declaration, with its article.
     pub fn what(self) -> &'static str {
         match self {

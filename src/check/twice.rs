@@ -2,6 +2,7 @@
 //! a parameter whose name or type disagrees with its body and with its uses.
 
 use crate::diagnostic::{Applicability, Code, Diagnostic, Label};
+use crate::source::Span;
 use crate::spelling::spelled;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -35,19 +36,29 @@ pub fn misnamed(found: &mut Vec<Diagnostic>) {
     found.remove(follows);
 }
 
-/// Leaves out what is told of uses where the body that they use shows the same.
-pub fn shown_by_bodies(found: &mut Vec<Diagnostic>) {
-    let mut unknown: BTreeMap<(String, String), usize> = BTreeMap::new();
-    let mut unlike: BTreeSet<(String, String)> = BTreeSet::new();
+/// Leaves out what is told of uses where the body that they use shows the same. `body` gives where that of a name stands.
+pub fn shown_by_bodies(found: &mut Vec<Diagnostic>, body: impl Fn(&str) -> Option<Span>) {
+    let is_within = |name: &str, at: Span| {
+        let body = body(name);
+        body.is_some_and(|body| {
+            body.file == at.file && body.start <= at.start && at.end <= body.end
+        })
+    };
+    let mut unknown: BTreeMap<(String, String), (usize, Span)> = BTreeMap::new();
+    let mut unlike: BTreeMap<(String, String), Vec<Span>> = BTreeMap::new();
     let mut never: BTreeSet<String> = BTreeSet::new();
     for (at, it) in found.iter().enumerate() {
         match it.code {
             Code::E0202 => {
-                unknown.extend(renamed(it, "", " is not declared").map(|names| (names, at)));
+                let names = renamed(it, "", " is not declared");
+                unknown.extend(names.map(|names| (names, (at, it.span()))));
             }
             Code::E0302 => {
                 let sides = it.message.split_once(" cannot be compared with ");
-                unlike.extend(sides.map(|(one, other)| (one.to_owned(), other.to_owned())));
+                if let Some((one, other)) = sides {
+                    let places = unlike.entry((one.to_owned(), other.to_owned()));
+                    places.or_default().push(it.span());
+                }
             }
             Code::E0611 => {
                 never.insert(it.message.clone());
@@ -62,15 +73,20 @@ pub fn shown_by_bodies(found: &mut Vec<Diagnostic>) {
             let owner = begins.and_then(|end| it.message.get(..end));
             let before = owner.map(|owner| format!("{owner} has no parameter "));
             let names = before.and_then(|before| renamed(it, &before, ""));
-            let body = names.and_then(|names| unknown.get(&names));
-            if let Some(body) = body {
+            let known = names.and_then(|names| unknown.get(&names));
+            let owner = owner.and_then(|owner| owner.rsplit('`').nth(1));
+            let body = known.filter(|(_, at)| owner.is_some_and(|owner| is_within(owner, *at)));
+            if let Some((body, _)) = body {
                 uses.entry(*body).or_default().push(it.clone());
             }
             body.is_some()
         }
-        Code::E0302 => given(&it.message).is_some_and(|(is, wanted)| {
-            let both =
-                |one: &str, other: &str| unlike.contains(&(one.to_owned(), other.to_owned()));
+        Code::E0302 => given(&it.message).is_some_and(|(owner, is, wanted)| {
+            let both = |one: &str, other: &str| {
+                let places = unlike.get(&(one.to_owned(), other.to_owned()));
+                let mut places = places.into_iter().flatten();
+                places.any(|at| is_within(owner, *at))
+            };
             both(is, wanted) || both(wanted, is)
         }),
         // What never ends is told where something waits for it.
@@ -107,11 +123,12 @@ fn renamed(found: &Diagnostic, before: &str, after: &str) -> Option<(String, Str
     Some((name.trim_matches('`').to_owned(), right.clone()))
 }
 
-/// The type that a parameter is of, and the one that it is given: "`c` of `carries` is …, not …".
-fn given(message: &str) -> Option<(&str, &str)> {
+/// What has a parameter, the type that this is of, and the one that it is given: "`c` of `carries` is …, not …".
+fn given(message: &str) -> Option<(&str, &str, &str)> {
     let (parameter, types) = message.split_once(" is ")?;
-    parameter.contains("` of `").then_some(())?;
-    types.split_once(", not ")
+    let (_, owner) = parameter.split_once("` of `")?;
+    let (is, wanted) = types.split_once(", not ")?;
+    Some((owner.strip_suffix('`')?, is, wanted))
 }
 
 /// The name that a diagnostic misses, where no other is near it.

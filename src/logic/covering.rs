@@ -13,7 +13,7 @@ mod table;
 mod tidy;
 mod top_down;
 
-pub use grouped::{Grouped, Part, grouped};
+pub use grouped::{Grouped, Part, grouped, picked};
 pub use rebuild::{Known, lists};
 pub use regrouped::Regroup;
 pub use top_down::top_down;

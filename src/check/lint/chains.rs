@@ -2,6 +2,7 @@
 
 use super::cases::{Cases, of_expr};
 use crate::check::Checker;
+use crate::check::context::Region;
 use crate::diagnostic::Code;
 use crate::ir::expr::ExprId;
 use crate::source::Span;
@@ -15,6 +16,8 @@ pub struct Link {
     asks: ExprId,
     /// What the branches before it ask.
     before: Vec<ExprId>,
+    /// Whether any robot may ask it.
+    of_any_robot: bool,
 }
 
 /// The conditions of an `else if`, by where each stands: several, where a text stands for several members.
@@ -38,6 +41,10 @@ impl<'a> Checker<'a> {
             let link = Link {
                 asks,
                 before: before.iter().map(|(_, asks)| *asks).collect(),
+                of_any_robot: !matches!(
+                    self.context.region,
+                    Region::Event | Region::Effect | Region::EachTick
+                ),
             };
             let links = self.links.entry(written.span);
             links.or_insert_with(|| (*first, Vec::new())).1.push(link);
@@ -47,6 +54,8 @@ impl<'a> Checker<'a> {
 
     /// Warns of the branches that are never taken, since an earlier one is wherever they could be.
     pub fn branches_never_taken(&mut self) {
+        let world = self.program.world.as_ref();
+        let alone = world.is_none_or(|world| world.others.is_empty());
         for (at, (first, links)) in std::mem::take(&mut self.links) {
             let program = &self.program;
             let never = |link: &Link| {
@@ -57,8 +66,10 @@ impl<'a> Checker<'a> {
                 });
                 !own.is_never() && own != Cases::Unknown && rest.is_never()
             };
-            let constant = |link: &Link| program.pool.constant(link.asks).is_some();
-            if links.iter().any(constant) || !links.iter().all(never) {
+            let unsure = |link: &Link| {
+                program.pool.constant(link.asks).is_some() || link.of_any_robot && !alone
+            };
+            if links.iter().any(unsure) || !links.iter().all(never) {
                 continue;
             }
             self.warning(Code::W0601, at, "this branch is never taken")

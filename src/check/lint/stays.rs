@@ -144,15 +144,12 @@ impl<'a> Checker<'a> {
         // The others wait for one that holds itself back.
         let holds_back = |checker: &mut Self, it: &Staying| it.same || checker.frees(it, waiting);
         let causes: Vec<bool> = found.iter().map(|it| holds_back(self, it)).collect();
-        let kept: Vec<(Id<State>, Stays)> = found
-            .iter()
-            .flat_map(|it| &it.own)
-            .map(|id| {
-                let stays = &mut self.program.states[*id].stays;
-                (*id, std::mem::replace(stays, Stays::ANY))
-            })
-            .collect();
-        let any = causes.contains(&true) | self.waits_in_vain(waiting);
+        let stay: Vec<Id<State>> = found.iter().flat_map(|it| it.own.clone()).collect();
+        for state in &stay {
+            self.program.states[*state].stays = Stays::ANY;
+        }
+        let told = self.waits_in_vain(waiting);
+        let any = told || causes.contains(&true);
         for (at, (it, cause)) in found.iter().zip(causes).enumerate() {
             if !cause && (any || at > 0) {
                 continue;
@@ -166,7 +163,7 @@ impl<'a> Checker<'a> {
                 .label("it stays as it is declared here")
                 .note(why);
         }
-        kept.into_iter().map(|(id, _)| id).collect()
+        stay
     }
 
     /// Tells of what effects wait for and never happens.

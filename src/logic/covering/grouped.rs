@@ -326,7 +326,7 @@ impl<'a> Search<'a> {
 }
 
 /// Some rows alone, and those of them that each class has.
-pub(super) fn picked(
+pub fn picked(
     columns: &Columns,
     classes: &[Bits],
     rows: &Bits,

@@ -10,7 +10,7 @@ use super::share::shared;
 use super::{Decanonicalised, Options, decanonicalise, proved};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
-use crate::logic::covering::{Grouped, Known, List, Part, Regroup, Rule, lists, top_down};
+use crate::logic::covering::{Grouped, Known, List, Part, Regroup, Rule, lists, picked, top_down};
 use crate::logic::impurity::Impurity;
 use crate::logic::partition::{Classified, Partition};
 use crate::logic::{Account, Bits, Columns, Cube, Literal};
@@ -60,17 +60,16 @@ pub fn allowing(
     let words: Vec<_> = policy.rows.iter().map(words).collect();
     let rows = words.iter().map(|(ones, free)| (&**ones, free.as_deref()));
     let columns = Columns::with_free(policy.atoms.len(), rows);
-    let effort = options.effort.saturating_mul(super::EFFORT) / PARTS;
+    let effort = options.effort.saturating_mul(super::EFFORT);
     let is_whole = policy.rows.iter().all(|row| row.free.is_none());
     if is_whole {
-        let account = Account::new(PARTS * effort);
-        if let Some(list) = by_core(&columns, &classes, &account) {
+        if let Some(list) = by_core(&columns, &classes, &Account::new(effort)) {
             let mut choice = vec![0; columns.rows()];
             by_grouped(&columns, &list, Bits::full(columns.rows()), &mut choice);
             return listed(&chosen(policy, &choice), &list, options);
         }
     }
-    let account = Account::new(effort);
+    let account = Account::new(effort / PARTS);
     let mut choices = Vec::new();
     if is_whole {
         choices.extend(by_partition(&columns, &classes, &account));
@@ -234,20 +233,13 @@ fn by_core(columns: &Columns, classes: &[Bits], account: &Account) -> Option<Gro
     let (mut known, mut patience) = (Known::default(), QUICK);
     let mut right = None;
     let mut nearly: Option<(usize, List)> = None;
-    let whole = account.but(MENDED);
-    while 2 * core.count() <= count && !whole.is_spent() {
-        let rows: Vec<usize> = core.iter().collect();
-        let own = classes.iter().map(|own| {
-            let held = rows.iter().enumerate();
-            let held = held.filter(|(_, row)| own.contains(**row));
-            Bits::collect(rows.len(), held.map(|(at, _)| at))
-        });
-        let own: Vec<Bits> = own.collect();
-        let part = columns.pick(&rows);
-        let found = lists(&part, &own, REACH, patience, &mut known, &whole);
+    let searching = account.but(MENDED);
+    while 2 * core.count() <= count && !searching.is_spent() {
+        let (part, own) = picked(columns, classes, &core, &searching);
+        let found = lists(&part, &own, REACH, patience, &mut known, &searching);
         let Some(list) = found.last() else { break };
         let choice = by_list(columns, list);
-        whole.spend((list.rules.len() * count / 16) as u64);
+        searching.spend((list.rules.len() * count / 16) as u64);
         let wrong = choice.iter().enumerate();
         let wrong = wrong
             .filter(|(row, class)| !classes.get(**class).is_some_and(|own| own.contains(*row)));
@@ -270,7 +262,7 @@ fn by_core(columns: &Columns, classes: &[Bits], account: &Account) -> Option<Gro
         let step = wrong.len().div_ceil(core.count() / 2).max(1);
         core.unite(&Bits::collect(count, wrong.into_iter().step_by(step)));
     }
-    account.settle(&whole);
+    account.settle(&searching);
     if let Some(right) = right {
         return Some(right.into());
     }

@@ -14,6 +14,18 @@ fn allowed(random: &mut Random, all: &[&str], rule: &str, chance: f64) -> String
     others.copied().collect::<Vec<_>>().join("|")
 }
 
+/// A table of truth values.
+fn truths(table: &BTreeMap<Vec<bool>, String>) -> String {
+    let atoms = table.keys().next().map_or(0, Vec::len);
+    let names: Vec<String> = (0..atoms).map(|atom| format!("p{atom}")).collect();
+    let mut text = format!("{},action\n", names.join(","));
+    for (row, behaviors) in table {
+        let cells: Vec<&str> = row.iter().map(|on| if *on { "1" } else { "0" }).collect();
+        text += &format!("{},{behaviors}\n", cells.join(","));
+    }
+    text
+}
+
 fn nodes(table: &str, effort: u64) -> usize {
     let table = text("allows.csv", table.as_bytes());
     let options = Options { effort, ..USUAL };
@@ -73,13 +85,7 @@ fn lists_are_found_though_other_behaviors_are_allowed() {
         let behaviors = allowed(&mut random, &all, rule, 0.4);
         table.entry(row).or_insert(behaviors);
     }
-    let names: Vec<String> = (0..ATOMS).map(|atom| format!("p{atom}")).collect();
-    let mut text = format!("{},action\n", names.join(","));
-    for (row, behaviors) in &table {
-        let cells: Vec<&str> = row.iter().map(|on| if *on { "1" } else { "0" }).collect();
-        text += &format!("{},{behaviors}\n", cells.join(","));
-    }
-    let found = nodes(&text, USUAL.effort);
+    let found = nodes(&truths(&table), USUAL.effort);
     assert!(found <= 21, "{found} nodes");
 }
 
@@ -108,14 +114,8 @@ fn long_lists_are_found_though_other_behaviors_are_allowed() {
             let behaviors = allowed(&mut random, &all, rule, 0.4);
             table.entry(row).or_insert(behaviors);
         }
-        let names: Vec<String> = (0..ATOMS).map(|atom| format!("p{atom}")).collect();
-        let mut text = format!("{},action\n", names.join(","));
-        for (row, behaviors) in &table {
-            let cells: Vec<&str> = row.iter().map(|on| if *on { "1" } else { "0" }).collect();
-            text += &format!("{},{behaviors}\n", cells.join(","));
-        }
         let planted: usize = 2 + rules.iter().map(|(cube, _)| 2 + cube.len()).sum::<usize>();
-        let found = nodes(&text, 30);
+        let found = nodes(&truths(&table), 30);
         assert!(found <= planted, "{found} nodes for {planted}");
     }
 }
