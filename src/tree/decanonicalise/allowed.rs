@@ -62,12 +62,10 @@ pub fn allowing(
     let columns = Columns::with_free(policy.atoms.len(), rows);
     let effort = options.effort.saturating_mul(super::EFFORT);
     let is_whole = policy.rows.iter().all(|row| row.free.is_none());
-    if is_whole {
-        if let Some(list) = by_core(&columns, &classes, &Account::new(effort)) {
-            let mut choice = vec![0; columns.rows()];
-            by_grouped(&columns, &list, Bits::full(columns.rows()), &mut choice);
-            return listed(&chosen(policy, &choice), &list, options);
-        }
+    if is_whole && let Some(list) = by_core(&columns, &classes, &Account::new(effort)) {
+        let mut choice = vec![0; columns.rows()];
+        by_grouped(&columns, &list, Bits::full(columns.rows()), &mut choice);
+        return listed(&chosen(policy, &choice), &list, options);
     }
     let account = Account::new(effort / PARTS);
     let mut choices = Vec::new();
