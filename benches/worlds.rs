@@ -30,6 +30,8 @@ struct Arguments {
     worlds: Vec<PathBuf>,
     seeds: Vec<u64>,
     episodes: u64,
+    runs: Option<u64>,
+    effort: u64,
     with_hand: bool,
 }
 
@@ -39,6 +41,8 @@ impl Arguments {
             worlds: Vec::new(),
             seeds: (1..=5).collect(),
             episodes: 300,
+            runs: None,
+            effort: LearnOptions::default().effort,
             with_hand: false,
         };
         let mut words = std::env::args().skip(1);
@@ -50,6 +54,8 @@ impl Arguments {
                     read.seeds = seeds.split(',').map(|seed| seed.parse().unwrap()).collect();
                 }
                 "--episodes" => read.episodes = words.next().unwrap().parse().unwrap(),
+                "--runs" => read.runs = Some(words.next().unwrap().parse().unwrap()),
+                "--effort" => read.effort = words.next().unwrap().parse().unwrap(),
                 "--with-hand" => read.with_hand = true,
                 name if name.ends_with(".bt") => read.worlds.push(name.into()),
                 name => read.worlds.push(folder().join(format!("{name}.bt"))),
@@ -143,6 +149,8 @@ fn row(world: &Path, seed: u64, arguments: &Arguments) -> (String, Kept) {
     let source = fs::canonicalize(world).unwrap();
     let options = LearnOptions {
         seed: Some(seed),
+        seeds: arguments.runs,
+        effort: arguments.effort,
         source: source.to_str().unwrap(),
         ..LearnOptions::default()
     };
@@ -174,9 +182,18 @@ fn row(world: &Path, seed: u64, arguments: &Arguments) -> (String, Kept) {
     };
     let metrics = learned.file("metrics.json").unwrap();
     let metrics: serde_json::Value = serde_json::from_str(metrics).unwrap();
-    let ticks =
-        ["/ticks", "/improved/ticks", "/grown/ticks"].map(|at| metrics.pointer(at)?.as_u64());
-    let ticks: u64 = ticks.iter().flatten().sum();
+    let of = |metrics: &serde_json::Value, at| metrics.pointer(at).and_then(|ticks| ticks.as_u64());
+    let searched = ["/improved/ticks", "/grown/ticks"].map(|at| of(&metrics, at));
+    let learned: u64 = match metrics["seeds"].as_array() {
+        Some(runs) => {
+            let each = runs
+                .iter()
+                .flat_map(|run| ["/ticks", "/validation/ticks"].map(|at| of(run, at)));
+            each.flatten().sum()
+        }
+        None => of(&metrics, "/ticks").unwrap(),
+    };
+    let ticks = learned + searched.iter().flatten().sum::<u64>();
     let text = format!(
         "| {name} | {seed} | {} | {} | {} | {ratio} | {:.2} | {:.1} | {seconds:.1} |",
         hand.cell(),

@@ -36,6 +36,7 @@ use crate::learn::improve::{Improved, Improver};
 use crate::learn::process::{Key, World};
 use crate::learn::run::Run;
 use crate::learn::simulated::Purpose;
+use crate::learn::statistics::Summary;
 use crate::tree::prune::Requirement;
 pub use front::{Choice, Grown, Point};
 use ground::Ground;
@@ -163,6 +164,29 @@ const CHOOSING: f64 = 0.2;
 pub fn growing(effort: u64, improved: &Improved) -> u64 {
     let policy = share(effort, ITERATING + IMPROVING);
     share(effort, GROWING) + policy.saturating_sub(improved.ticks)
+}
+
+/// The runs of learning from which the best is taken where nobody says how many.
+const RUNS: u64 = 3;
+/// The most that the further ones may take, as a part of the effort.
+const RUNNING: f64 = 0.15;
+
+/// How many further runs of learning pay: policies differ much from run to run, and a search that begins with a better one
+/// finds a better tree. But they and their comparison have to be a small part of the effort.
+pub fn more_runs<W: World>(experiment: &Experiment<W>, effort: u64, first: &Run) -> u64 {
+    let counts = first.counts;
+    let length = counts.ticks / counts.episodes.max(1);
+    let validated = experiment.validations().saturating_mul(length);
+    let left = share(effort, RUNNING).saturating_sub(validated);
+    let each = counts.ticks.saturating_add(validated);
+    (left / each.max(1)).min(RUNS - 1)
+}
+
+/// What is left of the effort after the runs beyond the first, and the comparison of all.
+pub fn left_by(effort: u64, runs: &[Run], validated: &[Summary]) -> u64 {
+    let further = runs.iter().skip(1).map(|run| run.counts.ticks);
+    let compared = validated.iter().map(|summary| summary.ticks);
+    effort.saturating_sub(further.chain(compared).sum())
 }
 
 fn share(effort: u64, part: f64) -> u64 {

@@ -8,7 +8,9 @@ use super::decl::event::EventId;
 use super::decl::input::InputSlot;
 use super::decl::predicate::PredicateId;
 use super::decl::state::StateSlot;
-use super::lint::{Again, Asked, Causes, Condition, FailClause, Links};
+use super::lint::{
+    Again, Asked, Assigned, Assignments, Causes, Condition, Equality, FailClause, Links,
+};
 use super::meaning::Meanings;
 use super::members::{Kinds, Member};
 use super::merge;
@@ -70,6 +72,14 @@ pub struct Checker<'a> {
     pub fails: BTreeMap<Span, Vec<FailClause>>,
     /// What stands a second time where once is enough.
     pub again: BTreeMap<Span, Again>,
+    /// What the statements of the effect at hand set.
+    pub assignments: Assignments,
+    /// What effects set, whatever else holds where they are done.
+    pub assigned: Vec<Assigned>,
+    /// Where statements change something by nothing.
+    pub idle: BTreeSet<Span>,
+    /// Where a state is to be exactly so much.
+    pub equalities: Vec<Equality<'a>>,
     /// The states that a value of a block hides.
     pub hidden: BTreeSet<&'a str>,
     /// Where robots start, as far as that is constant.
@@ -157,6 +167,10 @@ impl<'a> Checker<'a> {
             library_calls: BTreeMap::new(),
             fails: BTreeMap::new(),
             again: BTreeMap::new(),
+            assignments: Assignments::new(),
+            assigned: Vec::new(),
+            idle: BTreeSet::new(),
+            equalities: Vec::new(),
             hidden: BTreeSet::new(),
             positions: Vec::new(),
             given: None,

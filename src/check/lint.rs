@@ -9,7 +9,9 @@ mod chains;
 mod choices;
 mod claims;
 mod conditions;
+mod effects;
 mod endings;
+mod exact;
 mod exclusions;
 mod follows;
 mod geometry;
@@ -25,6 +27,7 @@ mod regions;
 mod repaid;
 mod rewards;
 mod same;
+mod settings;
 mod sizes;
 mod starts;
 mod stays;
@@ -38,9 +41,12 @@ use super::{Checker, Input};
 use crate::diagnostic::Diagnostic;
 pub use causes::Causes;
 pub use chains::Links;
-pub use conditions::Condition;
+pub use conditions::{Condition, is_nameless};
+pub use effects::{Assigned, Assignments};
 pub use endings::Asked;
+pub use exact::Equality;
 pub use exclusions::exclusions;
+pub use mentions::Mentions;
 pub use regions::FailClause;
 pub use same::Again;
 
@@ -65,6 +71,7 @@ impl<'a> Checker<'a> {
         }
         self.same_on_both_sides();
         self.values_overwritten(items());
+        self.effects_without_effect();
         let kept = self.bound_by_episodes();
         self.find_constant_predicates();
         self.conditions_without_effect();
@@ -75,12 +82,14 @@ impl<'a> Checker<'a> {
         self.calls_without_effect(&told);
         self.predicates_without_effect(items());
         self.rewards_without_effect(items());
+        self.settings_of_learners(items());
         self.moments_that_last(items());
         self.ends_at_starts(items());
         self.nodes_without_effect(items());
         self.subtrees_without_effect(items());
-        self.claims_beyond_episodes(items());
+        self.claims_in_vain(items());
         self.sides_without_effect();
+        self.passed_over();
         for (state, stays) in kept {
             self.program.states[state].stays = stays;
         }

@@ -286,6 +286,10 @@ impl<'a> Checker<'a> {
                     )
                     .none();
             }
+            // A kind may be called as a function is.
+            if self.names.types.contains_key(name.as_str()) {
+                return self.not_one_of_them(&reference.name).none();
+            }
             return self
                 .error(
                     Code::E0305,

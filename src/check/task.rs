@@ -2,7 +2,7 @@
 
 pub mod history;
 pub mod learner;
-mod schedule;
+pub mod schedule;
 mod start;
 
 use super::Checker;
@@ -268,7 +268,8 @@ impl<'a> Checker<'a> {
                 }
             };
             let called = plain_ref(event).is_some_and(|event| event.args.is_some());
-            if called && self.unbound_members(event, " in ").is_some() {
+            let binds = called || self.reads_parameter_of(event, &line.value);
+            if binds && self.unbound_members(event, " in ").is_some() {
                 continue;
             }
             let range = plain_ref(event).filter(|reference| Self::ranging(reference));

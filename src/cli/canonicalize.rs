@@ -30,6 +30,7 @@ enum Emit {
 }
 
 pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {
+    files::apart(&[arguments.output.as_deref()], &[Some(&arguments.file)])?;
     let loaded = files::load(&arguments.file, say)?;
     let path = paths::used_by(arguments.output.as_deref(), &arguments.file)?;
     let form = match arguments.emit {

@@ -11,6 +11,7 @@ use crate::source::{Sources, Span};
 use clap::{Args, ValueEnum};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 /// How often fixes are applied to one file: one may bring another to light.
 const ROUNDS: usize = 10;
@@ -59,7 +60,7 @@ struct Checked {
 pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {
     let mut all: Vec<Checked> = Vec::new();
     for path in &arguments.files {
-        for path in standing(programs(path)) {
+        for path in standing(programs(path)?) {
             all.push(found(arguments, &path)?);
         }
     }
@@ -105,10 +106,17 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
 
 /// The programs under a path: itself, or those in a folder and in its folders, in the order of their names. What begins
 /// with a dot is left out, and so are the folders of results: what they hold was learned, and is checked where it is named.
-pub(super) fn programs(path: &str) -> Vec<String> {
-    fn walk(folder: &Path, programs: &mut Vec<String>) {
-        let entries = std::fs::read_dir(folder).into_iter().flatten();
-        let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+///
+/// # Errors
+/// A folder cannot be read.
+pub(super) fn programs(path: &str) -> Result<Vec<String>, Failure> {
+    fn walk(folder: &Path, programs: &mut Vec<String>) -> Result<(), Failure> {
+        let entries = std::fs::read_dir(folder).and_then(Iterator::collect::<io::Result<Vec<_>>>);
+        let entries = entries.map_err(|error| {
+            let folder = folder.to_string_lossy();
+            files::complain(&format!("{}: {error}", render::visible(&folder)))
+        })?;
+        let mut paths: Vec<PathBuf> = entries.iter().map(fs::DirEntry::path).collect();
         paths.sort();
         for path in paths {
             let hidden = path
@@ -121,18 +129,19 @@ pub(super) fn programs(path: &str) -> Vec<String> {
                 if Manifest::of_folder(&path).is_some() {
                     continue;
                 }
-                walk(&path, programs);
-            } else if path.extension().is_some_and(|extension| extension == "bt") {
+                walk(&path, programs)?;
+            } else if path.is_file() && path.extension().is_some_and(|of| of == "bt") {
                 programs.push(path.to_string_lossy().into_owned());
             }
         }
+        Ok(())
     }
     let mut programs = Vec::new();
     if path != files::STDIN && Path::new(path).is_dir() {
-        walk(Path::new(path), &mut programs);
-        return programs;
+        walk(Path::new(path), &mut programs)?;
+        return Ok(programs);
     }
-    vec![path.to_owned()]
+    Ok(vec![path.to_owned()])
 }
 
 /// The programs that stand for themselves: without the files that have mistakes alone and none in a sound program of the

@@ -68,7 +68,7 @@ impl Checkpoints {
     }
 }
 
-/// Ends a run: tells what could not be kept. Of one that is refused nothing is left, and none of the folders that were
+/// Ends a run. Of one that is refused nothing is left, and none of the folders that were
 /// missing before.
 ///
 /// # Errors
@@ -78,9 +78,6 @@ pub(super) fn settle<T>(
     checkpoint: &Checkpoint,
     missing: &[PathBuf],
 ) -> Result<T, Failure> {
-    if let Some(why) = checkpoint.trouble() {
-        tell(&format!("warning: no checkpoint could be kept: {why}"));
-    }
     if made.is_err() {
         checkpoint.remove();
         Folder::unmake(&System, missing);

@@ -29,6 +29,7 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {
+    files::apart(&[arguments.output.as_deref()], &[Some(&arguments.file)])?;
     let loaded = files::load(&arguments.file, say)?;
     let steps = match arguments.same_tick {
         true => Steps::SameTick,

@@ -97,6 +97,15 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
         name: &arguments.name,
         form: arguments.emit,
     };
+    files::apart(
+        &[arguments.output.as_deref()],
+        &[
+            Some(&arguments.file),
+            arguments.program.as_deref(),
+            arguments.transitions.as_deref(),
+            arguments.start.as_deref(),
+        ],
+    )?;
     let bar = Progress::new();
     bar.stage("reading");
     let program = arguments.program.as_deref();

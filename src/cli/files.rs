@@ -180,6 +180,33 @@ pub(super) fn write_all(
         .map_err(|error| complain(&error.to_string()))
 }
 
+/// Whether what is written goes to files of its own: not to one that the command reads, nor two outputs to one.
+///
+/// # Errors
+/// It does not.
+pub(super) fn apart(outputs: &[Option<&Path>], inputs: &[Option<&str>]) -> Result<(), Failure> {
+    let real = |path: &Path| path.canonicalize().ok();
+    let mut taken: Vec<(PathBuf, &str)> = Vec::new();
+    let inputs = inputs.iter().flatten().filter(|path| **path != STDIN);
+    let inputs = inputs.filter_map(|path| real(Path::new(path)));
+    taken.extend(inputs.map(|path| (path, "what this command reads")));
+    for output in outputs.iter().flatten() {
+        // What is not there yet is the same if it has the same name.
+        let is_file = std::fs::metadata(output).map_or(true, |found| found.is_file());
+        let own = real(output).unwrap_or_else(|| output.to_path_buf());
+        let same = taken.iter().find(|(path, _)| is_file && *path == own);
+        if let Some((_, what)) = same {
+            let output = render::visible(&output.to_string_lossy()).into_owned();
+            tell(&format!(
+                "error: `{output}` would overwrite {what}: name another file"
+            ));
+            return Err(Failure::Usage);
+        }
+        taken.push((own, "another output of this command"));
+    }
+    Ok(())
+}
+
 /// Writes to a file, or to standard output.
 pub(super) fn put(path: Option<&Path>, text: &str) -> Result<(), Failure> {
     match path {

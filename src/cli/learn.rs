@@ -32,9 +32,10 @@ pub(super) struct Arguments {
     /// The seed, instead of the program's.
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
-    /// The number of runs, with this seed and those that follow it; the best by validation is taken.
-    #[arg(long, value_name = "K", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1000))]
-    seeds: u64,
+    /// The number of runs, with this seed and those that follow it; the best by validation is taken. By default one, and
+    /// before a search for a grown tree up to two more, if they take a small part of its effort.
+    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u64).range(1..=1000))]
+    seeds: Option<u64>,
     /// The number of episodes, instead of the program's.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     episodes: Option<u64>,
@@ -47,7 +48,8 @@ pub(super) struct Arguments {
     /// The tree that is wanted.
     #[arg(long, value_name = "SHAPE", default_value = "grown")]
     shape: Shape,
-    /// List the grown trees that none beats in both nodes and return; `front.svg` shows them.
+    /// List the grown trees that none beats in both nodes and return, with the one that is taken, which was chosen by more
+    /// episodes; `front.svg` shows them.
     #[arg(long)]
     front: bool,
     /// Take the best of the grown trees with at most this many nodes.
@@ -65,7 +67,7 @@ pub(super) struct Arguments {
     /// The number of greedy episodes that show the transitions of the policy.
     #[arg(long, value_name = "N", default_value_t = 2000, value_parser = clap::value_parser!(u64).range(1..=PLAYED))]
     roll_outs: u64,
-    /// The number of episodes that test the tree: 1000 with several seeds, else none.
+    /// The number of episodes that test the tree: 1000 where `--seeds` asks for several, else none.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(0..=PLAYED))]
     tests: Option<u64>,
     /// Write the whole report, and not only its five lines on the tree.
@@ -148,9 +150,10 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
         front: arguments.front,
         effort: arguments.effort,
         roll_outs: arguments.roll_outs,
-        tests: arguments
-            .tests
-            .unwrap_or(if arguments.seeds > 1 { 1000 } else { 0 }),
+        tests: arguments.tests.unwrap_or(match arguments.seeds {
+            Some(2..) => 1000,
+            _ => 0,
+        }),
         source: &source,
         keeper: &Forgetful,
     };
@@ -173,9 +176,15 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
         .iter()
         .map(|(name, text)| ((*name).to_owned(), text.clone()));
     let more = tuned.iter().flat_map(tuned_files);
-    files::write_all(&folder, &files.chain(more).collect::<Vec<_>>(), program)?;
-    // Whoever reads this may have gone: all is written.
+    let written = files::write_all(&folder, &files.chain(more).collect::<Vec<_>>(), program);
+    // Whoever reads this may have gone: all is written. What could not be written is printed at least.
     let printed = files::print(&learned.text);
+    if written.is_err() && checkpoint.found().is_ok() {
+        tell(
+            "note: the run is kept: once its folder can be written, `--resume` writes the results",
+        );
+    }
+    written?;
     let lines = match arguments.report {
         true => &learned.report,
         false => &learned.headline,
@@ -243,7 +252,10 @@ fn run_of(options: &Options, tunes: bool, program: &BTreeMap<String, String>) ->
         "--seed",
         options.seed.map_or(String::new(), |seed| seed.to_string()),
     );
-    add("--seeds", options.seeds.to_string());
+    add(
+        "--seeds",
+        options.seeds.map_or(String::new(), |n| n.to_string()),
+    );
     add(
         "--episodes",
         options.episodes.map_or(String::new(), |n| n.to_string()),

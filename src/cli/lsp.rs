@@ -32,7 +32,7 @@ impl Workspace for Files {
 
     fn programs(&self, folder: &str) -> Vec<String> {
         match Path::new(folder).is_dir() {
-            true => programs(folder),
+            true => programs(folder).unwrap_or_default(),
             false => Vec::new(),
         }
     }

@@ -28,6 +28,7 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {
+    files::apart(&[arguments.output.as_deref()], &[Some(&arguments.file)])?;
     let file = files::read(&arguments.file)?;
     let options = Options {
         order: arguments.order,

@@ -61,6 +61,10 @@ enum TraceFormat {
 }
 
 pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {
+    files::apart(
+        &[arguments.svg.as_deref(), arguments.trace.as_deref()],
+        &[Some(&arguments.file), arguments.policy.as_deref()],
+    )?;
     let loaded = files::load(&arguments.file, say)?;
     let subject = match (&arguments.policy, &arguments.tree) {
         (Some(path), _) => Subject::policy(&loaded, files::read(path)?.text()),

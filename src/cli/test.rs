@@ -59,7 +59,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     let mut snapshots = Vec::new();
     let mut empty = Vec::new();
     for named in &arguments.paths {
-        let programs = standing(programs(named));
+        let programs = standing(programs(named)?);
         let mut is_tested = false;
         for path in &programs {
             let Ok(loaded) = files::load(path, say) else {

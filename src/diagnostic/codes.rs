@@ -174,6 +174,7 @@ codes! {
     W0305 "a point in a whole number",
     W0306 "a bearing where a direction is meant",
     W0307 "a value that is overwritten",
+    W0308 "an effect that changes nothing",
 
     W0401 "a part of the world that does nothing",
     W0402 "a size out of proportion",
@@ -202,6 +203,8 @@ codes! {
     W0522 "an episode that ends as it starts",
     W0523 "a tree that learning leaves out",
     W0524 "a discount that looks next to nowhere",
+    W0525 "exploration that grows",
+    W0526 "a claim that cannot hold",
 
     W0601 "a condition that always or never holds",
     W0602 "a node that is never reached",

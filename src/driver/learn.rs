@@ -60,8 +60,9 @@ pub struct Options<'o> {
     pub learner: Option<&'o str>,
     /// The first seed, instead of the learner's.
     pub seed: Option<u64>,
-    /// The number of runs, one for each seed from the first on; the best is taken.
-    pub seeds: u64,
+    /// The number of runs, one for each seed from the first on; the best is taken. `None`: one, and for a grown tree as many
+    /// more as take a small part of the effort.
+    pub seeds: Option<u64>,
     /// The number of episodes, instead of the learner's.
     pub episodes: Option<u64>,
     /// The fewest decisions by which a minterm counts as learned; below, it is a don't-care.
@@ -76,7 +77,7 @@ pub struct Options<'o> {
     pub choice: Choice,
     /// Whether the report lists the front of trees.
     pub front: bool,
-    /// About how many ticks the search for a tree may simulate.
+    /// About how many ticks the search for a tree may simulate, with the runs that nobody asked for.
     pub effort: u64,
     /// The number of greedy episodes that show the transitions of the policy.
     pub roll_outs: u64,
@@ -93,7 +94,7 @@ impl Default for Options<'_> {
         Self {
             learner: None,
             seed: None,
-            seeds: 1,
+            seeds: None,
             episodes: None,
             evidence: 10,
             method: Method::Search,

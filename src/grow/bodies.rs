@@ -5,6 +5,8 @@
 
 use super::evidence::{Evidence, KNOWN};
 use super::ground::Ground;
+use crate::ir::Id;
+use crate::ir::law::Behavior;
 use crate::ir::tree::{Composite, Guard, Node};
 use crate::learn::process::{Key, World};
 use crate::tree::guard::{and, not};
@@ -22,6 +24,11 @@ const BRINGERS: usize = 2;
 /// How much oftener than behaviours do on average one brings a literal about that it is tried for.
 const OFTENER: f64 = 1.5;
 
+/// The decisions for a behaviour after which it shows where it works, if the minterms show that at all; and those after which
+/// one that always failed at once is not tried any more before another.
+const SHOWN: f64 = 300.0;
+const TRIED: f64 = 1000.0;
+
 /// A literal: the number of an atom, and its value.
 type Literal = (usize, bool);
 
@@ -38,7 +45,13 @@ pub fn bodies<W: World>(ground: &Ground<W>, evidence: &Evidence) -> Vec<Node> {
         }
     };
     for (choice, then) in ground.choices.iter().enumerate() {
-        for condition in conditions(ground, evidence, choice) {
+        let conditions = conditions(ground, evidence, choice);
+        if conditions.is_empty() {
+            for enabler in enablers(ground, evidence, choice) {
+                add(selector([*then, enabler].map(Node::Behavior)));
+            }
+        }
+        for condition in conditions {
             let literals = condition.iter().filter_map(|(bit, value)| {
                 let atom = Guard::Atom(*ground.world.atoms().get(*bit)?);
                 Some(if *value { atom } else { not(atom) })
@@ -79,24 +92,45 @@ fn sums(tried: &[Tried]) -> (f64, f64) {
     })
 }
 
+/// The behaviours that may bring about where a choice works that fails at once nearly everywhere, though no condition says where
+/// it does: what it requires is not observed. Which of them does shows when they are played.
+fn enablers<W: World>(ground: &Ground<W>, evidence: &Evidence, choice: usize) -> Vec<Id<Behavior>> {
+    let fails = |choice: usize| {
+        let tried = tried(evidence, choice);
+        let (all, refused) = sums(&tried);
+        let hopeless = all >= TRIED && refused >= all;
+        (all >= KNOWN && refused >= FAILS * all).then_some((all, hopeless))
+    };
+    if fails(choice).is_none_or(|(all, hopeless)| all < SHOWN || hopeless) {
+        return Vec::new();
+    }
+    let others = ground.choices.iter().enumerate();
+    let others = others.filter(|(other, _)| *other != choice && fails(*other).is_none());
+    others.map(|(_, id)| *id).collect()
+}
+
+/// The decisions for a choice, by minterm.
+fn tried(evidence: &Evidence, choice: usize) -> Vec<Tried> {
+    let rows = evidence.keys().iter().enumerate();
+    let tried = rows.filter_map(|(row, key)| {
+        let cell = evidence.cells(row).get(choice)?;
+        let refused = cell.refused() * cell.count;
+        (cell.count > 0.0).then_some(Tried {
+            key: *key,
+            all: cell.count,
+            refused,
+        })
+    });
+    tried.collect()
+}
+
 /// Where a choice works that fails at once elsewhere: conjunctions, one for each place or reason, the most common first.
 fn conditions<W: World>(
     ground: &Ground<W>,
     evidence: &Evidence,
     choice: usize,
 ) -> Vec<Vec<Literal>> {
-    let rows = evidence.keys().iter().enumerate();
-    let mut left: Vec<Tried> = rows
-        .filter_map(|(row, key)| {
-            let cell = evidence.cells(row).get(choice)?;
-            let refused = cell.refused() * cell.count;
-            (cell.count > 0.0).then_some(Tried {
-                key: *key,
-                all: cell.count,
-                refused,
-            })
-        })
-        .collect();
+    let mut left = tried(evidence, choice);
     let mut found = Vec::new();
     while found.len() < CONDITIONS {
         let (all, refused) = sums(&left);

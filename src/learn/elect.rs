@@ -60,11 +60,7 @@ impl<W: World> Experiment<'_, W> {
         policies: impl Iterator<Item = &'d Decisions>,
         stream: (Purpose, u64),
     ) -> (usize, Vec<Summary>) {
-        let episodes = match self.never.is_empty() {
-            true => VALIDATION,
-            false => CLAIMED,
-        };
-        let measure = |decisions| self.roll_out(decisions, episodes, stream).1;
+        let measure = |decisions| self.roll_out(decisions, self.validations(), stream).1;
         let measured: Vec<Summary> = policies.map(measure).collect();
         let order = |a: &Summary, b: &Summary| {
             let order = self.broken(b).cmp(&self.broken(a));
@@ -74,6 +70,14 @@ impl<W: World> Experiment<'_, W> {
         let best = measured.iter().enumerate().rev();
         let best = best.max_by(|(_, a), (_, b)| order(a, b));
         (best.map_or(0, |(at, _)| at), measured)
+    }
+
+    /// The episodes by which a policy is compared with others.
+    pub fn validations(&self) -> u64 {
+        match self.never.is_empty() {
+            true => VALIDATION,
+            false => CLAIMED,
+        }
     }
 
     /// How often something happened that the program claims never to happen.

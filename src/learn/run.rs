@@ -69,10 +69,9 @@ impl<W: World> Experiment<'_, W> {
         keeper: &dyn Keeper,
         episode: impl Fn() + Sync,
     ) -> Vec<Run> {
-        let seeds = seed..seed.saturating_add(count);
-        seeds
+        (0..count)
             .into_par_iter()
-            .map(|seed| self.learn(seed, keeper, &episode))
+            .map(|n| self.learn(seed.wrapping_add(n), keeper, &episode))
             .collect()
     }
 

@@ -38,6 +38,11 @@ pub(super) fn n_log_n(n: u32) -> f64 {
     known.copied().unwrap_or_else(|| by_its_logarithm(n))
 }
 
+/// The information of knowing that a row is one of so many of these, in bits (the gain of FOIL: Quinlan 1990).
+pub fn information(own: usize, all: usize) -> f64 {
+    -math::log2(own as f64 / all as f64)
+}
+
 /// The rows of a part by their class, as they come and go.
 #[derive(Clone, Debug)]
 pub struct Mixture {

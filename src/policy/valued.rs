@@ -4,6 +4,7 @@
 //! one input whether it is at most a number, or has a value; [`comparisons`](Valued::comparisons) chooses as many as it takes to
 //! tell apart the rows that do different things, and [`table`](Valued::table) gives the rows over them.
 
+mod boxes;
 mod builder;
 mod cart;
 mod coded;
@@ -98,6 +99,17 @@ impl Valued {
     pub fn allowed(&self, row: usize) -> &[u32] {
         let at = self.decided.get(row..).and_then(|rest| rest.first());
         at.map_or(&[], |number| self.behaviors.all(number))
+    }
+
+    /// Whether all of these rows allow one behaviour.
+    fn agree(&self, rows: &[u32]) -> bool {
+        let mut rows = rows.iter().map(|row| self.allowed(*row as usize));
+        let Some(first) = rows.next() else {
+            return true;
+        };
+        let all = first.iter();
+        let mut all = all.filter(|behavior| rows.clone().all(|row| row.contains(behavior)));
+        all.next().is_some()
     }
 
     /// The inputs: the columns that hold more than 0 and 1, by their numbers.

@@ -49,7 +49,7 @@ pub fn doc(grown: &Grown, program: &Program, task: &Task) -> String {
     )
 }
 
-/// `a gain of 0.42 % (95 %: 0.30 to 0.54 %)`, or a loss.
+/// `a gain of 0.42 % (95 %: 0.30 to 0.54 %)`, `a loss of 0.1 % (95 %: a gain of 0.2 to a loss of 0.4 %)`.
 fn verdict(grown: &Grown) -> String {
     change(grown.gain, grown.before.summary.total.mean)
 }
@@ -67,21 +67,26 @@ fn change(gain: Mean, over: f64) -> String {
     if gain.mean.abs() <= least && gain.ci95.iter().all(|end| end.abs() <= least) {
         return "no difference in any of them".to_owned();
     }
-    let (word, sign) = if gain.mean < 0.0 {
-        ("loss", -1.0)
+    let (word, other, sign) = if gain.mean < 0.0 {
+        ("loss", "gain", -1.0)
     } else {
-        ("gain", 1.0)
+        ("gain", "loss", 1.0)
     };
     let mut ends = gain.ci95.map(|end| sign * end);
     ends.sort_by(f64::total_cmp);
     let [low, high] = ends;
     let mean = sign * gain.mean;
-    if !is_part_of((low, mean, high), total) {
-        return format!("a {word} of {mean:.3} (95 %: {low:.3} to {high:.3})");
-    }
-    let scale = 100.0 / total;
-    let (mean, low, high) = (scale * mean, scale * low, scale * high);
-    format!("a {word} of {mean:.2} % (95 %: {low:.2} to {high:.2} %)")
+    let (scale, places, percent) = match is_part_of((low, mean, high), total) {
+        true => (100.0 / total, 2, " %"),
+        false => (1.0, 3, ""),
+    };
+    let figure = |value: f64| format!("{:.places$}", scale * value);
+    let (mean, high) = (figure(mean), figure(high));
+    let between = match low < 0.0 {
+        true => format!("a {other} of {} to a {word} of {high}", figure(-low)),
+        false => format!("{} to {high}", figure(low)),
+    };
+    format!("a {word} of {mean}{percent} (95 %: {between}{percent})")
 }
 
 /// What the best tree of the file does on the same episodes: `hand, of 18 nodes, returns 137.240; against it, a loss of …`.

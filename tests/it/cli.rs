@@ -494,3 +494,79 @@ fn the_answers_of_verify_are_a_document() {
     let document: serde_json::Value = serde_json::from_slice(&learned.stdout).unwrap();
     assert!(document["claims"][0]["answer"].is_null(), "{document}");
 }
+
+/// What a command reads it does not write over, and no two outputs go to one file.
+#[test]
+fn outputs_are_files_of_their_own() {
+    let folder = tempfile::tempdir().unwrap();
+    let own = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (program, table, covers) = (own("p.bt"), own("t.csv"), own("c.pla"));
+    let text = "input x: number\npredicate p = x > 1\nbehavior a\nbehavior b\ntree t = selector { p => a, b }\n";
+    fs::write(&program, text).unwrap();
+    fs::write(&table, "p,action\n0,a\n1,b\n").unwrap();
+    fs::write(&covers, ".i 1\n.o 1\n1 1\n.e\n").unwrap();
+    let small = own("small.bt");
+    fs::copy(SMALL, &small).unwrap();
+    let (small, picture) = (small.as_str(), own("way.svg"));
+    let (program, table, covers) = (program.as_str(), table.as_str(), covers.as_str());
+    let wrong = [
+        &[
+            "compile", program, "--emit", "btcpp", "--tree", "t", "-o", program,
+        ][..],
+        &["canonicalize", program, "--tree", "t", "-o", program],
+        &["decanonicalize", table, "-o", table],
+        &["decanonicalize", table, "--program", program, "-o", program],
+        &["minimize", covers, "-o", covers],
+        &["run", small, "--tree", "expert", "--svg", small],
+        &[
+            "run", small, "--tree", "expert", "--svg", &picture, "--trace", &picture,
+        ],
+    ];
+    for arguments in wrong {
+        let before: Vec<String> = [program, table, covers, small]
+            .map(|path| fs::read_to_string(path).unwrap())
+            .to_vec();
+        let output = btc(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(err(&output).contains("would overwrite"), "{}", err(&output));
+        let after = [program, table, covers, small].map(|path| fs::read_to_string(path).unwrap());
+        assert_eq!(before, after, "{arguments:?}");
+    }
+    let other = own("other.bt");
+    let output = btc(&["decanonicalize", table, "-o", &other]);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+}
+
+/// A folder that cannot be read is no folder without programs; what is no file is no program.
+#[cfg(unix)]
+#[test]
+fn folders_are_read_or_told() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().to_str().unwrap();
+    fs::create_dir(folder.path().join("pipe.bt")).unwrap();
+    fs::copy(SMALL, folder.path().join("small.bt")).unwrap();
+    assert_eq!(btc(&["check", path]).status.code(), Some(0));
+    let closed = folder.path().join("closed");
+    fs::create_dir(&closed).unwrap();
+    fs::set_permissions(&closed, fs::Permissions::from_mode(0o000)).unwrap();
+    // Nothing is closed to the one who administers the system.
+    if fs::read_dir(&closed).is_err() {
+        let output = btc(&["check", path]);
+        assert_eq!(output.status.code(), Some(1));
+        assert!(err(&output).contains("closed"), "{}", err(&output));
+    }
+    fs::set_permissions(&closed, fs::Permissions::from_mode(0o755)).unwrap();
+}
+
+/// The last of all seeds is one like any other.
+#[test]
+fn the_greatest_seed_learns() {
+    let folder = tempfile::tempdir().unwrap();
+    let most = u64::MAX.to_string();
+    let place = folder.path().to_str().unwrap();
+    let asked = ["learn", SMALL, "-o", place, "--seed", &most, "--seeds", "2"];
+    let short = ["--episodes", "300", "--effort", "100k", "--roll-outs", "50"];
+    let output = btc(&[&asked[..], &short[..]].concat());
+    assert!(out(&output).contains("tree learned"), "{}", err(&output));
+}

@@ -299,7 +299,7 @@ fn shaped(
     let options = learn::Options {
         learner: None,
         seed: None,
-        seeds: 1,
+        seeds: Some(1),
         episodes,
         evidence: 1,
         method: Method::Search,

@@ -3,6 +3,7 @@
 use crate::check::Checker;
 use crate::check::context::{Binding, Context, Region};
 use crate::check::expr::plain_ref;
+use crate::check::lint::Mentions;
 use crate::check::members::{Member, Robots};
 use crate::check::names::Decl;
 use crate::check::types::{Type, Typed, Value};
@@ -128,13 +129,12 @@ impl<'a> Checker<'a> {
                     Some(reference) => self.ranges(reference),
                     None => Some(vec![Vec::new()]),
                 };
-                let effects = self.for_each_member(scopes.unwrap_or_default(), |checker, _| {
+                self.for_each_member(scopes.unwrap_or_default(), |checker, _| {
                     checker.context.region = Region::Event;
                     let when = checker.waited_for(event);
                     checker.asks(event.span, when.scalar());
-                    checker.effect(when.scalar(), &on.block)
+                    checker.effect(when.scalar(), &on.block);
                 });
-                self.program.effects.extend(effects.into_iter().flatten());
             }
             Trigger::Family { name, params } => self.on_family(name, params, &on.block),
         }
@@ -158,8 +158,24 @@ impl<'a> Checker<'a> {
         self.coerce(typed, event, &Type::Bool, role)
     }
 
+    /// Whether a value reads what a family of events is about, by a name that nothing else has.
+    pub fn reads_parameter_of(&self, event: &'a ast::Expr, value: &'a ast::Expr) -> bool {
+        let named = plain_ref(event).map(|event| event.name.name.as_str());
+        let Some((Decl::Event(family), _)) = named.and_then(|name| self.names.value(name, false))
+        else {
+            return false;
+        };
+        let mut read = Mentions::default();
+        read.expr(value);
+        let mut params = family.params.iter().flat_map(|params| &params.params);
+        params.any(|param| {
+            let name = param.name.name.as_str();
+            read.read.contains(name) && self.may_bind(name)
+        })
+    }
+
     /// Whether a name that stands for a member may be meant to bind it: nothing is called so, nor nearly so.
-    fn may_bind(&self, name: &str) -> bool {
+    pub fn may_bind(&self, name: &str) -> bool {
         let members = |decl: Decl<'_>| {
             matches!(
                 decl,
@@ -228,10 +244,14 @@ impl<'a> Checker<'a> {
     }
 
     /// What is done where a condition holds, in the scope at hand.
-    fn effect(&mut self, on: Option<ExprId>, block: &'a ast::Block) -> Option<Effect> {
+    fn effect(&mut self, on: Option<ExprId>, block: &'a ast::Block) {
         self.context.region = Region::Effect;
-        let block = self.block(block)?;
-        Some(Effect { on: on?, block })
+        self.assignments.clear();
+        let (Some(done), Some(on)) = (self.block(block), on) else {
+            return;
+        };
+        self.done_by_effect(&block.stmts);
+        self.program.effects.push(Effect { on, block: done });
     }
 
     /// `on name(params) { … }`: for each member, with the parameters bound to what the event is about.
@@ -257,13 +277,13 @@ impl<'a> Checker<'a> {
         };
         let family = self.events.get(name.name.as_str()).cloned();
         let family = family.unwrap_or_default();
-        let effects = self.for_each_member(scopes, |checker, scope| {
+        self.for_each_member(scopes, |checker, scope| {
             let codes = checker.member_codes(scope)?;
             let member = family.iter().find(|member| member.codes == codes)?;
             let on = checker.program.pool.leaf(ir::Expr::Event(member.is));
-            checker.effect(Some(on), block)
+            checker.effect(Some(on), block);
+            Some(())
         });
-        self.program.effects.extend(effects.into_iter().flatten());
     }
 
     /// Whether what an `on` binds agrees with the parameters of its family; reported if not.

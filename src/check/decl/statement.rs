@@ -3,6 +3,7 @@
 use crate::check::Checker;
 use crate::check::builtin::BuiltIn;
 use crate::check::context::{Binding, Region};
+use crate::check::lint::is_nameless;
 use crate::check::names::{Decl, START_WORDS, is_built_in};
 use crate::check::types::units::Dim;
 use crate::check::types::{Type, Value};
@@ -53,7 +54,7 @@ impl<'a> Checker<'a> {
                 block,
             } => self.for_stmt(name, domain, block),
             StmtKind::Branch(branch) => self.branch(branch, &mut Vec::new()).map(|stmt| vec![stmt]),
-            StmtKind::Assign { target, op, value } => self.assign(target, *op, value),
+            StmtKind::Assign { target, op, value } => self.assign(stmt.span, target, *op, value),
             StmtKind::Call(call) => self.call_stmt(call).map(|stmt| vec![stmt]),
             StmtKind::Error => None,
         }
@@ -129,6 +130,7 @@ impl<'a> Checker<'a> {
 
     fn assign(
         &mut self,
+        at: Span,
         target: &'a Ref,
         op: ast::Spanned<AssignOp>,
         value: &'a ast::Expr,
@@ -141,6 +143,7 @@ impl<'a> Checker<'a> {
             self.set_to_itself(target, value);
         }
         let role = format!("`{}`", target.name.name);
+        let is_nameless = is_nameless(value);
         if op.node != AssignOp::Set && ty.dim().is_none() && ty != Type::Error {
             self.error(
                 Code::E0302,
@@ -175,11 +178,19 @@ impl<'a> Checker<'a> {
         if parts.is_empty() || slots.is_empty() {
             return None;
         }
+        if is_nameless {
+            self.changes_by(at, op.node, &parts);
+        }
         // What is set everywhere needs no branch.
         let everywhere = |pool: &Pool, is| pool.constant(is) == Some(1.0);
         if let [(is, slots)] = slots.as_slice()
             && everywhere(&self.program.pool, *is)
         {
+            if let ([Slot::State(state)], [part], AssignOp::Set) =
+                (slots.as_slice(), parts.as_slice(), op.node)
+            {
+                self.assigns(at, *state, *part);
+            }
             stmts.extend(self.set(slots, op.node, &parts));
             return Some(stmts);
         }

@@ -38,10 +38,20 @@ impl<'a> Checker<'a> {
         let runs = function == Function::Running && region == Region::EachTick;
         if !region.sees_events() && !runs && !matches!(region, Region::StartHistory | Region::Let) {
             let message = format!("`{}` cannot be asked in {}", function.name(), region.name());
+            let (label, help) = match function {
+                Function::Running => (
+                    "only events, effects and rewards see what runs",
+                    "remember it in a state: `each tick { busy = running(…) }`",
+                ),
+                _ => (
+                    "only events, effects and rewards see a behaviour end",
+                    "remember it in a state: `on success(…) { seen = true }`",
+                ),
+            };
             return self
                 .error(Code::E0307, reference.name.span, message)
-                .label("only events, effects and rewards see a behaviour end")
-                .help("remember it in a state: `on success(…) { seen = true }`")
+                .label(label)
+                .help(help)
                 .none();
         }
         if function == Function::Running && region == Region::StartHistory {
@@ -76,12 +86,11 @@ impl<'a> Checker<'a> {
         }
         if let Value::Behavior(behavior) = behavior.value
             && !self.context.library
-            && status != Status::Running
         {
             self.endings.insert(Asked {
                 span,
                 behavior,
-                failure: status == Status::Failure,
+                status,
             });
         }
         if region == Region::StartHistory {

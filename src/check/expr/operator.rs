@@ -303,6 +303,7 @@ impl<'a> Checker<'a> {
         };
         self.warn_plain_ratio(left, &b.ty);
         self.warn_plain_ratio(right, &a.ty);
+        self.equal_to(op, left, [&a, &b]);
         let constant = |of: &Typed| of.scalar().and_then(|id| self.program.pool.constant(id));
         // Two measures may be of one thing.
         let exact = match op.node {

@@ -135,6 +135,11 @@ impl Cases {
         }
     }
 
+    /// Whether all of its cases, as far as they are known, are so.
+    pub fn all(&self, is_so: impl FnMut(&Case) -> bool) -> bool {
+        matches!(self, Self::Some(cases) if cases.iter().all(is_so))
+    }
+
     /// Whether the other one holds wherever this one does; false where that is not known.
     pub fn implies(&self, other: &Self) -> bool {
         match (self, other) {

@@ -1,38 +1,91 @@
-//! Claims that speak of more time than there is.
+//! Claims that speak of more time than there is, or cannot hold.
 
 use crate::check::Checker;
 use crate::check::tree::written;
 use crate::diagnostic::Code;
 use crate::ir::Id;
-use crate::ir::task::{ClaimKind, Task, TreeRef};
-use crate::syntax::ast::{Item, ItemKind};
+use crate::ir::task::{ClaimKind, Occurrence, Task, TreeRef};
+use crate::ir::tree::Atom;
+use crate::syntax::ast::{Claim, ClaimWhat, Item, ItemKind};
 
 impl<'a> Checker<'a> {
-    /// `within` a time that no episode of the task lasts.
-    pub fn claims_beyond_episodes(&mut self, items: impl Iterator<Item = &'a Item>) {
+    /// Warns of claims that say no more, or can be no more, than it looks.
+    pub fn claims_in_vain(&mut self, items: impl Iterator<Item = &'a Item>) {
         for item in items {
             let ItemKind::Claim(claim) = &item.kind else {
                 continue;
             };
             let text = written(claim);
             let checked = self.program.claims.iter().find(|found| found.text == text);
-            let Some((time, checked)) = claim.within.as_ref().zip(checked) else {
+            let Some(checked) = checked.cloned() else {
                 continue;
             };
-            let (ClaimKind::Never(occurrence) | ClaimKind::Reaches(occurrence)) = &checked.kind
-            else {
-                continue;
-            };
-            let limit = self
-                .claimed_in(checked.tree)
-                .map(|task| self.program.tasks[task].end_after);
-            if let Some(limit) = limit.filter(|limit| occurrence.within > Some(*limit)) {
-                self.warning(Code::W0512, time.span, "no episode lasts so long")
-                    .label("so the claim is about whole episodes")
-                    .note(format!("an episode ends after {limit} ticks"))
-                    .help("leave `within` out, or let `end after` be as late");
+            match &checked.kind {
+                ClaimKind::Equals(other) => {
+                    self.cannot_be_equal(claim, checked.tree, *other);
+                    self.cannot_be_equal(claim, *other, checked.tree);
+                }
+                ClaimKind::Never(occurrence) | ClaimKind::Reaches(occurrence) => {
+                    self.beyond_episodes(claim, checked.tree, occurrence);
+                }
             }
         }
+    }
+
+    /// `within` a time that no episode of the task lasts.
+    fn beyond_episodes(&mut self, claim: &'a Claim, tree: TreeRef, occurrence: &Occurrence) {
+        let limit = self
+            .claimed_in(tree)
+            .map(|task| self.program.tasks[task].end_after);
+        if let Some(time) = &claim.within
+            && let Some(limit) = limit.filter(|limit| occurrence.within > Some(*limit))
+        {
+            self.warning(Code::W0512, time.span, "no episode lasts so long")
+                .label("so the claim is about whole episodes")
+                .note(format!("an episode ends after {limit} ticks"))
+                .help("leave `within` out, or let `end after` be as late");
+        }
+    }
+
+    /// A learned tree is to be equal to one that asks or runs what its task does not offer.
+    fn cannot_be_equal(&mut self, claim: &'a Claim, learned: TreeRef, other: TreeRef) {
+        let (TreeRef::Learned(learner), TreeRef::Tree(tree)) = (learned, other) else {
+            return;
+        };
+        let program = &self.program;
+        let id = program.learners[learner].task;
+        let (task, tree) = (&program.tasks[id], &program.trees[tree]);
+        let known = program.atoms(id);
+        let mut unknown = None;
+        tree.root.visit_atoms(&mut |atom| {
+            unknown = unknown.or((!known.contains(&atom)).then_some(atom));
+        });
+        let why = match (unknown, task.lacks(tree)) {
+            (Some(atom), _) => {
+                let seen = match atom {
+                    Atom::Predicate(_) => format!("`{}` does not observe", task.name),
+                    Atom::Done(_) | Atom::Failed(_) => {
+                        format!("the history of `{}` does not keep", task.name)
+                    }
+                };
+                format!("it asks `{}`, which {seen}", program.atom_name(atom))
+            }
+            (None, Some(behavior)) => {
+                let name = &program.behaviors[behavior].name;
+                format!("it runs `{name}`, which `{}` does not choose", task.name)
+            }
+            (None, None) => return,
+        };
+        let ClaimWhat::Equals(right) = &claim.what else {
+            return;
+        };
+        let at = [&claim.tree, right].into_iter();
+        let mut at = at.filter(|name| tree.name.is(&name.name));
+        let Some(at) = at.next() else {
+            return;
+        };
+        let message = format!("no tree that is learned is equal to `{}`", at.name);
+        self.warning(Code::W0526, at.span, message).label(why);
     }
 
     /// The task that a claim on a tree is tested in; `None` if that is not clear.

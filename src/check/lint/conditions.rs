@@ -258,7 +258,7 @@ fn parts(pool: &Pool, id: ExprId) -> impl Iterator<Item = ExprId> {
 }
 
 /// Whether an expression is written without any name.
-fn is_nameless(expr: &ast::Expr) -> bool {
+pub fn is_nameless(expr: &ast::Expr) -> bool {
     match &expr.kind {
         ExprKind::Number(_) | ExprKind::Bool(_) => true,
         ExprKind::Paren(inner) | ExprKind::Unary { operand: inner, .. } => is_nameless(inner),

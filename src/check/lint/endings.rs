@@ -16,8 +16,8 @@ pub struct Asked {
     pub span: Span,
     /// The behaviour.
     pub behavior: Id<Behavior>,
-    /// Whether it asks for a failure.
-    pub failure: bool,
+    /// How it is to have ended, or that it runs.
+    pub status: Status,
 }
 
 impl Checker<'_> {
@@ -26,32 +26,35 @@ impl Checker<'_> {
         by_others(&self.program)
     }
 
-    /// `success(b)`, `failure(b)`, `done(b)`, `failed(b)` of a behaviour that never ends so, or that nothing runs: one
-    /// message for each behaviour and outcome. Where one text stands for a family, one member that may end so is enough.
+    /// `success(b)`, `failure(b)`, `done(b)`, `failed(b)` of a behaviour that never ends so: one message for each behaviour and
+    /// outcome. These and `running(b)` of one that nothing runs: one message for each. Where one text stands for a family, one
+    /// member of which it may hold is enough.
     pub fn endings_that_never_come(&mut self) {
         let run = run(&self.program);
         let asked = std::mem::take(&mut self.endings);
+        let ends = |asked: &Asked| match asked.status {
+            Status::Running => true,
+            status => self.program.may_end(asked.behavior, status),
+        };
         let may = |asked: &&Asked| {
-            let status = status(asked.failure);
-            self.program.may_end(asked.behavior, status)
-                && run.as_ref().is_none_or(|run| run.contains(&asked.behavior))
+            ends(asked) && run.as_ref().is_none_or(|run| run.contains(&asked.behavior))
         };
         let come: BTreeSet<Span> = asked.iter().filter(may).map(|asked| asked.span).collect();
-        let mut places: BTreeMap<(Id<Behavior>, bool), Vec<Span>> = BTreeMap::new();
+        let mut places: BTreeMap<(Id<Behavior>, Option<Status>), Vec<Span>> = BTreeMap::new();
         for asked in asked.iter().filter(|asked| !come.contains(&asked.span)) {
-            let key = (asked.behavior, asked.failure);
+            let never_ends = (!ends(asked)).then_some(asked.status);
+            let key = (asked.behavior, never_ends);
             places.entry(key).or_default().push(asked.span);
         }
-        for ((behavior, failure), places) in places {
+        for ((behavior, never_ends), places) in places {
             let Some((&first, more)) = places.split_first() else {
                 continue;
             };
             let name = self.program.behaviors[behavior].name.clone();
-            let draft = if !self.program.may_end(behavior, status(failure)) {
-                let (verb, clause) = if failure {
-                    ("fails", "neither `requires` nor `fail when`")
-                } else {
-                    ("succeeds", "no `succeed when` that can hold")
+            let draft = if let Some(status) = never_ends {
+                let (verb, clause) = match status {
+                    Status::Failure => ("fails", "neither `requires` nor `fail when`"),
+                    _ => ("succeeds", "no `succeed when` that can hold"),
                 };
                 self.error(Code::E0611, first, format!("`{name}` never {verb}"))
                     .note(format!("it has {clause}"))
@@ -99,13 +102,6 @@ impl Checker<'_> {
                 .fold(draft, |draft, place| draft.also(*place, "nor does this"))
                 .emit();
         }
-    }
-}
-
-fn status(failure: bool) -> Status {
-    match failure {
-        true => Status::Failure,
-        false => Status::Success,
     }
 }
 

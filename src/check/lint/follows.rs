@@ -11,7 +11,8 @@ use std::collections::{BTreeMap, BTreeSet};
 impl<'a> Checker<'a> {
     /// Takes back the warnings of conditions and states that hang on something with a slip in it.
     pub fn without_what_follows(&mut self, items: impl Iterator<Item = &'a Item>) {
-        let is_slip = |found: &&Diagnostic| matches!(found.code, Code::W0102 | Code::W0303);
+        let is_slip =
+            |found: &&Diagnostic| matches!(found.code, Code::W0102 | Code::W0303 | Code::W0308);
         let mut slips = Places::default();
         let found = self.diagnostics.iter().filter(is_slip);
         found.for_each(|slip| slips.add(slip.span()));
@@ -33,6 +34,10 @@ impl<'a> Checker<'a> {
             mentions.set.extend(own_name(item));
             if slips.overlap(item.span) {
                 open.extend(&mentions.set);
+            }
+            // That a state never changes is told of its declaration.
+            if let ItemKind::State(state) = &item.kind {
+                mentions.read.insert(&state.name.name);
             }
             for name in mentions.read {
                 readers.entry(name).or_default().push(all.len());

@@ -1,22 +1,18 @@
 //! Rewards that are never paid, ends that count for nothing, and times that never pass.
 
 use super::cases::{About, Case, Cases, Says, of_expr};
-use super::interval::Interval;
-use super::ranges::range;
 use super::repaid;
 use super::tree::as_it_succeeds;
-use super::view::View;
 use crate::check::Checker;
 use crate::check::expr::plain_ref;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::expr::{Expr, ExprId};
 use crate::ir::law::Behavior;
-use crate::ir::task::{Discount, Learner, Objective, Task};
+use crate::ir::task::Task;
 use crate::ir::{Id, Name};
-use crate::math;
 use crate::source::Span;
 use crate::syntax::ast::{
-    self, AspectKind, BinaryOp, ExprKind, Item, ItemKind, LearnEntry, Paid, RewardLine, UnaryOp,
+    self, AspectKind, BinaryOp, ExprKind, Item, ItemKind, Paid, RewardLine, UnaryOp,
 };
 use crate::syntax::print;
 use std::collections::{BTreeMap, BTreeSet};
@@ -24,33 +20,17 @@ use std::collections::{BTreeMap, BTreeSet};
 /// How many lines of a task are held against each line; of what comes after them, nothing is said.
 const MOST: usize = 128;
 
-/// A discount is hardly less where it says what is left.
-const SMALL: f64 = 0.3;
-
-/// Of an episode's time, what comes after so small a part of it is to count for something.
-const SHORT: f64 = 50.0;
-
 impl<'a> Checker<'a> {
     /// Warns of what a task says about rewards, ends and times without any effect.
     pub fn rewards_without_effect(&mut self, items: impl Iterator<Item = &'a Item>) {
         let happen = self.families_that_happen();
         for item in items {
-            match &item.kind {
-                ItemKind::Task(task) => {
-                    let name = Name::word(&task.name.name);
-                    if let Some(id) = self.program.tasks.named(&name) {
-                        self.rewards_of(task, id, &happen);
-                    }
-                }
-                ItemKind::Learn(learn) => {
-                    self.dwells_too_long(learn);
-                    self.sums_without_end(learn);
-                    self.learns_nothing(learn);
-                    self.tries_nothing(learn);
-                    self.looks_no_further(learn);
-                    self.looks_next_to_nowhere(learn);
-                }
-                _ => {}
+            let ItemKind::Task(task) = &item.kind else {
+                continue;
+            };
+            let name = Name::word(&task.name.name);
+            if let Some(id) = self.program.tasks.named(&name) {
+                self.rewards_of(task, id, &happen);
             }
         }
     }
@@ -382,142 +362,6 @@ impl<'a> Checker<'a> {
             self.tells(cause);
         }
     }
-
-    fn learner(&self, learn: &ast::Learn) -> Option<&Learner> {
-        let name = Name::word(crate::check::learned_name(learn));
-        let id = self.program.learners.named(&name)?;
-        Some(&self.program.learners[id])
-    }
-
-    /// A discount of 1 where nothing ends an episode but its limit: the learner does not know the limit.
-    fn sums_without_end(&mut self, learn: &'a ast::Learn) {
-        let Some(learner) = self.learner(learn) else {
-            return;
-        };
-        let factor = match learner.objective {
-            Objective::Discounted(Discount::PerDecision(factor) | Discount::PerTime(factor, _)) => {
-                factor
-            }
-            Objective::Average(_) => return,
-        };
-        let ends = !self.program.tasks[learner.task].end_on.is_empty();
-        if let Some(setting) = setting(learn, "discount").filter(|_| factor >= 1.0 && !ends) {
-            self.warning(Code::W0516, setting.value.span, "what is learned is a sum without an end")
-                .label("nothing counts less for being late")
-                .note("no event ends an episode, and the learner does not know of the limit of its ticks")
-                .help("let it be less than 1, such as `0.95 per decision`, or say `objective = average per 1 s` with `method = model`");
-        }
-    }
-
-    /// A rate of 0: no update changes anything.
-    fn learns_nothing(&mut self, learn: &'a ast::Learn) {
-        let rate = self.learner(learn).map(|learner| learner.rate);
-        let rate = rate.and_then(|rate| self.program.pool.constant(rate));
-        if let Some(setting) = setting(learn, "rate").filter(|_| rate == Some(0.0)) {
-            self.warning(
-                Code::W0517,
-                setting.value.span,
-                "at this rate nothing is learned",
-            )
-            .label("no update changes what was known before")
-            .help("write a rate above 0, such as `0.1` or `visits^-0.7`");
-        }
-    }
-
-    /// A share of 0 for what is tried: whatever looks best first is done ever after. Where all looks better than it is at
-    /// first, as `initial` may have it, everything is tried all the same.
-    fn tries_nothing(&mut self, learn: &'a ast::Learn) {
-        let explore = self.learner(learn).map(|learner| learner.explore);
-        let explore = explore.map(|explore| range(View::from(&self.program), explore));
-        let hopes = setting(learn, "initial").is_some();
-        let setting = setting(learn, "explore");
-        if let Some(setting) = setting.filter(|_| explore == Some(Interval::just(0.0)) && !hopes) {
-            self.warning(Code::W0517, setting.value.span, "nothing is tried")
-                .label("in each episode the robot does what looks best so far")
-                .help("write a share above 0, such as `35% -> 5%`");
-        }
-    }
-
-    /// A discount of 0: what a decision leads to counts for nothing.
-    fn looks_no_further(&mut self, learn: &'a ast::Learn) {
-        let objective = self.learner(learn).map(|learner| learner.objective);
-        let factor = match objective {
-            Some(Objective::Discounted(
-                Discount::PerDecision(factor) | Discount::PerTime(factor, _),
-            )) => factor,
-            _ => return,
-        };
-        if let Some(setting) = setting(learn, "discount").filter(|_| factor == 0.0) {
-            self.warning(
-                Code::W0517,
-                setting.value.span,
-                "nothing counts but the reward of the decision itself",
-            )
-            .label("what it leads to is not looked at")
-            .help("write a discount above 0, such as `0.95 per decision`");
-        }
-    }
-
-    /// A discount after which next to nothing is left of what comes soon.
-    fn looks_next_to_nowhere(&mut self, learn: &'a ast::Learn) {
-        let Some(learner) = self.learner(learn) else {
-            return;
-        };
-        let (factor, after) = match learner.objective {
-            Objective::Discounted(Discount::PerDecision(factor)) => (factor, None),
-            Objective::Discounted(Discount::PerTime(factor, seconds)) => (factor, Some(seconds)),
-            Objective::Average(_) => return,
-        };
-        let Some(setting) = setting(learn, "discount") else {
-            return;
-        };
-        let tick = self.tick.unwrap_or(1.0);
-        let episode = learner.episode_ticks as f64 * tick;
-        let is_short = after.is_none_or(|after| -after / math::ln(factor) < episode / SHORT);
-        if factor <= 0.0 || factor > SMALL || !is_short {
-            return;
-        }
-        let per = match &setting.tail {
-            Some((_, tail)) => print::expr(tail),
-            None => "decision".to_owned(),
-        };
-        let percent = (factor * 1e3).round() / 10.0;
-        let kept = ((1.0 - factor) * 1e9).round() / 1e9;
-        let when = match after {
-            None => "one decision later".to_owned(),
-            Some(_) => format!("{per} later"),
-        };
-        self.warning(
-            Code::W0524,
-            setting.value.span,
-            "next to nothing counts but what comes at once",
-        )
-        .label(format!("what comes {when} counts for {percent}%"))
-        .help(format!(
-            "a discount is what is left, not what is lost: `{kept} per {per}`"
-        ));
-    }
-
-    fn dwells_too_long(&mut self, learn: &'a ast::Learn) {
-        let learner = self.learner(learn);
-        let Some((dwell, episode)) = learner.map(|learner| (learner.dwell, learner.episode_ticks))
-        else {
-            return;
-        };
-        if let Some(setting) = setting(learn, "dwell").filter(|_| dwell >= episode) {
-            self.warning(Code::W0512, setting.value.span, "no episode lasts so long")
-                .label("so there is one decision in each episode")
-                .note(format!("an episode of learning ends after {episode} ticks"));
-        }
-    }
-}
-
-/// The setting of that name.
-fn setting<'a>(learn: &'a ast::Learn, name: &str) -> Option<&'a ast::Setting> {
-    learn.entries.iter().find_map(|entry| match entry {
-        LearnEntry::Setting(setting) if setting.name.name == name => Some(setting),
-        _ => None,
-    })
 }
 
 /// What lines of `reward` wait for the absence of.

@@ -443,7 +443,8 @@ fn of_start(start: &[StartLine], found: &mut Set) {
     }
 }
 
-fn of_block(block: &Block, robot: Id<Robot>, found: &mut Set) {
+/// What sets each state in a block.
+pub fn of_block(block: &Block, robot: Id<Robot>, found: &mut Set) {
     for statement in &block.0 {
         match statement {
             Stmt::SetState(state, value) => {

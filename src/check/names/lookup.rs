@@ -108,6 +108,23 @@ impl<'a> Checker<'a> {
         self.program.tasks.named(&name)
     }
 
+    /// Reports the name of an enum or of a kind where one of its members is needed.
+    pub fn not_one_of_them(&mut self, name: &Ident) -> Draft<'_> {
+        let what = self.names.types.get(name.name.as_str());
+        let what = what.map_or("a type", |ty| ty.what());
+        let help = match what {
+            "an enum" => format!(
+                "name one of its variants, or range over all: `x in {}`",
+                name.name
+            ),
+            _ => format!("name one of them, or range over all: `x in {}`", name.name),
+        };
+        let message = format!("`{}` is {what}, not one of them", name.name);
+        self.error(Code::E0203, name.span, message)
+            .label("one is needed here")
+            .help(help)
+    }
+
     /// Reports an undeclared name where a `what` is expected, unless its declaration was not understood; `likely` is the name that was probably meant.
     pub fn undeclared(&mut self, name: &Ident, what: &str, likely: Option<&str>) -> Draft<'_> {
         if self.may_be_lost(&name.name) {
@@ -116,19 +133,8 @@ impl<'a> Checker<'a> {
         if self.lacks_library(&name.name) {
             return self.library_is_missing(name);
         }
-        if let Some(what) = self.names.types.get(name.name.as_str()).map(|ty| ty.what()) {
-            let help = match what {
-                "an enum" => format!(
-                    "name one of its variants, or range over all: `x in {}`",
-                    name.name
-                ),
-                _ => format!("name one of them, or range over all: `x in {}`", name.name),
-            };
-            let message = format!("`{}` is {what}, not one of them", name.name);
-            return self
-                .error(Code::E0203, name.span, message)
-                .label("one is needed here")
-                .help(help);
+        if self.names.types.contains_key(name.name.as_str()) {
+            return self.not_one_of_them(name);
         }
         if let Some((is, help)) = self.of_another_space(&name.name, what) {
             return self
@@ -389,7 +395,12 @@ fn hint(name: &str, what: &str) -> Option<String> {
                 "hour" => "h",
                 unit => unit,
             };
-            format!("a unit follows a number, in one piece: `1 {unit}`, `1 m/s`")
+            match name {
+                "s" | "ms" | "cm" | "mm" | "deg" | "rad" => {
+                    format!("a unit follows a number, in one piece: `1 {unit}`, `1 m/s`")
+                }
+                _ => format!("a unit follows a number, in one piece: `1 {unit}`, `per 1 {unit}`"),
+            }
         }
         "s2" | "m2" | "cm2" => {
             let unit = name.trim_end_matches('2');

@@ -99,8 +99,8 @@ fn tried(pool: &Pool, id: ExprId) -> impl Iterator<Item = ([f64; 2], f64)> + '_ 
     points.map(move |at| (at, value(pool, id, at)))
 }
 
-/// The value of a schedule.
-fn value(pool: &Pool, id: ExprId, at: [f64; 2]) -> f64 {
+/// The value of a schedule at these visits and this progress.
+pub fn value(pool: &Pool, id: ExprId, at: [f64; 2]) -> f64 {
     // Operands stand before the nodes that use them, and what is shared is computed once.
     let mut values = rustc_hash::FxHashMap::default();
     let mut open = vec![id];

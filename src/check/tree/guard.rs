@@ -6,7 +6,7 @@ use crate::check::lint::Asked;
 use crate::check::names::{Decl, is_built_in};
 use crate::check::types::Type;
 use crate::diagnostic::{Applicability, Code};
-use crate::ir::tree::{Atom, Guard};
+use crate::ir::tree::{Atom, Guard, Status};
 use crate::source::Span;
 use crate::spelling::spelled;
 use crate::syntax::ast::{BinaryOp, Expr, ExprKind, Outcome, Ref, UnaryOp};
@@ -249,7 +249,10 @@ impl<'a> Checker<'a> {
         self.endings.insert(Asked {
             span: reference.span,
             behavior: id,
-            failure: outcome == Outcome::Failure,
+            status: match outcome {
+                Outcome::Success => Status::Success,
+                Outcome::Failure => Status::Failure,
+            },
         });
         Some(match outcome {
             Outcome::Success => Atom::Done(id),

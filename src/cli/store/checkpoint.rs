@@ -1,5 +1,6 @@
 //! The states of a run in the folder of its results, in `.btc-checkpoint`: a file for each part, written whole.
 
+use super::super::report::tell;
 use super::disk::Disk;
 use super::{file, stale};
 use crate::checkpoint::Keeper;
@@ -20,6 +21,14 @@ const RUN: &str = "run.json";
 
 /// The end of the names of states.
 const STATE: &str = ".state";
+
+/// The files that are of use by themselves.
+const PUBLISHED: [&str; 3] = ["policy.csv", "q.csv", "transitions.csv"];
+
+/// Whether a run keeps files of this name.
+pub fn keeps(name: &str) -> bool {
+    name == RUN || name.ends_with(STATE) || PUBLISHED.contains(&name)
+}
 
 /// What a run is of: the program, the options. Two runs that agree in all of this come to the same end.
 pub type Run = BTreeMap<String, String>;
@@ -43,8 +52,8 @@ struct Kept {
     parts: BTreeMap<String, Instant>,
     /// Whether the folder is ready to be written to.
     ready: bool,
-    /// Why nothing more is kept.
-    broken: Option<String>,
+    /// Whether it was told that a state could not be kept.
+    told: bool,
 }
 
 /// Why a run cannot be resumed.
@@ -76,7 +85,7 @@ impl<'d> Checkpoint<'d> {
                 start: Instant::now(),
                 parts: BTreeMap::new(),
                 ready: false,
-                broken: None,
+                told: false,
             }),
         }
     }
@@ -86,7 +95,8 @@ impl<'d> Checkpoint<'d> {
     /// # Errors
     /// There are none, or those of another run.
     pub fn found(&self) -> Result<(), Unlike> {
-        let other = fs::read(self.folder.join(RUN)).ok();
+        let own = !self.folder.is_symlink();
+        let other = own.then(|| fs::read(self.folder.join(RUN)).ok()).flatten();
         let other: Option<Run> = other.and_then(|bytes| serde_json::from_slice(&bytes).ok());
         let other = other.ok_or(Unlike::Nothing)?;
         let names = self.run.keys().chain(other.keys());
@@ -111,11 +121,6 @@ impl<'d> Checkpoint<'d> {
         self.lock().ready = true;
     }
 
-    /// Why a state could not be kept, once.
-    pub fn trouble(&self) -> Option<String> {
-        self.lock().broken.clone()
-    }
-
     /// Removes all states: the run has ended.
     pub fn remove(&self) {
         stale::empty(self.disk, &self.folder);
@@ -126,11 +131,11 @@ impl<'d> Checkpoint<'d> {
         self.kept.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The first line of a state: what it is of. The second is the hash of what follows.
-    fn seal(&self) -> String {
+    /// The first line of a state: what it is of, and which part. The second is the hash of what follows.
+    fn seal(&self, part: &str) -> String {
         let run = serde_json::to_string(&self.run).unwrap_or_default();
         format!(
-            "btc {} {}",
+            "btc {} {} {part}",
             env!("CARGO_PKG_VERSION"),
             sha256(run.as_bytes())
         )
@@ -145,29 +150,35 @@ impl<'d> Checkpoint<'d> {
             }
             made => made?,
         }
+        if self.folder.is_symlink() {
+            let why = format!("`{FOLDER}` is a link, and what it leads to may be of somebody else");
+            return Err(io::Error::other(why));
+        }
         stale::empty(self.disk, &self.folder);
         let run = serde_json::to_string_pretty(&self.run).unwrap_or_default();
         file::write(self.disk, &self.folder.join(RUN), run.as_bytes())
     }
 
-    /// Writes a file of the folder. What cannot be written is told at the end: the run itself goes on.
+    /// Writes a file of the folder. That it cannot be written is told once: the run itself goes on, and the next state is tried
+    /// again.
     fn put(&self, name: &str, bytes: &[u8]) {
         let mut kept = self.lock();
-        if kept.broken.is_some() {
-            return;
-        }
         let mut done = Ok(());
         (self.guard)(&mut || {
-            done = match kept.ready {
-                true => Ok(()),
-                false => self.prepare(),
-            };
+            if !kept.ready {
+                done = self.prepare();
+                kept.ready = done.is_ok();
+            }
             if done.is_ok() {
                 done = file::write(self.disk, &self.folder.join(name), bytes);
+                // Somebody may have removed the folder.
+                kept.ready = self.folder.is_dir();
             }
         });
-        kept.ready = true;
-        kept.broken = done.err().map(|error| error.to_string());
+        if let (Err(why), false) = (done, kept.told) {
+            kept.told = true;
+            tell(&format!("warning: no checkpoint could be kept: {why}"));
+        }
         kept.parts.insert(name.to_owned(), Instant::now());
     }
 }
@@ -186,7 +197,7 @@ impl Keeper for Checkpoint<'_> {
         let bytes = fs::read(self.folder.join(format!("{part}{STATE}"))).ok()?;
         let (seal, rest) = split_line(&bytes)?;
         let (hash, state) = split_line(rest)?;
-        let whole = seal == self.seal().as_bytes() && hash == sha256(state).as_bytes();
+        let whole = seal == self.seal(part).as_bytes() && hash == sha256(state).as_bytes();
         whole.then(|| state.to_vec())
     }
 
@@ -205,14 +216,14 @@ impl Keeper for Checkpoint<'_> {
 
     fn save(&self, part: &str, state: &[u8]) {
         if self.every.is_some() {
-            let head = format!("{}\n{}\n", self.seal(), sha256(state));
+            let head = format!("{}\n{}\n", self.seal(part), sha256(state));
             let bytes = [head.as_bytes(), state].concat();
             self.put(&format!("{part}{STATE}"), &bytes);
         }
     }
 
     fn publish(&self, name: &str, text: &str) {
-        if self.every.is_some() {
+        if self.every.is_some() && keeps(name) {
             self.put(name, text.as_bytes());
         }
     }

@@ -155,10 +155,17 @@ pub(super) fn clear(disk: &dyn Disk, stage: &Path) {
     }
 }
 
-/// Removes the files of a folder.
+/// Removes what a run has kept in a folder. Where that is a link to another folder, nothing there is ours.
 pub(super) fn empty(disk: &dyn Disk, folder: &Path) {
+    if folder.is_symlink() {
+        return;
+    }
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
-        let _ = disk.remove_file(&entry.path());
+        let path = entry.path();
+        let name = path.file_name().and_then(|name| name.to_str());
+        if name.is_some_and(super::checkpoint::keeps) || is_named(&path, FILE) {
+            let _ = disk.remove_file(&path);
+        }
     }
 }
 

@@ -66,12 +66,16 @@ pub fn learn<'e, W: World>(
     let mut runs = learn_all(experiment, (seed, options), progress);
     progress(Stage::Validating);
     let (best, validated) = experiment.elect(&runs, seed);
+    let effort = match options.seeds {
+        Some(_) => options.effort,
+        None => grow::left_by(options.effort, &runs, &validated),
+    };
     let mut improved = Improved::default();
     if options.shape == Shape::Grown
         && let Some(run) = runs.get_mut(best)
     {
         progress(Stage::Improving);
-        improved = grow::improve(experiment, run, options.effort, keeper);
+        improved = grow::improve(experiment, run, effort, keeper);
     }
     let run = runs.get(best).ok_or(Unlearned::Nothing)?;
     progress(Stage::RollingOut);
@@ -101,7 +105,7 @@ pub fn learn<'e, W: World>(
         Shape::Grown => Some(grown(
             experiment,
             (exact, &policy),
-            (options, seed, grow::growing(options.effort, &improved)),
+            (options, seed, grow::growing(effort, &improved)),
             progress,
         )?),
     };
@@ -135,18 +139,29 @@ pub fn learn<'e, W: World>(
     })
 }
 
-/// The runs of all seeds.
+/// The runs of all seeds: those that were asked for, or one and as many more as pay.
 fn learn_all<W: World>(
     experiment: &Experiment<W>,
     (seed, options): (u64, &Options),
     progress: &(dyn Fn(Stage) + Sync),
 ) -> Vec<Run> {
-    let all = experiment.episodes.saturating_mul(options.seeds);
     let done = AtomicU64::new(0);
-    experiment.learn_all((seed, options.seeds), options.keeper, || {
-        let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-        progress(Stage::Learning(done, all));
-    })
+    let learn = |first: u64, count: u64, of: u64| {
+        let all = experiment.episodes.saturating_mul(of);
+        experiment.learn_all((first, count), options.keeper, || {
+            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+            progress(Stage::Learning(done, all));
+        })
+    };
+    if let Some(seeds) = options.seeds {
+        return learn(seed, seeds, seeds);
+    }
+    let mut runs = learn(seed, 1, 1);
+    if let (Shape::Grown, [first]) = (options.shape, runs.as_slice()) {
+        let more = grow::more_runs(experiment, options.effort, first);
+        runs.extend(learn(seed.wrapping_add(1), more, 1 + more));
+    }
+    runs
 }
 
 /// Keeps what took longest in the form in which anybody can use it.

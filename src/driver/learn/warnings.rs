@@ -15,7 +15,6 @@ use crate::learn::statistics::Mean;
 use crate::report::ends::Ended;
 use crate::report::results::Results;
 use crate::report::words::{self, end_names};
-use std::collections::BTreeSet;
 
 /// Decisions for a behaviour that are enough to see whether it ever succeeds.
 const TRIED: u64 = 20;
@@ -270,21 +269,16 @@ impl Warner<'_> {
         })
     }
 
-    /// Behaviours that fail again and again while nothing changes that the policy could see.
+    /// Behaviours that fail again and again while nothing changes that the policy could see. A grown tree decides otherwise,
+    /// and goes on to something else where one fails.
     fn repeated(&self) -> Vec<Diagnostic> {
-        if self.task.history.failure {
+        let exact = &self.results.trees.chosen().root;
+        let grown = self.results.grown.as_ref().map(|grown| &grown.root);
+        if self.task.history.failure || grown.is_some_and(|grown| grown != exact) {
             return Vec::new();
         }
         let failing = self.results.trees.chosen().failing.iter();
         let often = self.results.summary.episodes.max(TRIED);
-        // Of what a grown tree does not do, nothing is to be known.
-        let mut printed = BTreeSet::new();
-        let grown = self.results.grown.as_ref().map(|grown| &grown.root);
-        let root = grown.unwrap_or(&self.results.trees.chosen().root);
-        root.visit_behaviors(&mut |behavior| {
-            printed.insert(behavior);
-        });
-        let failing = failing.filter(|it| printed.contains(&it.behavior));
         let repeated: Vec<_> = failing.filter(|it| it.repeated >= often).collect();
         let warning = |(at, behavior): (usize, &Id<Behavior>)| {
             let of_it = || repeated.iter().filter(|it| it.behavior == *behavior);

@@ -1,5 +1,6 @@
 //! Partitions of rows by their values (CART: Breiman, Friedman, Olshen and Stone 1984), for the comparisons that they use.
 
+use super::cuts::shortest;
 use super::{Asks, Comparison, Kind, OPEN, Valued};
 use crate::logic::impurity::{Impurity, Mixture};
 use rustc_hash::FxHashMap;
@@ -73,18 +74,10 @@ fn moved(valued: &Valued, split: Split, used: &BTreeSet<Comparison>) -> Comparis
     if let Some(known) = used.range(at(last)..at(next)).next() {
         return *known;
     }
-    // Of the gaps between the two values, the one in which the shortest number lies.
-    let Some(Kind::Number(_, values)) = kind(valued, best.column) else {
-        return best;
-    };
-    let (Some((low, _)), Some((high, _))) = (values.get(last as usize), values.get(next as usize))
-    else {
-        return best;
-    };
-    let cut = low.up_to(high).value();
-    let gap = values.get(last as usize..next as usize).unwrap_or_default();
-    let below = gap.partition_point(|(number, _)| number.value() <= cut);
-    at(last + (below.max(1) - 1) as u32)
+    Comparison {
+        column: best.column,
+        asks: shortest(valued, best.column, last, next),
+    }
 }
 
 /// A comparison that divides a part, with the next greater code of the part.

@@ -1,6 +1,6 @@
 //! Which comparisons of inputs tell rows apart that do different things.
 
-use super::{Decimal, Kind, OPEN, Valued, cart};
+use super::{Decimal, Kind, OPEN, Valued, boxes, cart};
 use crate::logic::impurity::Impurity;
 use rustc_hash::FxHashMap;
 use std::borrow::Cow;
@@ -43,56 +43,61 @@ pub struct Comparison {
     pub asks: Asks,
 }
 
+/// Of the gaps between two values of a column, by their codes, the one in which the shortest number lies.
+pub(super) fn shortest(valued: &Valued, column: usize, last: u32, next: u32) -> Asks {
+    let values = valued.columns.get(column).map(|column| &column.kind);
+    let Some(Kind::Number(_, values)) = values else {
+        return Asks::AtMost(last);
+    };
+    let (Some((low, _)), Some((high, _))) = (values.get(last as usize), values.get(next as usize))
+    else {
+        return Asks::AtMost(last);
+    };
+    let cut = low.up_to(high).value();
+    let gap = values.get(last as usize..next as usize).unwrap_or_default();
+    let below = gap.partition_point(|(number, _)| number.value() <= cut);
+    Asks::AtMost(last + (below.max(1) - 1) as u32)
+}
+
 impl Valued {
-    /// Comparisons that tell apart any two rows that do different things and differ in an input, by column.
+    /// Comparisons, by column, that tell apart any two rows that do different things and differ in an input, with the table over
+    /// them.
     ///
     /// They are all values of a category that appear, and of a number all cuts between neighbouring values whose rows do
-    /// different things. Where those are many they are the ones that partitions of the rows use (CART).
-    pub fn comparisons(&self) -> Vec<Comparison> {
-        let all: Vec<Comparison> = self
-            .inputs()
-            .flat_map(|(column, _)| {
-                let asks = self.boundaries(column);
-                asks.into_iter()
-                    .map(move |asks| Comparison { column, asks })
-            })
-            .collect();
-        if all.len() <= ALL && all.len().saturating_mul(self.len()) <= AREA {
-            return all;
-        }
-        self.partitioned(false).unwrap_or(all)
-    }
-
-    /// The comparisons, with the table in which rows that these do not tell apart allow the same: what all of them allow.
-    ///
-    /// Where rows allow several behaviours, those that allow different ones need not be told apart: a partition of the rows says
-    /// which have to be.
+    /// different things. Where those are many they are the ones that a list of boxes or partitions of the rows (CART) use,
+    /// whichever are fewer. Where rows allow several behaviours, those that have one in common need not be told apart: rows
+    /// that are not, allow in the table what all of them do.
     pub fn compared(&self) -> (Vec<Comparison>, Cow<'_, Self>) {
-        let all = self.comparisons();
-        let exact = self.inputs().count() > 0 && self.leaves_choice();
-        if all.len() <= ALL || !exact {
+        let all = self.inputs().flat_map(|(column, _)| {
+            let asks = self.boundaries(column).into_iter();
+            asks.map(move |asks| Comparison { column, asks })
+        });
+        let all: Vec<Comparison> = all.collect();
+        let many = all.len() > ALL;
+        if !many && all.len().saturating_mul(self.len()) <= AREA {
             return (all, Cow::Borrowed(self));
         }
-        let Some(fewer) = self
-            .partitioned(true)
-            .filter(|fewer| fewer.len() < all.len())
-        else {
-            return (all, Cow::Borrowed(self));
-        };
-        match self.narrowed(&fewer) {
-            Some(narrowed) => (fewer, Cow::Owned(narrowed)),
-            None => (all, Cow::Borrowed(self)),
+        let several = (0..self.len()).any(|row| self.allowed(row).len() > 1);
+        let apart = || self.partitioned(false).unwrap_or_else(|| all.clone());
+        if several && !(many && self.leaves_choice()) {
+            return (apart(), Cow::Borrowed(self));
+        }
+        let listed = boxes::used(self).map(|listed| listed.into_iter().collect());
+        let both = [self.partitioned(several), listed].into_iter().flatten();
+        let fewer = both.min_by_key(Vec::len);
+        match fewer.and_then(|fewer| Some((self.narrowed(&fewer)?, fewer))) {
+            Some((narrowed, fewer)) => (fewer, Cow::Owned(narrowed)),
+            None => (apart(), Cow::Borrowed(self)),
         }
     }
 
-    /// Whether some rows allow several behaviours, none leaves an input open, and no two say different things of one state.
+    /// Whether no row leaves an input open, and no two say different things of one state.
     fn leaves_choice(&self) -> bool {
-        let several = (0..self.len()).any(|row| self.allowed(row).len() > 1);
         let open = self
             .columns
             .iter()
             .any(|column| column.codes.contains(&OPEN));
-        if !several || open {
+        if open {
             return false;
         }
         let mut known: FxHashMap<Vec<u32>, u32> = FxHashMap::default();

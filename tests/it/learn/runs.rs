@@ -24,7 +24,7 @@ fn program(text: &str, changes: &[(&str, &str)]) -> Loaded {
 pub(super) const OPTIONS: Options = Options {
     learner: None,
     seed: None,
-    seeds: 1,
+    seeds: Some(1),
     episodes: Some(400),
     evidence: 10,
     method: Method::Search,
@@ -139,7 +139,7 @@ fn either_care_set_is_named_and_proved() {
 fn several_seeds_are_the_same_on_any_number_of_threads() {
     let loaded = program(LARGE, &[("5_000", "600")]);
     let options = Options {
-        seeds: 3,
+        seeds: Some(3),
         tests: 60,
         ..OPTIONS
     };
@@ -157,7 +157,7 @@ fn a_single_run_is_one_of_several() {
     let several = run(
         &loaded,
         &Options {
-            seeds: 3,
+            seeds: Some(3),
             ..OPTIONS
         },
     );

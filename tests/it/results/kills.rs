@@ -90,6 +90,71 @@ fn a_damaged_checkpoint_is_left_out() {
     assert_eq!(files(&at.join("out")), files(&at.join("whole")));
 }
 
+/// The state of one seed says nothing of another.
+#[test]
+fn a_state_of_another_part_is_left_out() {
+    let folder = project();
+    let at = folder.path();
+    let two = ["--seeds", "2"];
+    let whole = learned(at, &[&["-o", "whole"], &two[..]].concat());
+    assert!(whole.status.success(), "{}", told(&whole));
+    let mut run = begun(
+        at,
+        &[&["-o", "out", "--checkpoint", "0s"], &two[..]].concat(),
+    );
+    let states = at.join("out/.btc-checkpoint");
+    while !states.join("seed-1.state").exists() && run.try_wait().unwrap().is_none() {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    run.kill().unwrap();
+    run.wait().unwrap();
+    if states.is_dir() {
+        fs::copy(states.join("seed-1.state"), states.join("seed-2.state")).unwrap();
+    }
+    let output = learned(at, &[&["-o", "out", "--resume"], &two[..]].concat());
+    assert!(output.status.success(), "{}", told(&output));
+    assert_eq!(files(&at.join("out")), files(&at.join("whole")));
+}
+
+/// What somebody else has put where checkpoints are kept stays there, and nothing is kept through a link.
+#[cfg(unix)]
+#[test]
+fn files_of_others_survive_a_checkpoint() {
+    let folder = project();
+    let at = folder.path();
+    let before = files(at);
+    for more in [&["--checkpoint", "0s"][..], &["--resume"]] {
+        let _ = fs::remove_dir_all(at.join("out"));
+        fs::create_dir(at.join("out")).unwrap();
+        std::os::unix::fs::symlink("..", at.join("out/.btc-checkpoint")).unwrap();
+        let output = learned(at, &[&["-o", "out"], more].concat());
+        assert!(output.status.success(), "{}", told(&output));
+        assert!(told(&output).contains("is a link"), "{}", told(&output));
+        let after = files(at);
+        assert!(
+            before
+                .iter()
+                .all(|(name, bytes)| after.get(name) == Some(bytes))
+        );
+    }
+    fs::remove_dir_all(at.join("out")).unwrap();
+    fs::create_dir_all(at.join("out/.btc-checkpoint")).unwrap();
+    let note = at.join("out/.btc-checkpoint/notes.txt");
+    fs::write(&note, "mine").unwrap();
+    assert!(
+        learned(at, &["-o", "out", "--checkpoint", "0s"])
+            .status
+            .success()
+    );
+    // What is left of the folder that was there before keeps it.
+    let folders = fs::read_dir(at)
+        .unwrap()
+        .chain(fs::read_dir(at.join("out")).unwrap());
+    let kept = folders.map(|folder| folder.unwrap().path());
+    let kept = kept.filter(|folder| folder.join(".btc-checkpoint/notes.txt").exists());
+    assert_eq!(kept.count(), 1);
+}
+
 #[test]
 fn a_checkpoint_of_another_run_is_not_taken() {
     let folder = project();

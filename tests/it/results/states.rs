@@ -59,7 +59,7 @@ fn program(method: &str) -> Loaded {
 
 fn options(keeper: &dyn Keeper) -> Options<'_> {
     Options {
-        seeds: 2,
+        seeds: Some(2),
         episodes: Some(60),
         roll_outs: 40,
         effort: 400_000,

@@ -119,3 +119,56 @@ fn long_lists_are_found_though_other_behaviors_are_allowed() {
         assert!(found <= planted, "{found} nodes for {planted}");
     }
 }
+
+/// The sides of a box: between which numbers those are that it is about.
+type Sides = BTreeMap<usize, (usize, usize)>;
+
+/// Ten boxes over six numbers with hundreds of values each: of the thousands of cuts, those that make the list short.
+#[test]
+fn lists_of_boxes_are_found() {
+    const NUMBERS: usize = 6;
+    let all = ["a", "b", "c", "d"];
+    for (seed, chance) in [(3, 0.0), (4, 0.0), (5, 0.0), (3, 0.3), (4, 0.3), (5, 0.3)] {
+        let mut random = Random::new(seed, 0, 0);
+        let mut draw = |of: usize| random.uniform(0.0, of as f64) as usize % of;
+        let rules: Vec<(Sides, &str)> = (0..10)
+            .map(|_| {
+                let sides = (0..=draw(3)).map(|_| {
+                    let low = draw(600);
+                    (draw(NUMBERS), (low, low + 100 + draw(300)))
+                });
+                (sides.collect(), all[draw(all.len())])
+            })
+            .collect();
+        let mut table = BTreeMap::new();
+        while table.len() < 2000 {
+            let mut number = || (random.uniform(0.0, 1000.0)) as usize;
+            let row: Vec<usize> = (0..NUMBERS).map(|_| number()).collect();
+            let inside = |sides: &Sides| {
+                let mut sides = sides.iter();
+                sides.all(|(at, (low, high))| (*low..*high).contains(&row[*at]))
+            };
+            let mut holds = rules.iter().filter(|(sides, _)| inside(sides));
+            let rule = holds.next().map_or("a", |(_, behavior)| *behavior);
+            let behaviors = allowed(&mut random, &all, rule, chance);
+            table.entry(row).or_insert(behaviors);
+        }
+        let names: Vec<String> = (0..NUMBERS).map(|at| format!("v{at}:number")).collect();
+        let mut text = format!("{},action\n", names.join(","));
+        for (row, behaviors) in &table {
+            let cells: Vec<String> = row.iter().map(|number| number.to_string()).collect();
+            text += &format!("{},{behaviors}\n", cells.join(","));
+        }
+        // Two comparisons a side.
+        let planted: usize = 2 + rules
+            .iter()
+            .map(|(sides, _)| 2 + 2 * sides.len())
+            .sum::<usize>();
+        let found = nodes(&text, USUAL.effort);
+        let most = if chance > 0.0 { 2.2 } else { 1.6 };
+        assert!(
+            found as f64 <= most * planted as f64,
+            "{found} nodes for {planted}"
+        );
+    }
+}
