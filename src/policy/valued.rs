@@ -1,7 +1,7 @@
 //! Tables whose columns hold numbers and words, column by column.
 //!
 //! Every value of a column has a code: its place among the column's values, numbers in ascending order. A [`Comparison`] asks for
-//! one input whether it is at most a number, or has a value; [`comparisons`](Valued::comparisons) chooses as many as it takes to
+//! one input whether it is at most a number, or has a value; [`compared`](Valued::compared) chooses as many as it takes to
 //! tell apart the rows that do different things, and [`table`](Valued::table) gives the rows over them.
 
 mod boxes;
