@@ -24,6 +24,9 @@ pub struct Assigned {
     value: ExprId,
 }
 
+/// The effects that set each state, by their places, each with the value.
+type Setters = BTreeMap<Id<State>, Vec<(usize, ExprId)>>;
+
 /// The values that statements set states to, with where they stand.
 pub type Assignments = Vec<(Span, Id<State>, ExprId)>;
 
@@ -69,8 +72,18 @@ impl<'a> Checker<'a> {
             places.entry(assigned.at).or_default().push(assigned);
         }
         let set = set_in_ticks(&self.program);
+        let mut setters = Setters::new();
+        for (at, effect) in self.program.effects.iter().enumerate() {
+            for (state, values) in of(&effect.block) {
+                let values = values.into_iter().map(|(_, value)| (at, value));
+                setters.entry(state).or_default().extend(values);
+            }
+        }
         for (at, assigned) in places {
-            if assigned.iter().all(|it| self.is_so_already(it, &set)) {
+            if assigned
+                .iter()
+                .all(|it| self.is_so_already(it, &set, &setters))
+            {
                 let Some(first) = assigned.first() else {
                     continue;
                 };
@@ -84,7 +97,7 @@ impl<'a> Checker<'a> {
 
     /// Whether a state has a value already wherever an effect sets it to that: what the effect waits for says so, and nothing
     /// that is done before in the same tick sets it to another one. `set` is what is set in every tick.
-    fn is_so_already(&self, assigned: &Assigned, set: &Set) -> bool {
+    fn is_so_already(&self, assigned: &Assigned, set: &Set, setters: &Setters) -> bool {
         let Assigned {
             effect,
             state,
@@ -95,15 +108,14 @@ impl<'a> Checker<'a> {
         let Some(own) = program.effects.get(effect) else {
             return false;
         };
-        let others = program.effects.iter().take(effect);
-        let mut before = others.filter(|other| {
-            let mut set = of(&other.block).remove(&state).into_iter().flatten();
-            set.any(|(_, other)| other != value)
-        });
+        let all = setters.get(&state).map_or(&[][..], Vec::as_slice);
+        let others = all.iter().take_while(|(at, _)| *at < effect);
+        let others = others.filter(|(_, other)| *other != value);
+        let mut before = others.filter_map(|(at, _)| program.effects.get(*at));
         let own_cases = of_expr(program, own.on, true);
         let happens_with =
             |other: ExprId| !own_cases.and(&of_expr(program, other, true)).is_never();
-        let once = of(&own.block).get(&state).is_some_and(|set| set.len() == 1);
+        let once = all.iter().filter(|(at, _)| *at == effect).count() == 1;
         once && !own_cases.is_never()
             && !set.contains_key(&state)
             && has(program, &own_cases, state, value)
