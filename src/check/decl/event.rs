@@ -194,7 +194,19 @@ impl<'a> Checker<'a> {
         let (Decl::Event(event), _) = self.names.value(&reference.name.name, false)? else {
             return None;
         };
-        let params = &event.params.as_ref()?.params;
+        let params = event.params.as_ref()?;
+        self.names_no_member(reference, ("an event", &event.name, params), binds)
+    }
+
+    /// Reports the name of a family, which is declared with these parameters, where it has no arguments, or some that nothing is
+    /// called: what binds a member says its type, behind `binds`.
+    pub fn names_no_member(
+        &mut self,
+        reference: &'a Ref,
+        (what, declared, params): (&str, &Ident, &Params),
+        binds: &str,
+    ) -> Option<()> {
+        let params = &params.params;
         if params.is_empty() {
             return None;
         }
@@ -230,10 +242,10 @@ impl<'a> Checker<'a> {
         });
         let name = &reference.name.name;
         let right = format!("{name}({})", typed.collect::<Vec<_>>().join(", "));
-        let message = format!("`{name}` is an event for each member of a kind");
+        let message = format!("`{name}` is {what} for each member of a kind");
         self.error(Code::E0128, reference.span, message)
             .label("nothing says which of them is meant")
-            .also(event.name.span, "the family is declared here")
+            .also(declared.span, "the family is declared here")
             .fix(
                 format!("write `{right}`"),
                 reference.span,

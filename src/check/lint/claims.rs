@@ -6,10 +6,10 @@ use crate::diagnostic::Code;
 use crate::ir::Id;
 use crate::ir::task::{ClaimKind, Occurrence, Task, TreeRef};
 use crate::ir::tree::Atom;
-use crate::syntax::ast::{Claim, ClaimWhat, Item, ItemKind};
+use crate::syntax::ast::{Claim, ClaimWhat, Ident, Item, ItemKind};
 
 impl<'a> Checker<'a> {
-    /// Warns of claims that say no more, or can be no more, than it looks.
+    /// Warns of claims that speak of more time than there is, or cannot hold.
     pub fn claims_in_vain(&mut self, items: impl Iterator<Item = &'a Item>) {
         for item in items {
             let ItemKind::Claim(claim) = &item.kind else {
@@ -22,8 +22,10 @@ impl<'a> Checker<'a> {
             };
             match &checked.kind {
                 ClaimKind::Equals(other) => {
-                    self.cannot_be_equal(claim, checked.tree, *other);
-                    self.cannot_be_equal(claim, *other, checked.tree);
+                    if let ClaimWhat::Equals(right) = &claim.what {
+                        self.cannot_be_equal(checked.tree, (right, *other));
+                        self.cannot_be_equal(*other, (&claim.tree, checked.tree));
+                    }
                 }
                 ClaimKind::Never(occurrence) | ClaimKind::Reaches(occurrence) => {
                     self.beyond_episodes(claim, checked.tree, occurrence);
@@ -47,8 +49,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// A learned tree is to be equal to one that asks or runs what its task does not offer.
-    fn cannot_be_equal(&mut self, claim: &'a Claim, learned: TreeRef, other: TreeRef) {
+    /// A learned tree is to be equal to one, named in the claim, that asks or runs what its task does not offer.
+    fn cannot_be_equal(&mut self, learned: TreeRef, (named, other): (&Ident, TreeRef)) {
         let (TreeRef::Learned(learner), TreeRef::Tree(tree)) = (learned, other) else {
             return;
         };
@@ -76,16 +78,8 @@ impl<'a> Checker<'a> {
             }
             (None, None) => return,
         };
-        let ClaimWhat::Equals(right) = &claim.what else {
-            return;
-        };
-        let at = [&claim.tree, right].into_iter();
-        let mut at = at.filter(|name| tree.name.is(&name.name));
-        let Some(at) = at.next() else {
-            return;
-        };
-        let message = format!("no tree that is learned is equal to `{}`", at.name);
-        self.warning(Code::W0526, at.span, message).label(why);
+        let message = format!("no tree that is learned is equal to `{}`", named.name);
+        self.warning(Code::W0526, named.span, message).label(why);
     }
 
     /// The task that a claim on a tree is tested in; `None` if that is not clear.

@@ -11,7 +11,7 @@ use crate::ir::world::World;
 use crate::ir::{Id, Program};
 use crate::source::Span;
 use crate::syntax::ast::{AssignOp, Stmt};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A state that an effect sets, whatever else holds where it is done.
 #[derive(Clone, Copy, Debug)]
@@ -41,8 +41,9 @@ impl<'a> Checker<'a> {
     /// Notes what these statements set, which are those of the next effect of the program.
     pub fn done_by_effect(&mut self, statements: &[Stmt]) {
         let effect = self.program.effects.len();
+        let statements: BTreeSet<Span> = statements.iter().map(|it| it.span).collect();
         let noted = std::mem::take(&mut self.assignments).into_iter();
-        let outermost = noted.filter(|(at, ..)| statements.iter().any(|it| it.span == *at));
+        let outermost = noted.filter(|(at, ..)| statements.contains(at));
         self.assigned
             .extend(outermost.map(|(at, state, value)| Assigned {
                 at,

@@ -7,7 +7,7 @@ use crate::check::expr::plain_ref;
 use crate::check::names::{Decl, START_WORDS};
 use crate::check::task::history::is_no_end;
 use crate::check::types::{Type, Value};
-use crate::diagnostic::{Applicability, Code, Diagnostic};
+use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::Id;
 use crate::ir::expr::ExprId;
 use crate::ir::task::{History, Placing, StartLine};
@@ -232,37 +232,8 @@ impl<'a> Checker<'a> {
 
     /// Reports `load(s) = …` where nothing is called `s`: what ranges over all members says of which kind.
     fn unbound_state(&mut self, state: &'a ast::State, target: &'a ast::Ref) -> Option<()> {
-        let params = &state.params.as_ref()?.params;
-        let args = target.args.as_deref()?;
-        let unbound = |arg: &'a ast::Arg| match &arg.kind {
-            ast::ArgKind::Positional(value) => {
-                let name = plain_ref(value).filter(|name| name.args.is_none())?;
-                let name = name.name.name.as_str();
-                self.may_bind(name).then_some(name)
-            }
-            _ => None,
-        };
-        let given: Vec<&str> = args.iter().map(unbound).collect::<Option<_>>()?;
-        if given.is_empty() || given.len() != params.len() {
-            return None;
-        }
-        let ranges = given.iter().zip(params).map(|(given, param)| {
-            let factors = param.ty.factors.iter().map(|(name, _)| name.name.as_str());
-            format!("{given} in {}", factors.collect::<String>())
-        });
-        let name = &target.name.name;
-        let right = format!("{name}({})", ranges.collect::<Vec<_>>().join(", "));
-        let message = format!("`{name}` is a state for each member of a kind");
-        self.error(Code::E0128, target.span, message)
-            .label("nothing says which of them is meant")
-            .also(state.name.span, "the family is declared here")
-            .fix(
-                format!("write `{right}`"),
-                target.span,
-                right,
-                Applicability::Unsafe,
-            );
-        Some(())
+        let params = state.params.as_ref().filter(|_| target.args.is_some())?;
+        self.names_no_member(target, ("a state", &state.name, params), " in ")
     }
 
     fn state_line(&mut self, line: &'a ast::StartLine) -> Option<Vec<StartLine>> {

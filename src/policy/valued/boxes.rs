@@ -258,9 +258,11 @@ impl<'v> Growth<'v> {
     fn widen(&mut self, bounds: &mut Bounds, cuts: &[(usize, Cut)], seed: u32) {
         let others = self.left.iter().copied().filter(|row| !self.allows(*row));
         let others: Vec<u32> = others.collect();
-        let mut columns: Vec<usize> = cuts.iter().map(|(column, _)| *column).collect();
-        columns.dedup();
-        for column in columns {
+        let mut widened = BTreeSet::new();
+        for column in cuts.iter().map(|(column, _)| *column) {
+            if !widened.insert(column) {
+                continue;
+            }
             self.work += others.len() * self.valued.columns.len();
             // The other rows that this column alone keeps out.
             let Some(of) = self.valued.columns.get(column) else {
