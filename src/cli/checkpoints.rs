@@ -34,7 +34,7 @@ impl Checkpoints {
     /// Looks for the states of this run, and goes on from them if that is asked for.
     ///
     /// # Errors
-    /// The states there are of another run.
+    /// The states there are of another run, or one that is not over keeps its own there.
     pub(super) fn begin(&self, checkpoint: &mut Checkpoint, place: &Path) -> Result<(), Failure> {
         let place = place.to_string_lossy();
         let place = render::visible(&place);
@@ -43,28 +43,49 @@ impl Checkpoints {
             (true, Err(Unlike::Nothing)) => tell(&format!(
                 "note: there is no checkpoint in {place}: the run begins at the beginning"
             )),
+            (true, Err(Unlike::Damaged)) => tell(&format!(
+                "note: the checkpoint in {place} is damaged: the run begins at the beginning"
+            )),
+            (_, Err(Unlike::Busy)) => {
+                let why = format!("another run is at work in {place}");
+                let failure = files::complain(&why);
+                tell("  wait until it has ended, or name another folder with `-o`");
+                return Err(failure);
+            }
             (true, Err(Unlike::Other(differences))) => {
                 let failure =
                     files::complain(&format!("the checkpoint in {place} is of another run"));
-                for [what, there, here] in differences {
-                    let or_none = |value: String| match value.is_empty() {
-                        true => "nothing".to_owned(),
-                        false => value,
-                    };
-                    let (there, here) = (or_none(there), or_none(here));
-                    tell(&render::visible(&format!(
-                        "  {what}: {there} there, {here} here"
-                    )));
-                }
+                list(differences);
                 tell("  ask for the same, or leave out `--resume` to begin anew");
                 return Err(failure);
             }
             (false, Ok(())) => tell(&format!(
                 "note: {place} has a checkpoint of this run; `--resume` would have gone on from there"
             )),
-            (false, Err(_)) => {}
+            (false, Err(Unlike::Other(differences))) => {
+                tell(&format!(
+                    "note: {place} has a checkpoint of another run, which this one replaces"
+                ));
+                list(differences);
+                tell("  stop now, and ask for the same with `--resume`, to go on with that run");
+            }
+            (false, Err(Unlike::Nothing | Unlike::Damaged)) => {}
         }
         Ok(())
+    }
+}
+
+/// Tells in what two runs differ.
+fn list(differences: Vec<[String; 3]>) {
+    let or_none = |value: String| match value.is_empty() {
+        true => "nothing".to_owned(),
+        false => value,
+    };
+    for [what, there, here] in differences {
+        let (there, here) = (or_none(there), or_none(here));
+        tell(&render::visible(&format!(
+            "  {what}: {there} there, {here} here"
+        )));
     }
 }
 
@@ -82,6 +103,7 @@ pub(super) fn settle<T>(
         checkpoint.remove();
         Folder::unmake(&System, missing);
     }
+    checkpoint.release();
     made
 }
 

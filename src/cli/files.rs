@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// The name that stands for standard input.
+/// The name that stands for standard input, and for standard output.
 pub(super) const STDIN: &str = "-";
 
 /// A file, or standard input, as it was read.
@@ -176,8 +176,19 @@ pub(super) fn write_all(
     files: &[(String, String)],
     program: BTreeMap<String, String>,
 ) -> Result<(), Failure> {
-    interrupt::uninterrupted(|| folder.replace(&System, files, program))
-        .map_err(|error| complain(&error.to_string()))
+    placed(interrupt::uninterrupted(|| {
+        folder.replace(&System, files, program)
+    }))
+}
+
+/// Tells of the files that a result did not overwrite.
+pub(super) fn placed(kept: io::Result<Vec<[String; 2]>>) -> Result<(), Failure> {
+    for [name, kept] in kept.map_err(|error| complain(&error.to_string()))? {
+        tell(&format!(
+            "note: `{name}` there was not as btc writes it, and is kept as `{kept}`"
+        ));
+    }
+    Ok(())
 }
 
 /// Whether what is written goes to files of its own: not to one that the command reads, nor two outputs to one.
@@ -190,7 +201,8 @@ pub(super) fn apart(outputs: &[Option<&Path>], inputs: &[Option<&str>]) -> Resul
     let inputs = inputs.iter().flatten().filter(|path| **path != STDIN);
     let inputs = inputs.filter_map(|path| real(Path::new(path)));
     taken.extend(inputs.map(|path| (path, "what this command reads")));
-    for output in outputs.iter().flatten() {
+    let outputs = outputs.iter().flatten();
+    for output in outputs.filter(|path| **path != Path::new(STDIN)) {
         // What is not there yet is the same if it has the same name.
         let is_file = std::fs::metadata(output).map_or(true, |found| found.is_file());
         let own = real(output).unwrap_or_else(|| output.to_path_buf());
@@ -209,7 +221,7 @@ pub(super) fn apart(outputs: &[Option<&Path>], inputs: &[Option<&str>]) -> Resul
 
 /// Writes to a file, or to standard output.
 pub(super) fn put(path: Option<&Path>, text: &str) -> Result<(), Failure> {
-    match path {
+    match path.filter(|path| *path != Path::new(STDIN)) {
         Some(path) => write(path, text),
         None => print(text),
     }

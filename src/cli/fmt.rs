@@ -1,6 +1,7 @@
 //! `btc fmt`
 
 use super::Failure;
+use super::check::programs;
 use super::files::{self, STDIN};
 use super::report::{Reporter, tell};
 use crate::driver::format::format;
@@ -10,7 +11,7 @@ use std::path::Path;
 
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
-    /// The files to lay out in place; `-` lays standard input out on standard output.
+    /// The files to lay out in place, or folders of them; `-` lays standard input out on standard output.
     #[arg(required = true, value_name = "FILE")]
     files: Vec<String>,
     /// Change nothing; fail if a file is not laid out.
@@ -20,7 +21,11 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {
     let mut fine = true;
-    for path in &arguments.files {
+    let mut paths = Vec::new();
+    for named in &arguments.files {
+        paths.extend(programs(named)?);
+    }
+    for path in &paths {
         let Ok(file) = files::read_alone(path, MOST as u64) else {
             fine = false;
             continue;

@@ -6,10 +6,15 @@ use super::{Failure, files};
 use crate::driver::load::{LIBRARY, Reader};
 use crate::lsp::{Workspace, serve};
 use clap::Args;
-use lsp_server::Connection;
+use lsp_server::{Connection, Message};
 use std::cell::OnceCell;
+use std::io::{self, BufRead, Read};
 use std::path::Path;
+use std::thread;
 use tempfile::TempDir;
+
+/// The most bytes of one message: more than any program that is read.
+const MOST: u64 = 64 << 20;
 
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
@@ -48,12 +53,68 @@ impl Workspace for Files {
     }
 }
 
+/// Standard input, of which no message may say that it is longer than [`MOST`]: room is made for all of it at once.
+struct Bounded<R>(R);
+
+impl<R: BufRead> Read for Bounded<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        self.0.read(buffer)
+    }
+}
+
+impl<R: BufRead> BufRead for Bounded<R> {
+    fn fill_buf(&mut self) -> io::Result<&[u8]> {
+        self.0.fill_buf()
+    }
+
+    fn consume(&mut self, amount: usize) {
+        self.0.consume(amount);
+    }
+
+    /// Headers alone are read by lines.
+    fn read_line(&mut self, line: &mut String) -> io::Result<usize> {
+        let read = self.0.by_ref().take(MOST).read_line(line)?;
+        let (name, value) = line.split_once(':').unwrap_or_default();
+        let length = name.eq_ignore_ascii_case("content-length");
+        match value.trim().parse::<u128>() {
+            Ok(bytes) if length && bytes > u128::from(MOST) => {
+                let why = format!("a message of {bytes} bytes is too long");
+                Err(io::Error::new(io::ErrorKind::InvalidData, why))
+            }
+            _ => Ok(read),
+        }
+    }
+}
+
+/// Takes messages from standard input until the last.
+fn receive(pass_on: impl Fn(Message) -> bool) -> io::Result<()> {
+    let mut input = Bounded(io::stdin().lock());
+    while let Some(message) = Message::read(&mut input)? {
+        let last = matches!(&message, Message::Notification(it) if it.method == "exit");
+        if !pass_on(message) || last {
+            break;
+        }
+    }
+    Ok(())
+}
+
 pub(super) fn run(_: &Arguments) -> Result<(), Failure> {
-    let (connection, threads) = Connection::stdio();
+    let (connection, editor) = Connection::memory();
+    let Connection { sender, receiver } = editor;
+    let reader = thread::spawn(move || receive(|message| sender.send(message).is_ok()));
+    let writer = thread::spawn(move || {
+        let mut output = io::stdout().lock();
+        let mut messages = receiver.into_iter();
+        messages.try_for_each(|message| message.write(&mut output))
+    });
     let served = serve(&connection, &Files::default());
     // The threads end when nothing more is to be sent.
     drop(connection);
     let told = |why: String| files::complain(&format!("the editor: {why}"));
     served.map_err(|why| told(why.to_string()))?;
-    threads.join().map_err(|why| told(why.to_string()))
+    for thread in [reader, writer] {
+        let ended = thread.join().unwrap_or(Ok(()));
+        ended.map_err(|why| told(why.to_string()))?;
+    }
+    Ok(())
 }

@@ -38,6 +38,9 @@ use std::process::ExitCode;
 /// The most episodes of one run: the figures of each are kept until the last has ended.
 const PLAYED: u64 = 1_000_000;
 
+/// The most threads.
+const THREADS: i64 = 1024;
+
 /// A compiler for behaviour trees that robots learn by themselves.
 #[derive(Debug, Parser)]
 #[command(name = "btc", version, max_term_width = 100)]
@@ -45,7 +48,7 @@ struct Arguments {
     #[command(subcommand)]
     command: Command,
     /// Threads to use; the results are the same on any number.
-    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=THREADS))]
     threads: Option<u16>,
     /// A folder that programs may use files of, besides their own and the current one; it may be given several times.
     #[arg(long, global = true, value_name = "DIR")]
@@ -132,14 +135,27 @@ impl From<Failure> for ExitCode {
     }
 }
 
+/// Makes the threads: as many as are asked for, in the environment if not here, or one a processor. Where the system has none to
+/// give, the one that there is does all.
+fn use_threads(asked: Option<u16>) {
+    let most = usize::try_from(THREADS).unwrap_or(usize::MAX);
+    let named = || {
+        std::env::var("RAYON_NUM_THREADS")
+            .ok()?
+            .parse::<usize>()
+            .ok()
+    };
+    let threads = asked.map(usize::from).or_else(named).unwrap_or(0);
+    let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads);
+    if pool(threads.min(most)).build_global().is_err() {
+        let _ = pool(1).use_current_thread().build_global();
+    }
+}
+
 /// Runs the command of the process's arguments.
 pub fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    if let Some(threads) = arguments.threads {
-        // Fails only if a pool exists already, and nothing has made one yet.
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads));
-        let _ = pool.build_global();
-    }
+    use_threads(arguments.threads);
     interrupt::watch();
     results::allow(&arguments.root);
     let say = report::Reporter::new(arguments.color);

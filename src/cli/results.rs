@@ -1,9 +1,10 @@
 //! Folders of results as they are read: whether they are still what was written, and where their programs are now.
 
 use super::store::file::folder_of;
-use super::store::manifest::Manifest;
+use super::store::manifest::{self, Manifest};
 use crate::diagnostic::{Code, Diagnostic, render};
 use crate::driver::digest::sha256;
+use crate::driver::learn;
 use crate::driver::load::{Reader, beside};
 use crate::facade::disk::{Disk, TABLE, regular};
 use crate::source::Span;
@@ -21,13 +22,14 @@ fn result_of(path: &str) -> Option<(&Path, Manifest)> {
 
 /// Why a file is not to be read: it belongs to a result whose files are not those of one run.
 pub(super) fn torn(path: &str) -> Option<Diagnostic> {
+    if let Some(damaged) = damaged(Path::new(path)) {
+        return Some(damaged);
+    }
     let (folder, manifest) = result_of(path)?;
     let changed = manifest.changed(folder);
     if manifest.whole && changed.is_empty() {
         return None;
     }
-    let folder = folder.to_string_lossy();
-    let message = format!("`{folder}` is not one result");
     let note = match (manifest.whole, changed.as_slice()) {
         (false, _) => "a run was stopped as it wrote there".to_owned(),
         (true, [one]) => format!(
@@ -41,14 +43,33 @@ pub(super) fn torn(path: &str) -> Option<Diagnostic> {
             )
         }
     };
+    let folder = folder.to_string_lossy();
     let help = format!(
         "learn again with `-o {folder}`; or, if the change is meant, delete `{folder}/manifest.json`: then nothing is claimed of it"
     );
+    Some(not_one(&folder, note, help))
+}
+
+/// Why a file of a result is not to be read whose manifest cannot be read.
+fn damaged(path: &Path) -> Option<Diagnostic> {
+    let folder = folder_of(path);
+    let name = path.file_name()?.to_str()?;
+    if !learn::NAMES.contains(&name) || !manifest::is_damaged(folder) {
+        return None;
+    }
+    let folder = folder.to_string_lossy();
+    let note = "`manifest.json` there is damaged, so that nothing says whether the files are those of one run";
+    let help = format!("delete `{folder}/manifest.json`, and learn again with `-o {folder}`");
+    Some(not_one(&folder, note.to_owned(), help))
+}
+
+fn not_one(folder: &str, note: String, help: String) -> Diagnostic {
+    let message = format!("`{folder}` is not one result");
     let mut torn = Diagnostic::new(Code::E0212, Span::default(), message)
         .note(note)
         .help(help);
     torn.labels.clear();
-    Some(torn)
+    torn
 }
 
 /// Folders that programs may use files of, besides their own and the current one.

@@ -10,7 +10,7 @@ use super::report::{Reporter, tell};
 use super::{Failure, PLAYED};
 use crate::diagnostic::render;
 use crate::driver::learn::{Learned, Shape};
-use crate::driver::load::Loaded;
+use crate::driver::load::{Loaded, MOST};
 use crate::driver::{snapshot, test};
 use clap::Args;
 use std::io::{self, BufRead, IsTerminal};
@@ -59,17 +59,17 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     let mut snapshots = Vec::new();
     let mut empty = Vec::new();
     for named in &arguments.paths {
-        let programs = standing(programs(named)?);
+        let programs = snapshots_last(standing(programs(named)?));
         let mut is_tested = false;
         for path in &programs {
+            if is_one_of(path, &snapshots) {
+                continue;
+            }
             let Ok(loaded) = files::load(path, say) else {
                 count.failed += 1;
                 is_tested = true;
                 continue;
             };
-            if is_one_of(path, &snapshots) {
-                continue;
-            }
             let learners = snapshot::learners(&loaded);
             let is_learned = |due: &test::Due| {
                 let learner = due.learner(&loaded);
@@ -125,6 +125,20 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     }
 }
 
+/// The programs, those last that by their names are snapshots of others: `world.learned.bt` after `world.bt`.
+fn snapshots_last(programs: Vec<String>) -> Vec<String> {
+    let is_snapshot = |path: &String| {
+        let stem = path
+            .strip_suffix(".bt")
+            .and_then(|path| path.rsplit_once('.'));
+        stem.is_some_and(|(stem, _)| programs.contains(&format!("{stem}.bt")))
+    };
+    let (last, mut sorted): (Vec<String>, Vec<String>) =
+        programs.iter().cloned().partition(is_snapshot);
+    sorted.extend(last);
+    sorted
+}
+
 /// Whether a path leads to one of these files.
 fn is_one_of(path: &str, files: &[PathBuf]) -> bool {
     let real = Path::new(path).canonicalize();
@@ -169,7 +183,14 @@ fn one(
     bar.finish();
     let learned = learned.map_err(|refused| say.refused(&refused))?;
     let new = snapshot::text(&learned, &source);
-    if !place.exists() {
+    let text = match place.exists() {
+        true => read(&shown, count),
+        false => Some(String::new()),
+    };
+    let Some(text) = text else {
+        return Ok(learned);
+    };
+    if text.trim().is_empty() {
         if arguments.accept || arguments.review && agreed(&shown, &learned.text)? {
             files::write(&place, &new)?;
             count.accepted += 1;
@@ -187,9 +208,22 @@ fn one(
         }
         return Ok(learned);
     }
-    let old = files::load(&shown, say)?;
-    let found = snapshot::compared(loaded, &learned, &old, arguments.episodes, 1);
-    let found = found.map_err(|refused| say.refused(&refused))?;
+    let found = files::load(&shown, say).and_then(|old| {
+        let found = snapshot::compared(loaded, &learned, &old, arguments.episodes, 1);
+        found.map_err(|refused| say.refused(&refused))
+    });
+    let found = match found {
+        Ok(found) => found,
+        Err(_) if arguments.accept => {
+            files::write(&place, &new)?;
+            count.accepted += 1;
+            return Ok(learned);
+        }
+        Err(_) => {
+            count.failed += 1;
+            return Ok(learned);
+        }
+    };
     let text = written(&found, arguments.format, &shown);
     if found.is_same() {
         count.passed += 1;
@@ -207,6 +241,23 @@ fn one(
     count.failed += 1;
     files::print(&text)?;
     Ok(learned)
+}
+
+/// The text of a snapshot. A file that is none, or cannot be read, is a failure, and is left as it is.
+fn read(shown: &str, count: &mut Count) -> Option<String> {
+    let text = files::read_alone(shown, MOST as u64).ok();
+    let text = text.map(|file| String::from_utf8_lossy(&file.bytes).into_owned());
+    let text = text.filter(|text| {
+        let is_one = snapshot::is_one(text);
+        if !is_one {
+            files::complain(&format!(
+                "{shown}: this is not a snapshot, but stands where that of the learned tree belongs; give it another name"
+            ));
+        }
+        is_one
+    });
+    count.failed += usize::from(text.is_none());
+    text
 }
 
 /// The snapshot of a learner, beside its program: `world.learned.bt`.

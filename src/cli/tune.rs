@@ -76,8 +76,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     let tuned = search(&loaded, &arguments.options(&checkpoint), say);
     let tuned = checkpoints::settle(tuned, &checkpoint, &missing)?;
     let files: Vec<(String, String)> = tuned_files(&tuned).collect();
-    interrupt::uninterrupted(|| folder.add(&System, &files))
-        .map_err(|error| files::complain(&error.to_string()))?;
+    files::placed(interrupt::uninterrupted(|| folder.add(&System, &files)))?;
     say_all(arguments, &loaded, &tuned)
 }
 

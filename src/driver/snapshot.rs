@@ -5,7 +5,9 @@ use super::learn::{Learned, Options, Shape, Stage, learn};
 use super::load::Loaded;
 use super::refused::Refused;
 use crate::report::difference::Difference;
-use crate::syntax::ast::ItemKind;
+use crate::source::{Source, Sources};
+use crate::syntax::ast::{Item, ItemKind};
+use crate::syntax::parse;
 
 /// The learners that the main file of a program declares, by the names of their trees.
 pub fn learners(loaded: &Loaded) -> Vec<String> {
@@ -38,12 +40,24 @@ pub fn learned(
     learn(loaded, &options, progress)
 }
 
+/// What a snapshot begins with.
+const HEAD: &str =
+    "//! The tree that `btc test` expects. Accept a new one with `btc test --accept`.";
+
+/// Whether a file may be overwritten by a snapshot: it is one, or has at most what one has, or nothing.
+pub fn is_one(text: &str) -> bool {
+    let parsed = || {
+        let file = Sources::default().add(Source::new("", text));
+        let (ast, mistakes) = parse(file, text);
+        let of_snapshots = |item: &Item| matches!(item.kind, ItemKind::Use(_) | ItemKind::Tree(_));
+        mistakes.is_empty() && ast.items.iter().all(of_snapshots)
+    };
+    text.starts_with(HEAD) || parsed()
+}
+
 /// The snapshot of a learned tree: a program that uses its source, which stands beside it.
 pub fn text(learned: &Learned, source: &str) -> String {
-    format!(
-        "//! The tree that `btc test` expects. Accept a new one with `btc test --accept`.\nuse \"{source}\"\n\n{}",
-        learned.text
-    )
+    format!("{HEAD}\nuse \"{source}\"\n\n{}", learned.text)
 }
 
 /// The snapshot against what was learned now; both play `episodes` in the world of the program.

@@ -228,6 +228,33 @@ fn learned_trees_are_held_against_snapshots() {
     assert_eq!(before, after);
     let output = test(&["--review"]);
     assert_eq!(output.status.code(), Some(2), "{}", err(&output));
+
+    // An empty file is no snapshot yet, one that is broken is a failure, and either may be overwritten.
+    let snapshot = path.join("yard.learned.bt");
+    for (text, says) in [
+        ("", "no snapshot yet"),
+        (&before[..before.len() / 2], "error["),
+    ] {
+        fs::write(&snapshot, text).unwrap();
+        let output = test(&[]);
+        assert_eq!(output.status.code(), Some(1));
+        let said = [out(&output), err(&output)].concat();
+        assert!(said.contains(says), "{said}");
+        assert_eq!(fs::read_to_string(&snapshot).unwrap(), text);
+        for more in [&["--accept"][..], &[]] {
+            let output = test(more);
+            assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+        }
+    }
+    // A program of somebody is not.
+    let own = "predicate low\n";
+    fs::write(&snapshot, own).unwrap();
+    for more in [&[][..], &["--accept"]] {
+        let output = test(more);
+        assert_eq!(output.status.code(), Some(1));
+        assert!(err(&output).contains("not a snapshot"), "{}", err(&output));
+        assert_eq!(fs::read_to_string(&snapshot).unwrap(), own);
+    }
 }
 
 /// Where nothing can be tested, that is said, and is a mistake.

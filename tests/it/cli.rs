@@ -570,3 +570,74 @@ fn the_greatest_seed_learns() {
     let output = btc(&[&asked[..], &short[..]].concat());
     assert!(out(&output).contains("tree learned"), "{}", err(&output));
 }
+
+/// Room is made for a whole message at once, so that one that says it is huge is refused.
+#[test]
+fn a_message_that_says_it_is_huge_is_refused() {
+    for length in [
+        "99999999999",
+        "18446744073709551615",
+        "99999999999999999999999",
+    ] {
+        let output = piped(
+            &["lsp"],
+            format!("Content-Length: {length}\r\n\r\n{{}}").as_bytes(),
+        );
+        assert_eq!(output.status.code(), Some(1), "{length}");
+        assert!(
+            err(&output).starts_with("error: the editor: "),
+            "{}",
+            err(&output)
+        );
+    }
+}
+
+#[test]
+fn the_environment_may_ask_for_any_number_of_threads() {
+    for threads in ["1", "0", "99999999", "many"] {
+        let output = Command::new(env!("CARGO_BIN_EXE_btc"))
+            .args(["check", SMALL])
+            .env("RAYON_NUM_THREADS", threads)
+            .output()
+            .unwrap();
+        assert!(output.status.success(), "{threads}: {}", err(&output));
+    }
+}
+
+#[test]
+fn a_dash_is_standard_output() {
+    let folder = tempfile::tempdir().unwrap();
+    let ran = |arguments: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_btc"))
+            .args(arguments)
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        assert!(output.status.success(), "{}", err(&output));
+        out(&output).to_owned()
+    };
+    let printed = ran(&["compile", SMALL, "--emit", "ir"]);
+    assert_eq!(ran(&["compile", SMALL, "--emit", "ir", "-o", "-"]), printed);
+    assert!(!folder.path().join("-").exists());
+}
+
+#[test]
+fn all_programs_of_a_folder_are_laid_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let inner = folder.path().join("inner");
+    fs::create_dir(&inner).unwrap();
+    let path = inner.join("a.bt");
+    fs::write(&path, "state  a : number=1\n").unwrap();
+    let at = folder.path().to_str().unwrap();
+    assert_eq!(btc(&["fmt", "--check", at]).status.code(), Some(1));
+    assert!(btc(&["fmt", at]).status.success());
+    assert_eq!(fs::read_to_string(&path).unwrap(), "state a: number = 1\n");
+    assert!(btc(&["fmt", "--check", at]).status.success());
+}
+
+#[test]
+fn a_project_has_a_name() {
+    let output = btc(&["new", ""]);
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(err(&output), "error: a project needs a name\n");
+}

@@ -7,7 +7,7 @@ use crate::checkpoint::Keeper;
 use crate::driver::digest::sha256;
 use std::collections::BTreeMap;
 use std::fmt;
-use std::fs;
+use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
@@ -21,6 +21,10 @@ const RUN: &str = "run.json";
 
 /// The end of the names of states.
 const STATE: &str = ".state";
+
+/// How often, and how long, a run waits for another one to go.
+const WAITS: u32 = 20;
+const WAIT: Duration = Duration::from_millis(100);
 
 /// The files that are of use by themselves.
 const PUBLISHED: [&str; 3] = ["policy.csv", "q.csv", "transitions.csv"];
@@ -52,7 +56,9 @@ struct Kept {
     parts: BTreeMap<String, Instant>,
     /// Whether the folder is ready to be written to.
     ready: bool,
-    /// Whether it was told that a state could not be kept.
+    /// The file that says of which run the states are, locked.
+    held: Option<File>,
+    /// Whether it was told that a state could not be kept, or could not be read.
     told: bool,
 }
 
@@ -61,6 +67,10 @@ struct Kept {
 pub enum Unlike {
     /// There are states of another run, which differs in this: what it is about, there and here.
     Other(Vec<[String; 3]>),
+    /// What says of which run the states are cannot be read.
+    Damaged,
+    /// A run that is not over keeps its states there.
+    Busy,
     /// There are no states.
     Nothing,
 }
@@ -85,6 +95,7 @@ impl<'d> Checkpoint<'d> {
                 start: Instant::now(),
                 parts: BTreeMap::new(),
                 ready: false,
+                held: None,
                 told: false,
             }),
         }
@@ -95,10 +106,16 @@ impl<'d> Checkpoint<'d> {
     /// # Errors
     /// There are none, or those of another run.
     pub fn found(&self) -> Result<(), Unlike> {
-        let own = !self.folder.is_symlink();
-        let other = own.then(|| fs::read(self.folder.join(RUN)).ok()).flatten();
-        let other: Option<Run> = other.and_then(|bytes| serde_json::from_slice(&bytes).ok());
-        let other = other.ok_or(Unlike::Nothing)?;
+        if self.folder.is_symlink() {
+            return Err(Unlike::Nothing);
+        }
+        // A run that was killed a moment ago may not be gone yet.
+        let mut waits = (0..WAITS).map(|_| std::thread::sleep(WAIT));
+        while self.free().is_err() {
+            waits.next().ok_or(Unlike::Busy)?;
+        }
+        let bytes = fs::read(self.folder.join(RUN)).map_err(|_| Unlike::Nothing)?;
+        let other: Run = serde_json::from_slice(&bytes).map_err(|_| Unlike::Damaged)?;
         let names = self.run.keys().chain(other.keys());
         let mut names: Vec<&String> = names.collect();
         names.sort();
@@ -118,13 +135,45 @@ impl<'d> Checkpoint<'d> {
     /// Goes on from the states that were found.
     pub fn resume(&mut self) {
         self.resumed = true;
-        self.lock().ready = true;
+        let mut kept = self.lock();
+        kept.held = self.hold();
+        kept.ready = true;
     }
 
     /// Removes all states: the run has ended.
     pub fn remove(&self) {
-        stale::empty(self.disk, &self.folder);
-        let _ = self.disk.remove_folder(&self.folder);
+        self.release();
+        if self.free().is_ok() {
+            stale::empty(self.disk, &self.folder);
+            let _ = self.disk.remove_folder(&self.folder);
+        }
+    }
+
+    /// Lets other runs have the folder.
+    pub fn release(&self) {
+        self.lock().held = None;
+    }
+
+    /// Whether no other run keeps its states in the folder.
+    ///
+    /// # Errors
+    /// One does.
+    fn free(&self) -> io::Result<()> {
+        let run = File::open(self.folder.join(RUN)).ok();
+        match run.map(|run| run.try_lock()) {
+            Some(Err(TryLockError::WouldBlock)) => {
+                let why = format!("another run keeps its own in `{}`", self.folder.display());
+                Err(io::Error::other(why))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Locks what says of which run the states are, as long as the file is open.
+    fn hold(&self) -> Option<File> {
+        let run = File::open(self.folder.join(RUN)).ok()?;
+        run.try_lock().ok()?;
+        Some(run)
     }
 
     fn lock(&self) -> std::sync::MutexGuard<'_, Kept> {
@@ -141,6 +190,14 @@ impl<'d> Checkpoint<'d> {
         )
     }
 
+    /// What a state holds, if it is one of this run and whole.
+    fn opened<'b>(&self, part: &str, bytes: &'b [u8]) -> Option<&'b [u8]> {
+        let (seal, rest) = split_line(bytes)?;
+        let (hash, state) = split_line(rest)?;
+        let whole = seal == self.seal(part).as_bytes() && hash == sha256(state).as_bytes();
+        whole.then_some(state)
+    }
+
     /// Makes the folder, without what another run has left there.
     fn prepare(&self) -> io::Result<()> {
         match self.disk.make_folder(&self.folder) {
@@ -154,6 +211,7 @@ impl<'d> Checkpoint<'d> {
             let why = format!("`{FOLDER}` is a link, and what it leads to may be of somebody else");
             return Err(io::Error::other(why));
         }
+        self.free()?;
         stale::empty(self.disk, &self.folder);
         let run = serde_json::to_string_pretty(&self.run).unwrap_or_default();
         file::write(self.disk, &self.folder.join(RUN), run.as_bytes())
@@ -166,8 +224,10 @@ impl<'d> Checkpoint<'d> {
         let mut done = Ok(());
         (self.guard)(&mut || {
             if !kept.ready {
+                kept.held = None;
                 done = self.prepare();
                 kept.ready = done.is_ok();
+                kept.held = done.as_ref().ok().and_then(|()| self.hold());
             }
             if done.is_ok() {
                 done = file::write(self.disk, &self.folder.join(name), bytes);
@@ -175,11 +235,20 @@ impl<'d> Checkpoint<'d> {
                 kept.ready = self.folder.is_dir();
             }
         });
-        if let (Err(why), false) = (done, kept.told) {
-            kept.told = true;
-            tell(&format!("warning: no checkpoint could be kept: {why}"));
+        if let Err(why) = done {
+            kept.tell(&format!("warning: no checkpoint could be kept: {why}"));
         }
         kept.parts.insert(name.to_owned(), Instant::now());
+    }
+}
+
+impl Kept {
+    /// Tells something once.
+    fn tell(&mut self, line: &str) {
+        if !self.told {
+            tell(line);
+        }
+        self.told = true;
     }
 }
 
@@ -195,10 +264,12 @@ impl Keeper for Checkpoint<'_> {
             return None;
         }
         let bytes = fs::read(self.folder.join(format!("{part}{STATE}"))).ok()?;
-        let (seal, rest) = split_line(&bytes)?;
-        let (hash, state) = split_line(rest)?;
-        let whole = seal == self.seal(part).as_bytes() && hash == sha256(state).as_bytes();
-        whole.then(|| state.to_vec())
+        let state = self.opened(part, &bytes).map(<[u8]>::to_vec);
+        if state.is_none() {
+            let why = "a part of the checkpoint is damaged, and is computed anew";
+            self.lock().tell(&format!("note: {why}"));
+        }
+        state
     }
 
     fn keeps(&self) -> bool {

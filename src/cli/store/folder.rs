@@ -10,6 +10,8 @@ use super::disk::Disk;
 use super::file::{folder_of, settle};
 use super::manifest::{self, Manifest};
 use super::stale::{self, BACKUP};
+use crate::driver::digest::sha256;
+use crate::facade::disk::{TABLE, regular};
 use std::collections::BTreeMap;
 use std::fs;
 use std::io;
@@ -77,7 +79,10 @@ impl Folder {
         }
         let manifest = self.path.join(manifest::NAME);
         if manifest.exists() && Manifest::of_folder(&self.path).is_none() {
-            let message = "is not a manifest of btc, and would be overwritten";
+            let message = match manifest::is_damaged(&self.path) {
+                true => "is damaged, so that nothing says which files here btc wrote; delete it",
+                false => "is not a manifest of btc, and would be overwritten",
+            };
             return Err(io::Error::other(format!(
                 "{}: {message}",
                 manifest.display()
@@ -91,7 +96,8 @@ impl Folder {
         Ok(whole)
     }
 
-    /// Puts a result in the place of what btc wrote into the folder before. Other files stay.
+    /// Puts a result in the place of what btc wrote into the folder before. Other files stay. One that has the name of a new
+    /// one gets another: both are given.
     ///
     /// # Errors
     /// The system refuses; the folder then has what it had, or says in its manifest that it is not whole.
@@ -100,7 +106,7 @@ impl Folder {
         disk: &dyn Disk,
         files: &[(String, String)],
         program: BTreeMap<String, String>,
-    ) -> io::Result<()> {
+    ) -> io::Result<Vec<[String; 2]>> {
         let parent = folder_of(&self.path);
         fs::create_dir_all(parent).map_err(|error| at(parent, error))?;
         let target = match self.path.canonicalize() {
@@ -112,18 +118,20 @@ impl Folder {
         };
         stale::sweep(disk, folder_of(&target));
         stale::sweep(disk, &target);
-        let change = Change {
+        let mut change = Change {
             disk,
             files,
             manifest: Manifest::of(files, program),
             before: Manifest::of_folder(&target).unwrap_or_default(),
+            edited: Vec::new(),
             target: &target,
         };
+        change.edited = change.edited();
         // A stage that cannot be made beside the folder may still be made in it.
-        if change.swap().is_ok() {
-            return Ok(());
+        if change.swap().is_err() {
+            change.in_place().map_err(|error| at(&self.path, error))?;
         }
-        change.in_place().map_err(|error| at(&self.path, error))
+        Ok(change.edited)
     }
 }
 
@@ -132,7 +140,7 @@ impl Folder {
     ///
     /// # Errors
     /// As [`Folder::replace`].
-    pub fn add(&self, disk: &dyn Disk, files: &[(String, String)]) -> io::Result<()> {
+    pub fn add(&self, disk: &dyn Disk, files: &[(String, String)]) -> io::Result<Vec<[String; 2]>> {
         let before = Manifest::of_folder(&self.path).unwrap_or_default();
         let changed = before.changed(&self.path);
         let kept = before.files.keys().filter(|name| {
@@ -161,6 +169,8 @@ struct Change<'c> {
     manifest: Manifest,
     /// What the folder says that it has.
     before: Manifest,
+    /// The files of a user that have names of new ones, and the names that they get.
+    edited: Vec<[String; 2]>,
     target: &'c Path,
 }
 
@@ -179,6 +189,12 @@ impl Change<'_> {
                 let name = path.file_name().unwrap_or_default();
                 self.disk.link(path, &stage.join(name))?;
             }
+            for [name, kept] in &self.edited {
+                let to = stage.join(kept);
+                if !to.exists() {
+                    self.disk.link(&self.target.join(name), &to)?;
+                }
+            }
             if there {
                 self.resemble(&stage)?;
             }
@@ -192,7 +208,6 @@ impl Change<'_> {
             settle(self.disk, parent);
         }
         if swapped.is_ok() && there {
-            // What a btc without manifests wrote is replaced, too.
             for (name, _) in self.files {
                 let _ = self.disk.remove_file(&stage.join(name));
             }
@@ -231,6 +246,37 @@ impl Change<'_> {
             own.push(entry.path());
         }
         Ok(own)
+    }
+
+    /// The files that have names of new ones, and are none of the result before: somebody has edited or made them. What a run
+    /// that was stopped has left may be of either result.
+    fn edited(&self) -> Vec<[String; 2]> {
+        let edited = self.files.iter().filter(|(name, text)| {
+            let path = self.target.join(name);
+            let ours = |bytes: &[u8]| {
+                let known = self.before.files.get(name);
+                bytes == text.as_bytes() || known.is_some_and(|hash| *hash == sha256(bytes))
+            };
+            let stopped = self.before.names(name) && !self.before.whole;
+            let there = fs::symlink_metadata(&path).is_ok();
+            there && !stopped && !regular(&path, TABLE).is_ok_and(|bytes| ours(&bytes))
+        });
+        // A run that was stopped may have kept it already.
+        let is_free = |name: &str, kept: &str| {
+            let [name, kept] = [name, kept].map(|name| self.target.join(name));
+            let same = || Some(regular(&kept, TABLE).ok()? == regular(&name, TABLE).ok()?);
+            fs::symlink_metadata(&kept).is_err() || same() == Some(true)
+        };
+        let kept = |name: &str| {
+            let mut names = (1..).map(|n| match n {
+                1 => format!("{name}.edited"),
+                n => format!("{name}.edited-{n}"),
+            });
+            names.find(|kept| is_free(name, kept))
+        };
+        edited
+            .filter_map(|(name, _)| Some([name.clone(), kept(name)?]))
+            .collect()
     }
 
     /// The files of the result before that the new one has not. One that was edited is a user's own.
@@ -305,7 +351,17 @@ impl Change<'_> {
         let dropped = self.dropped();
         let names = self.files.iter().map(|(name, _)| name.as_str());
         let names: Vec<&str> = names.chain(dropped.iter().copied()).collect();
+        let kept = self.edited.iter().map(|[_, kept]| self.target.join(kept));
+        let kept: Vec<PathBuf> = kept.filter(|path| !path.exists()).collect();
+        let unkeep = || {
+            for path in &kept {
+                let _ = self.disk.remove_file(path);
+            }
+        };
         let ready = self.fill(&stage).and_then(|()| {
+            for [name, kept] in &self.edited {
+                self.second(&self.target.join(name), &self.target.join(kept))?;
+            }
             let manifest = [manifest::NAME];
             for name in names.iter().chain(&manifest) {
                 self.back_up(&stage, name)?;
@@ -328,12 +384,14 @@ impl Change<'_> {
                 .disk
                 .remove_file(&stage.join(format!("{}.new", manifest::NAME)));
             stale::clear(self.disk, &stage);
+            unkeep();
             return ready;
         }
         settle(self.disk, self.target);
         let moved = self.move_in(&stage, &dropped);
         if moved.is_err() {
             self.move_back(&stage, &names);
+            unkeep();
         } else {
             settle(self.disk, self.target);
             let kept = self.target.join(checkpoint::FOLDER);
@@ -346,15 +404,17 @@ impl Change<'_> {
 
     /// Gives the file of the folder, if there is one, a second name in the stage.
     fn back_up(&self, stage: &Path, name: &str) -> io::Result<()> {
-        let (from, to) = (
-            self.target.join(name),
-            stage.join(format!("{name}{BACKUP}")),
-        );
-        if !from.exists() || self.disk.link(&from, &to).is_ok() {
+        let to = stage.join(format!("{name}{BACKUP}"));
+        self.second(&self.target.join(name), &to)
+    }
+
+    /// Gives a file, if there is one, a second name, or makes a second file where there can be no second name.
+    fn second(&self, from: &Path, to: &Path) -> io::Result<()> {
+        if !from.exists() || to.exists() || self.disk.link(from, to).is_ok() {
             return Ok(());
         }
-        let mut file = self.disk.create(&to)?;
-        self.disk.write(&mut file, &fs::read(&from)?)?;
+        let mut file = self.disk.create(to)?;
+        self.disk.write(&mut file, &fs::read(from)?)?;
         self.disk.sync(&file)
     }
 

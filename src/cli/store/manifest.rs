@@ -25,6 +25,18 @@ pub struct Manifest {
     pub files: BTreeMap<String, String>,
 }
 
+/// Whether a folder has a manifest of btc that no longer says what it said. A file of that name that says nothing of btc is
+/// somebody else's.
+pub fn is_damaged(folder: &Path) -> bool {
+    let Ok(text) = regular(&folder.join(NAME), TABLE) else {
+        return false;
+    };
+    match serde_json::from_slice::<serde_json::Value>(&text) {
+        Ok(found) => found.get("btc").is_some() && Manifest::deserialize(found).is_err(),
+        Err(_) => true,
+    }
+}
+
 impl Manifest {
     /// The manifest of these files, by name.
     pub fn of(files: &[(String, String)], program: BTreeMap<String, String>) -> Self {

@@ -158,9 +158,9 @@ fn the_commands() {
         .filter_map(|line| line.strip_prefix("  ")?.split(' ').next());
     let names = names.filter(|name| !name.is_empty() && *name != "help");
     let mut text = String::from(
-        "What `btc help COMMAND` says. `-` in the place of a file is standard input. Exit codes: 0 for success, 1 for mistakes in the \
-         input or a\nclaim that does not hold, 2 for a bad command line, 3 for a claim that is undecided, 128 and the number of the \
-         signal for a run that a\nsignal ended.\n\n\
+        "What `btc help COMMAND` says. `-` in the place of a file is standard input, and as an output standard output. Exit codes: \
+         0 for\nsuccess, 1 for mistakes in the input or a claim that does not hold, 2 for a bad command line, 3 for a claim that \
+         is undecided, 128\nand the number of the signal for a run that a signal ended.\n\n\
          `btc completions bash` prints what makes a shell complete commands and options, here Bash; fish, zsh, Elvish and PowerShell \
          have theirs:\n\n\
          ```sh\nbtc completions bash > ~/.local/share/bash-completion/completions/btc\n```\n\n\

@@ -97,6 +97,57 @@ fn files_that_are_not_used_may_go() {
     assert_eq!(fs::read(at.join("out/notes.txt")).unwrap(), b"mine");
 }
 
+/// What somebody has changed, or had there before, is his.
+#[test]
+fn what_was_edited_is_kept_under_another_name() {
+    let folder = project();
+    let at = folder.path();
+    fs::create_dir(at.join("out")).unwrap();
+    fs::write(at.join("out/policy.csv"), "mine").unwrap();
+    let output = learned(at, &["-o", "out"]);
+    assert!(output.status.success(), "{}", told(&output));
+    assert!(told(&output).contains("kept as `policy.csv.edited`"));
+    assert_eq!(fs::read(at.join("out/policy.csv.edited")).unwrap(), b"mine");
+    // A result that nobody has touched is replaced without a word.
+    let output = learned(at, &["-o", "out", "--seed", "2"]);
+    assert!(!told(&output).contains("edited"), "{}", told(&output));
+    for (text, kept) in [("one", "learned.py.edited"), ("two", "learned.py.edited-2")] {
+        fs::write(at.join("out/learned.py"), text).unwrap();
+        let output = learned(at, &["-o", "out"]);
+        assert!(told(&output).contains(kept), "{}", told(&output));
+        assert_eq!(fs::read_to_string(at.join("out").join(kept)).unwrap(), text);
+    }
+    assert_eq!(fs::read(at.join("out/policy.csv.edited")).unwrap(), b"mine");
+    let output = ran(&["verify", "out/learned.bt", "learned", "expert"], at);
+    assert!(output.status.success(), "{}", told(&output));
+}
+
+/// Without its manifest nothing says of a folder that it is one result, so that a damaged one is not as good as none.
+#[test]
+fn a_damaged_manifest_is_told() {
+    let folder = project();
+    let at = folder.path();
+    assert!(learned(at, &["-o", "out"]).status.success());
+    let whole = fs::read(at.join("out/manifest.json")).unwrap();
+    let half = whole.get(..whole.len() / 2).unwrap();
+    for text in [b"".as_slice(), half, b"{\"btc\": 1}"] {
+        fs::write(at.join("out/manifest.json"), text).unwrap();
+        let output = ran(&["verify", "out/learned.bt", "learned", "expert"], at);
+        assert_eq!(output.status.code(), Some(1));
+        let said = told(&output);
+        assert!(said.contains("E0212") && said.contains("damaged"), "{said}");
+        let said = told(&learned(at, &["-o", "out"]));
+        assert!(
+            said.contains("damaged") && said.contains("delete it"),
+            "{said}"
+        );
+    }
+    // One of somebody else says nothing of what stands beside it.
+    fs::write(at.join("out/manifest.json"), "{\"name\": \"a page\"}").unwrap();
+    let output = ran(&["check", "out/learned.bt"], at);
+    assert!(output.status.success(), "{}", told(&output));
+}
+
 #[test]
 fn what_a_run_no_longer_writes_goes_with_the_old_result() {
     let folder = project();

@@ -87,6 +87,7 @@ fn a_damaged_checkpoint_is_left_out() {
     }
     let output = learned(at, &["-o", "out", "--resume"]);
     assert!(output.status.success(), "{}", told(&output));
+    assert!(told(&output).contains("a part of the checkpoint is damaged"));
     assert_eq!(files(&at.join("out")), files(&at.join("whole")));
 }
 
@@ -171,6 +172,60 @@ fn a_checkpoint_of_another_run_is_not_taken() {
     assert!(said.contains("--seed: nothing there, 3 here"), "{said}");
     let output = learned(at, &["-o", "out", "--resume"]);
     assert!(output.status.success(), "{}", told(&output));
+    assert!(leftovers(&at.join("out")).is_empty());
+}
+
+/// A run that is killed once it has kept something.
+fn stopped(at: &Path, more: &[&str]) {
+    let mut arguments = vec!["learn", "small.bt", "-o", "out", "--checkpoint", "0s"];
+    arguments.extend(ENDLESS);
+    arguments.extend(more);
+    let mut run = btc(&arguments, at).spawn().unwrap();
+    while !at.join("out/.btc-checkpoint/seed-1.state").exists() {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    run.kill().unwrap();
+    run.wait().unwrap();
+}
+
+#[test]
+fn a_checkpoint_that_is_lost_is_told() {
+    let folder = project();
+    let at = folder.path();
+    stopped(at, &[]);
+    let output = learned(at, &["-o", "out"]);
+    assert!(output.status.success());
+    let said = told(&output);
+    assert!(said.contains("a checkpoint of another run"), "{said}");
+    assert!(said.contains("--effort: 900000000000 there"), "{said}");
+    stopped(at, &[]);
+    fs::write(at.join("out/.btc-checkpoint/run.json"), "").unwrap();
+    let output = learned(at, &["-o", "out", "--resume"]);
+    assert!(output.status.success());
+    let said = told(&output);
+    assert!(said.contains("the checkpoint in out is damaged"), "{said}");
+}
+
+#[test]
+fn a_folder_in_which_a_run_keeps_its_states_is_taken() {
+    let folder = project();
+    let at = folder.path();
+    let mut arguments = vec!["learn", "small.bt", "-o", "out", "--checkpoint", "0s"];
+    arguments.extend(ENDLESS);
+    let mut run = btc(&arguments, at).spawn().unwrap();
+    while !at.join("out/.btc-checkpoint/seed-1.state").exists() {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    for more in [&["--seed", "2"][..], &["--resume"]] {
+        let output = learned(at, &[&["-o", "out"], more].concat());
+        assert_eq!(output.status.code(), Some(1), "{}", told(&output));
+        let said = told(&output);
+        assert!(said.contains("another run is at work in out"), "{said}");
+    }
+    assert!(run.try_wait().unwrap().is_none());
+    run.kill().unwrap();
+    run.wait().unwrap();
+    assert!(learned(at, &["-o", "out"]).status.success());
     assert!(leftovers(&at.join("out")).is_empty());
 }
 
