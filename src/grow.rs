@@ -31,6 +31,7 @@ use crate::ir::tree::{Atom, Node};
 use crate::ir::{Id, Program};
 use crate::learn::episode::Episode;
 use crate::learn::experiment::Experiment;
+use crate::learn::extract::Decisions;
 use crate::learn::greedy;
 use crate::learn::improve::{Improved, Improver};
 use crate::learn::process::{Key, World};
@@ -110,13 +111,14 @@ const GROWING: f64 = 0.6;
 /// Improves the policy of a run by simulation.
 pub fn improve<W: World>(
     experiment: &Experiment<W>,
-    run: &mut Run,
+    (run, others): (&mut Run, &[Decisions]),
     effort: u64,
     keeper: &dyn Keeper,
 ) -> Improved {
     let part = Part::new(keeper, "improved");
     let (decisions, table, improved) = part.whole(|| {
-        let improved = improve_from(experiment, run, effort, &Part::new(keeper, "policy"));
+        let part = Part::new(keeper, "policy");
+        let improved = improve_from(experiment, (run, others), effort, &part);
         (run.decisions.clone(), run.table.clone(), improved)
     });
     (run.decisions, run.table) = (decisions, table);
@@ -125,7 +127,7 @@ pub fn improve<W: World>(
 
 fn improve_from<W: World>(
     experiment: &Experiment<W>,
-    run: &mut Run,
+    (run, others): (&mut Run, &[Decisions]),
     effort: u64,
     part: &Part,
 ) -> Improved {
@@ -137,6 +139,7 @@ fn improve_from<W: World>(
         least: experiment.evidence,
         effort: share(effort, ITERATING),
         pace: Pace::THOROUGH,
+        others,
     };
     let iterated = iteration.run(&run.decisions, part);
     let ticks = iterated.ticks;
@@ -189,6 +192,25 @@ pub fn left_by(effort: u64, runs: &[Run], validated: &[Summary]) -> u64 {
     effort.saturating_sub(further.chain(compared).sum())
 }
 
+/// The policies of the other runs whose ways are worth to be known: of many, those that return most.
+pub fn others(runs: &[Run], validated: &[Summary], best: usize) -> Vec<Decisions> {
+    let returns: Vec<f64> = validated.iter().map(|it| it.total.mean).collect();
+    let others = next_best(&returns, best).into_iter();
+    let others = others.filter_map(|at| runs.get(at));
+    others.map(|run| run.decisions.clone()).collect()
+}
+
+/// The places of the greatest returns beside the best, in their order.
+fn next_best(returns: &[f64], best: usize) -> Vec<usize> {
+    let others = returns.iter().enumerate().filter(|(at, _)| *at != best);
+    let mut others: Vec<(usize, &f64)> = others.collect();
+    others.sort_by(|(_, a), (_, b)| b.total_cmp(a));
+    others.truncate(RUNS as usize - 1);
+    let mut places: Vec<usize> = others.into_iter().map(|(at, _)| at).collect();
+    places.sort_unstable();
+    places
+}
+
 fn share(effort: u64, part: f64) -> u64 {
     (effort as f64 * part) as u64
 }
@@ -233,4 +255,17 @@ pub fn grow<W: World>(
     }
     whole.save(|| &grown);
     Ok(grown)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::next_best;
+
+    #[test]
+    fn the_ways_of_the_two_next_best_runs_are_known() {
+        assert_eq!(next_best(&[3.0, 1.0, 9.0, 5.0, -2.0], 2), [0, 3]);
+        assert_eq!(next_best(&[1.0, 2.0, 3.0], 0), [1, 2]);
+        assert_eq!(next_best(&[1.0, 2.0], 1), [0]);
+        assert!(next_best(&[], 0).is_empty());
+    }
 }

@@ -38,7 +38,7 @@ const FEWEST: usize = 40;
 const PROVED: f64 = 3.4;
 
 /// What a tree may return less than one with at least so many times its nodes, as a part of what that returns.
-const LESS: [(usize, f64); 2] = [(3, 0.015), (2, 0.01)];
+const LESS: (usize, f64) = (2, 0.015);
 
 /// Which tree of the front is wanted.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -327,9 +327,11 @@ fn knee<W: World>(
     let mean = |entrant: &Entrant| entrant.contender.returns().mean;
     // Less harm alone does not make a tree as good: one that does nothing has none.
     let as_good = |entrant: &Entrant| {
-        let mut less = LESS.into_iter();
-        let less = less.find(|(times, _)| entrant.nodes * times <= base.nodes);
-        let less = less.map_or(0.0, |(_, part)| part * mean(base).abs());
+        let (times, part) = LESS;
+        let less = match entrant.nodes * times <= base.nodes {
+            true => part * mean(base).abs(),
+            false => 0.0,
+        };
         [Terms::taking(0.0), Terms::free()]
             .into_iter()
             .all(|terms| {

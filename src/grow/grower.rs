@@ -103,7 +103,7 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
                 Step::Cover(cover) => self.cover(base, cover),
                 Step::Sprout(round) => self.sprout(base, round, starts),
                 Step::Climb(stage) => self.climb(base, stage),
-                Step::Attempted => self.again(base),
+                Step::Attempted => self.again(base, &starts.exact),
                 Step::Detour(detour) => self.detour(base, detour),
                 Step::Refine(stage) => self.refine(base, stage),
                 Step::Done => (base, Step::Done),

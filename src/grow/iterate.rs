@@ -48,6 +48,9 @@ const EXPLORING: [f64; 3] = [0.05, 0.2, 0.6];
 /// Random decisions under those that are tried.
 const TRYING: f64 = 0.1;
 
+/// The number of the first collection under another run's policy.
+const OTHERS: u64 = 1 << 15;
+
 /// How the effort is divided.
 #[derive(Clone, Copy, Debug)]
 pub struct Pace {
@@ -132,6 +135,8 @@ pub struct Iteration<'g, 'w, W> {
     pub effort: u64,
     /// How these are divided.
     pub pace: Pace,
+    /// The policies of other runs: what follows their decisions is counted, too.
+    pub others: &'g [Decisions],
 }
 
 /// Where the iteration stands between two rounds.
@@ -184,6 +189,7 @@ impl<W: World> Iteration<'_, '_, W> {
                 }
             }
             if round == 1 {
+                ticks += self.know_others(&mut evidence);
                 ticks += self.act(&mut evidence, &mut base);
             }
             base.played.clear();
@@ -245,6 +251,20 @@ impl<W: World> Iteration<'_, '_, W> {
         let greedy = self.greedy(choices);
         let ticks = self.effort / self.pace.collections;
         evidence.collect(self.ground, &greedy, (part, start), ticks)
+    }
+
+    /// Counts under the policies of other runs, which may know ways that this one does not; gives the ticks.
+    fn know_others(&self, evidence: &mut Evidence) -> u64 {
+        let mut ticks = 0;
+        let mut numbers = OTHERS..;
+        for decisions in self.others {
+            let choices = decisions.iter().map(|(key, it)| (*key, it.choice));
+            let choices: Choices = choices.collect();
+            for (explore, number) in EXPLORING.into_iter().zip(&mut numbers) {
+                ticks += self.collect(evidence, &choices, explore, number).1;
+            }
+        }
+        ticks
     }
 
     /// Takes decisions that do not fail at once, unless they are surely worse: a tree would not wait there, but go on to

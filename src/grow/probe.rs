@@ -110,6 +110,7 @@ pub fn outlook<W: World>(
         least: experiment.evidence,
         effort,
         pace: Pace::QUICK,
+        others: &[],
     };
     let runs = experiment.learn_all((seed, 1), &Forgetful, || {});
     let decisions = runs.into_iter().next().map(|run| run.decisions);

@@ -71,11 +71,12 @@ pub fn learn<'e, W: World>(
         None => grow::left_by(options.effort, &runs, &validated),
     };
     let mut improved = Improved::default();
+    let others = grow::others(&runs, &validated, best);
     if options.shape == Shape::Grown
         && let Some(run) = runs.get_mut(best)
     {
         progress(Stage::Improving);
-        improved = grow::improve(experiment, run, effort, keeper);
+        improved = grow::improve(experiment, (run, &others), effort, keeper);
     }
     let run = runs.get(best).ok_or(Unlearned::Nothing)?;
     progress(Stage::RollingOut);

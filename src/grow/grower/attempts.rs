@@ -12,6 +12,7 @@ use crate::grow::race::{ENOUGH, Terms};
 use crate::grow::step::{Detour, Step};
 use crate::ir::tree::Node;
 use crate::learn::process::World;
+use crate::tree::Size;
 use std::mem;
 
 /// The most attempts, and the part of the effort that two of them take.
@@ -19,6 +20,9 @@ const ATTEMPTS: usize = 4;
 const ATTEMPTED: f64 = 0.6;
 /// The part of the effort after which no third or fourth begins.
 const MORE: f64 = 0.35;
+/// The part of the return that a tree lacks which falls short of the exact one, and the part of their price that nodes then cost.
+const SHORT: f64 = 0.01;
+const CHEAPER: f64 = 0.25;
 /// The most trees of all ways that race in the end, the later ones.
 const RACING: usize = 48;
 
@@ -57,7 +61,7 @@ impl<W: World> Grower<'_, '_, '_, W> {
     }
 
     /// Begins the next attempt, or goes on with the best tree of all of them.
-    pub(super) fn again(&mut self, base: Node) -> (Node, Step) {
+    pub(super) fn again(&mut self, base: Node, exact: &Node) -> (Node, Step) {
         self.visit(&base);
         self.attempts.found.push(mem::take(&mut self.visited));
         self.attempts.begun = None;
@@ -72,7 +76,21 @@ impl<W: World> Grower<'_, '_, '_, W> {
         found.sort_by_key(has_best);
         self.visited = found.into_iter().flatten().collect();
         self.visit(&base);
+        self.reprice(&base, exact);
         (base, Step::Detour(Detour::default()))
+    }
+
+    /// Lets nodes cost less if the tree that was found falls short of the exact one, which has more of them: what brought so
+    /// little that it was left out may be what it lacks.
+    fn reprice(&mut self, base: &Node, exact: &Node) {
+        let [small, large] = [base, exact].map(|root| Size::of(root).nodes);
+        if large <= small {
+            return;
+        }
+        let terms = Terms::taking(SHORT * self.scale / (large - small) as f64);
+        if self.judge.race(base, vec![exact.clone()], terms).is_some() {
+            self.price *= CHEAPER;
+        }
     }
 
     /// What the next attempt begins with, if there is one.

@@ -2,8 +2,9 @@
 
 use super::Pla;
 use crate::logic::alive::Alive;
+use crate::logic::packed::Packed;
 use crate::logic::{Bits, Columns};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Two rows with a minterm in common of which they say different things, the earlier first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,15 +37,20 @@ pub(super) fn conflict(
     let all = labels
         .iter()
         .fold(Bits::empty(pla.rows()), |all, rows| all.or(rows));
-    let conflicts = (0..pla.rows()).filter_map(|row| {
-        let own = labels.get(label(row)?)?;
+    // A row that stands twice meets the same ones.
+    let mut seen: FxHashSet<(usize, Packed)> = FxHashSet::default();
+    let mut conflicts = (0..pla.rows()).filter_map(|row| {
+        let label = label(row)?;
+        if !seen.insert((label, pla.cube(row))) {
+            return None;
+        }
+        let own = labels.get(label)?;
         let other = meeting(columns, row, &all.minus(own))?;
         Some(Conflict {
             first: row.min(other),
             second: row.max(other),
         })
     });
-    let mut conflicts = conflicts;
     conflicts.next()
 }
 

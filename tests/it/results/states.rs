@@ -82,7 +82,7 @@ fn goes_on(method: &str, step: usize) {
     let loaded = program(method);
     let whole = learn(&loaded, &options(&Forgetful), &|_| {}).unwrap();
     let keeper = Everything {
-        sparse: 7,
+        sparse: 1,
         ..Everything::default()
     };
     same(
