@@ -10,6 +10,7 @@ use lsp_server::{Connection, Message};
 use std::cell::OnceCell;
 use std::io::{self, BufRead, Read};
 use std::path::Path;
+use std::sync::{Arc, OnceLock};
 use std::thread;
 use tempfile::TempDir;
 
@@ -101,7 +102,12 @@ fn receive(pass_on: impl Fn(Message) -> bool) -> io::Result<()> {
 pub(super) fn run(_: &Arguments) -> Result<(), Failure> {
     let (connection, editor) = Connection::memory();
     let Connection { sender, receiver } = editor;
-    let reader = thread::spawn(move || receive(|message| sender.send(message).is_ok()));
+    // Known before the server hears that nothing more comes: it says more than that.
+    let wrong = Arc::new(OnceLock::new());
+    let found = wrong.clone();
+    let reader = thread::spawn(move || {
+        receive(|message| sender.send(message).is_ok()).unwrap_or_else(|why| drop(found.set(why)));
+    });
     let writer = thread::spawn(move || {
         let mut output = io::stdout().lock();
         let mut messages = receiver.into_iter();
@@ -111,10 +117,11 @@ pub(super) fn run(_: &Arguments) -> Result<(), Failure> {
     // The threads end when nothing more is to be sent.
     drop(connection);
     let told = |why: String| files::complain(&format!("the editor: {why}"));
-    served.map_err(|why| told(why.to_string()))?;
-    for thread in [reader, writer] {
-        let ended = thread.join().unwrap_or(Ok(()));
-        ended.map_err(|why| told(why.to_string()))?;
-    }
-    Ok(())
+    let served = served.map_err(|why| why.to_string());
+    let heard = |why: &io::Error| Err(why.to_string());
+    wrong.get().map_or(served, heard).map_err(told)?;
+    let _ = reader.join();
+    let sent = writer.join().unwrap_or(Ok(()));
+    wrong.get().map_or(Ok(()), heard).map_err(told)?;
+    sent.map_err(|why| told(why.to_string()))
 }
