@@ -34,9 +34,13 @@ pub(super) fn watch() {
     // A signal that was ignored when the process began stays so: `nohup btc learn …` outlives its terminal.
     let ends = [SIGHUP, SIGINT, SIGTERM].into_iter();
     let ends = ends.filter(|signal| ignored >> (signal - 1) & 1 == 0);
-    if let Ok(mut signals) = Signals::new(ends.collect::<Vec<i32>>()) {
-        std::thread::spawn(move || signals.forever().next().map(end));
-    }
+    let ends: Vec<i32> = ends.collect();
+    // Where the system gives no thread, the signals keep their own meaning.
+    let watching = std::thread::Builder::new().spawn(move || {
+        let mut signals = Signals::new(ends).ok()?;
+        signals.forever().next().map(end)
+    });
+    drop(watching);
 }
 
 /// The signals that are ignored, a bit each, as far as the system says.

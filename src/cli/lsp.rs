@@ -105,14 +105,17 @@ pub(super) fn run(_: &Arguments) -> Result<(), Failure> {
     // Known before the server hears that nothing more comes: it says more than that.
     let wrong = Arc::new(OnceLock::new());
     let found = wrong.clone();
-    let reader = thread::spawn(move || {
+    let reading = move || {
         receive(|message| sender.send(message).is_ok()).unwrap_or_else(|why| drop(found.set(why)));
-    });
-    let writer = thread::spawn(move || {
+    };
+    let writing = move || {
         let mut output = io::stdout().lock();
         let mut messages = receiver.into_iter();
         messages.try_for_each(|message| message.write(&mut output))
-    });
+    };
+    let without = |why: io::Error| files::complain(&format!("no thread: {why}"));
+    let writer = thread::Builder::new().spawn(writing).map_err(without)?;
+    let reader = thread::Builder::new().spawn(reading).map_err(without)?;
     let served = serve(&connection, &Files::default());
     // The threads end when nothing more is to be sent.
     drop(connection);

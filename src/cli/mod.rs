@@ -146,10 +146,14 @@ fn use_threads(asked: Option<u16>) {
             .ok()
     };
     let threads = asked.map(usize::from).or_else(named).unwrap_or(0);
-    let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads);
-    if pool(threads.min(most)).build_global().is_err() {
-        let _ = pool(1).use_current_thread().build_global();
-    }
+    let pool = |threads: usize| rayon::ThreadPoolBuilder::new().num_threads(threads.min(most));
+    // Whether there are so many is tried before: there is one pool of the whole process, and no second try.
+    let chosen = match pool(threads).build() {
+        Ok(_) => pool(threads),
+        Err(_) => pool(1).use_current_thread(),
+    };
+    // Fails only if there is one, and nothing has made it yet.
+    let _ = chosen.build_global();
 }
 
 /// Runs the command of the process's arguments.

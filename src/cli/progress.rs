@@ -27,12 +27,14 @@ impl Progress {
         let (done, wait) = mpsc::channel::<()>();
         if std::io::stderr().is_terminal() {
             let bar = bar.clone();
-            std::thread::spawn(move || {
+            // Where the system gives no thread, there is no bar.
+            let showing = std::thread::Builder::new().spawn(move || {
                 if wait.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout) {
                     bar.set_draw_target(ProgressDrawTarget::stderr());
                     bar.enable_steady_tick(BEAT);
                 }
             });
+            drop(showing);
         }
         if let Ok(style) = ProgressStyle::with_template("{msg:14} {spinner} {elapsed}") {
             bar.set_style(style);

@@ -642,3 +642,18 @@ fn a_project_has_a_name() {
     assert_eq!(output.status.code(), Some(2));
     assert_eq!(err(&output), "error: a project needs a name\n");
 }
+
+/// The system's administrator is not held to it, and has nothing to see here.
+#[cfg(unix)]
+#[test]
+fn a_system_that_gives_no_thread_is_enough() {
+    for command in ["check FILE", "run FILE --tree expert --episodes 3"] {
+        let command = command.replace("FILE", SMALL);
+        let script = format!(
+            "ulimit -u 1 && exec {} {command}",
+            env!("CARGO_BIN_EXE_btc")
+        );
+        let output = Command::new("bash").args(["-c", &script]).output().unwrap();
+        assert!(output.status.success(), "{}", err(&output));
+    }
+}
