@@ -137,7 +137,7 @@ pub(super) fn programs(path: &str) -> Result<Vec<String>, Failure> {
         Ok(())
     }
     let mut programs = Vec::new();
-    if path != files::STDIN && Path::new(path).is_dir() {
+    if path != files::DASH && Path::new(path).is_dir() {
         walk(Path::new(path), &mut programs)?;
         return Ok(programs);
     }
@@ -177,7 +177,7 @@ fn found(arguments: &Arguments, path: &str) -> Result<Checked, Failure> {
     let (name, bytes) = match files::bytes(path, load::MOST as u64) {
         Ok(bytes) => {
             let called = arguments.stdin_file_path.as_deref();
-            let called = called.filter(|_| path == files::STDIN);
+            let called = called.filter(|_| path == files::DASH);
             (called.unwrap_or(files::shown(path)).to_owned(), bytes)
         }
         Err(why) => {
@@ -193,7 +193,7 @@ fn found(arguments: &Arguments, path: &str) -> Result<Checked, Failure> {
     };
     let mut reader = Found::of(&name);
     let mut loaded = load::load(&name, bytes, &mut reader);
-    if arguments.fix && path != files::STDIN && Path::new(path).is_file() {
+    if arguments.fix && path != files::DASH && Path::new(path).is_file() {
         let mut mended = None;
         for _ in 0..ROUNDS {
             let Some(text) = fixed(mended.as_ref().unwrap_or(&loaded)) else {

@@ -14,7 +14,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// The name that stands for standard input, and for standard output.
-pub(super) const STDIN: &str = "-";
+pub(super) const DASH: &str = "-";
 
 /// A file, or standard input, as it was read.
 pub(super) struct File {
@@ -45,11 +45,7 @@ pub(super) fn read(path: &str) -> Result<File, Failure> {
 /// Reads a file, or standard input, for itself: of more than `most` bytes, one more.
 pub(super) fn read_alone(path: &str, most: u64) -> Result<File, Failure> {
     let bytes = bytes(path, most).map_err(|error| {
-        let place = if path == STDIN {
-            "standard input"
-        } else {
-            path
-        };
+        let place = if path == DASH { "standard input" } else { path };
         complain(&format!("{place}: {error}"))
     })?;
     let name = shown(path).to_owned();
@@ -58,12 +54,12 @@ pub(super) fn read_alone(path: &str, most: u64) -> Result<File, Failure> {
 
 /// What a file is called in diagnostics.
 pub(super) fn shown(path: &str) -> &str {
-    if path == STDIN { "<stdin>" } else { path }
+    if path == DASH { "<stdin>" } else { path }
 }
 
 /// The bytes of a file, or of standard input.
 pub(super) fn bytes(path: &str, most: u64) -> io::Result<Vec<u8>> {
-    if path == STDIN {
+    if path == DASH {
         return bounded(io::stdin().lock(), most);
     }
     let file = std::fs::File::open(path)?;
@@ -198,11 +194,11 @@ pub(super) fn placed(kept: io::Result<Vec<[String; 2]>>) -> Result<(), Failure> 
 pub(super) fn apart(outputs: &[Option<&Path>], inputs: &[Option<&str>]) -> Result<(), Failure> {
     let real = |path: &Path| path.canonicalize().ok();
     let mut taken: Vec<(PathBuf, &str)> = Vec::new();
-    let inputs = inputs.iter().flatten().filter(|path| **path != STDIN);
+    let inputs = inputs.iter().flatten().filter(|path| **path != DASH);
     let inputs = inputs.filter_map(|path| real(Path::new(path)));
     taken.extend(inputs.map(|path| (path, "what this command reads")));
     let outputs = outputs.iter().flatten();
-    for output in outputs.filter(|path| **path != Path::new(STDIN)) {
+    for output in outputs.filter(|path| **path != Path::new(DASH)) {
         // What is not there yet is the same if it has the same name.
         let is_file = std::fs::metadata(output).map_or(true, |found| found.is_file());
         let own = real(output).unwrap_or_else(|| output.to_path_buf());
@@ -221,7 +217,7 @@ pub(super) fn apart(outputs: &[Option<&Path>], inputs: &[Option<&str>]) -> Resul
 
 /// Writes to a file, or to standard output.
 pub(super) fn put(path: Option<&Path>, text: &str) -> Result<(), Failure> {
-    match path.filter(|path| *path != Path::new(STDIN)) {
+    match path.filter(|path| *path != Path::new(DASH)) {
         Some(path) => write(path, text),
         None => print(text),
     }

@@ -2,7 +2,7 @@
 
 use super::Failure;
 use super::check::programs;
-use super::files::{self, STDIN};
+use super::files::{self, DASH};
 use super::report::{Reporter, tell};
 use crate::driver::format::format;
 use crate::driver::load::MOST;
@@ -45,7 +45,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
                 tell(&format!("{} is not laid out", file.name));
                 fine = false;
             }
-        } else if path == STDIN {
+        } else if path == DASH {
             files::print(&formatted)?;
         } else if changed {
             fine &= files::write(Path::new(path), &formatted).is_ok();

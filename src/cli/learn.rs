@@ -1,7 +1,7 @@
 //! `btc learn`
 
 use super::checkpoints::{self, Checkpoints};
-use super::files::{self, STDIN};
+use super::files::{self, DASH};
 use super::progress::Progress;
 use super::report::{Reporter, tell};
 use super::store::checkpoint::Run;
@@ -93,7 +93,7 @@ fn loss(text: &str) -> Result<f64, String> {
 }
 
 pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {
-    if arguments.file == STDIN {
+    if arguments.file == DASH {
         tell("error: a program is learned from its file, so that the result can use it");
         return Err(Failure::Usage);
     }

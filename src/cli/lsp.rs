@@ -125,6 +125,5 @@ pub(super) fn run(_: &Arguments) -> Result<(), Failure> {
     wrong.get().map_or(served, heard).map_err(told)?;
     let _ = reader.join();
     let sent = writer.join().unwrap_or(Ok(()));
-    wrong.get().map_or(Ok(()), heard).map_err(told)?;
     sent.map_err(|why| told(why.to_string()))
 }

@@ -1,6 +1,6 @@
 //! Paths as programs name them: relative, with `/` between their parts.
 
-use super::files::STDIN;
+use super::files::DASH;
 use super::store::file::folder_of;
 use super::{Failure, files};
 use crate::diagnostic::render;
@@ -15,7 +15,7 @@ use std::path::{Component, Path, PathBuf};
 /// As [`used_from`].
 pub(super) fn used_by(output: Option<&Path>, file: &str) -> Result<Option<String>, Failure> {
     match output {
-        _ if file == STDIN => Ok(None),
+        _ if file == DASH => Ok(None),
         None => Ok(Some(file.to_owned())),
         Some(output) => used_from(folder_of(output), Path::new(file)).map(Some),
     }

@@ -89,7 +89,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
             TraceFormat::Csv => trace.csv(),
             TraceFormat::Jsonl => trace.json_lines(),
         };
-        if path.as_os_str() == files::STDIN {
+        if path.as_os_str() == files::DASH {
             traced = Some(text);
         } else {
             files::write(path, &text)?;

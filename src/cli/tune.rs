@@ -1,7 +1,7 @@
 //! `btc tune`
 
 use super::checkpoints::{self, Checkpoints};
-use super::files::{self, STDIN};
+use super::files::{self, DASH};
 use super::learn::tuned_files;
 use super::progress::Progress;
 use super::report::{Format, Reporter, tell};
@@ -47,7 +47,7 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> {
-    if arguments.fix && arguments.file == STDIN {
+    if arguments.fix && arguments.file == DASH {
         tell("error: standard input cannot be fixed: name a file");
         return Err(Failure::Usage);
     }
@@ -94,7 +94,7 @@ impl Arguments {
 
     /// All that the result depends on.
     fn run(&self, loaded: &Loaded, folder: &Path) -> Result<Run, Failure> {
-        let program = match self.file == STDIN {
+        let program = match self.file == DASH {
             true => paths::program_by_name(loaded),
             false => paths::program_of(loaded, folder)?,
         };

@@ -99,7 +99,7 @@ pub(super) fn together(results: &[Proved]) -> Result<(), Failure> {
 /// Whether a side is the path of a table, and no tree.
 fn is_table(side: &str) -> bool {
     let endings = [".csv", ".jsonl", ".ndjson", ".json", ".yaml", ".yml"];
-    side == files::STDIN || endings.iter().any(|ending| side.ends_with(ending))
+    side == files::DASH || endings.iter().any(|ending| side.ends_with(ending))
 }
 
 fn with_table(

@@ -140,10 +140,10 @@ impl<'d> Checkpoint<'d> {
         kept.ready = true;
     }
 
-    /// Removes all states: the run has ended.
+    /// Removes all states of this run, which has ended. Where it kept none there may be those of another.
     pub fn remove(&self) {
         self.release();
-        if self.free().is_ok() {
+        if self.lock().ready && self.free().is_ok() {
             stale::empty(self.disk, &self.folder);
             let _ = self.disk.remove_folder(&self.folder);
         }

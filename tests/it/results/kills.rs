@@ -1,6 +1,6 @@
 //! Runs that are killed at random moments.
 
-use super::{ENDLESS, SHORT, btc, files, learned, leftovers, project, told};
+use super::{ENDLESS, SHORT, btc, files, learned, leftovers, project, ran, told};
 use btc::random::Random;
 use std::fs;
 use std::path::Path;
@@ -175,15 +175,18 @@ fn a_checkpoint_of_another_run_is_not_taken() {
     assert!(leftovers(&at.join("out")).is_empty());
 }
 
-/// A run that is killed once it has kept something.
-fn stopped(at: &Path, more: &[&str]) {
+/// A run that does not end, and has kept something.
+fn at_work(at: &Path) -> Child {
     let mut arguments = vec!["learn", "small.bt", "-o", "out", "--checkpoint", "0s"];
     arguments.extend(ENDLESS);
-    arguments.extend(more);
-    let mut run = btc(&arguments, at).spawn().unwrap();
+    let run = btc(&arguments, at).spawn().unwrap();
     while !at.join("out/.btc-checkpoint/seed-1.state").exists() {
         std::thread::sleep(Duration::from_millis(1));
     }
+    run
+}
+
+fn kill(mut run: Child) {
     run.kill().unwrap();
     run.wait().unwrap();
 }
@@ -192,13 +195,29 @@ fn stopped(at: &Path, more: &[&str]) {
 fn a_checkpoint_that_is_lost_is_told() {
     let folder = project();
     let at = folder.path();
-    stopped(at, &[]);
+    kill(at_work(at));
     let output = learned(at, &["-o", "out"]);
     assert!(output.status.success());
     let said = told(&output);
     assert!(said.contains("a checkpoint of another run"), "{said}");
     assert!(said.contains("--effort: 900000000000 there"), "{said}");
-    stopped(at, &[]);
+    kill(at_work(at));
+    // One that is refused, and has kept nothing itself, leaves it.
+    let states = files(&at.join("out/.btc-checkpoint"));
+    let refused = [
+        "--episodes",
+        "1",
+        "--evidence",
+        "1000",
+        "--checkpoint",
+        "never",
+    ];
+    let output = ran(
+        &[&["learn", "small.bt", "-o", "out"], &refused[..]].concat(),
+        at,
+    );
+    assert_eq!(output.status.code(), Some(1), "{}", told(&output));
+    assert_eq!(files(&at.join("out/.btc-checkpoint")), states);
     fs::write(at.join("out/.btc-checkpoint/run.json"), "").unwrap();
     let output = learned(at, &["-o", "out", "--resume"]);
     assert!(output.status.success());
@@ -210,12 +229,7 @@ fn a_checkpoint_that_is_lost_is_told() {
 fn a_folder_in_which_a_run_keeps_its_states_is_taken() {
     let folder = project();
     let at = folder.path();
-    let mut arguments = vec!["learn", "small.bt", "-o", "out", "--checkpoint", "0s"];
-    arguments.extend(ENDLESS);
-    let mut run = btc(&arguments, at).spawn().unwrap();
-    while !at.join("out/.btc-checkpoint/seed-1.state").exists() {
-        std::thread::sleep(Duration::from_millis(1));
-    }
+    let mut run = at_work(at);
     for more in [&["--seed", "2"][..], &["--resume"]] {
         let output = learned(at, &[&["-o", "out"], more].concat());
         assert_eq!(output.status.code(), Some(1), "{}", told(&output));
@@ -223,8 +237,7 @@ fn a_folder_in_which_a_run_keeps_its_states_is_taken() {
         assert!(said.contains("another run is at work in out"), "{said}");
     }
     assert!(run.try_wait().unwrap().is_none());
-    run.kill().unwrap();
-    run.wait().unwrap();
+    kill(run);
     assert!(learned(at, &["-o", "out"]).status.success());
     assert!(leftovers(&at.join("out")).is_empty());
 }
