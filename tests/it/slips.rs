@@ -9,9 +9,11 @@ use btc::diagnostic::{Applicability, Diagnostic};
 use btc::driver::check;
 use btc::driver::load::{Loaded, load};
 use btc::source::Span;
+use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
 /// A line, its first and last column in characters, and a code.
 type Told = (usize, usize, usize, String);
@@ -104,41 +106,78 @@ fn told(loaded: &Loaded, path: &Path) -> BTreeSet<Told> {
     set
 }
 
-#[test]
-fn each_slip_is_told_at_its_place() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/slips");
-    let (mut single, mut several) = (0, 0);
-    let mut wrong = Vec::new();
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.extension().is_none_or(|extension| extension != "slip") {
-            continue;
-        }
-        let case = case(&path);
-        match case.told.len() {
-            0 => panic!("{}: nothing is expected", path.display()),
-            1 => single += 1,
-            _ => several += 1,
-        }
-        let loaded = load("slip.bt", case.text.into(), &mut NoFiles);
-        let found = told(&loaded, &path);
-        if found != case.told {
-            let name = path.file_name().unwrap().to_owned();
-            wrong.push(format!("{name:?}: {:?}, but told was {found:?}", case.told));
-        }
-    }
-    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-    assert!(single >= 80 && several >= 20, "{single} and {several}");
+/// What came of a slip.
+struct Tried {
+    path: PathBuf,
+    expected: BTreeSet<Told>,
+    found: BTreeSet<Told>,
+    shown: String,
+    /// How many fixes are offered.
+    offered: usize,
+    /// Whether there is a fix for all that is wrong that may be applied unseen.
+    fixed: bool,
+    /// What is wrong with the fixes.
+    unfit: Vec<String>,
 }
 
-#[test]
-fn slips_are_told_in_these_words() {
-    crate::snapshot::settings().bind(|| {
-        insta::glob!("..", "cases/slips/*.slip", |path| {
-            let loaded = load("slip.bt", case(path).text.into(), &mut NoFiles);
-            insta::assert_snapshot!("slip", program::shown(&loaded));
-        });
-    });
+/// Each slip, tried once.
+static TRIED: LazyLock<Vec<Tried>> = LazyLock::new(|| {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/slips");
+    let paths = fs::read_dir(folder).unwrap();
+    let paths = paths.map(|entry| entry.unwrap().path());
+    let mut paths: Vec<PathBuf> = paths
+        .filter(|path| {
+            path.extension()
+                .is_some_and(|extension| extension == "slip")
+        })
+        .collect();
+    paths.sort();
+    paths.into_par_iter().map(tried).collect()
+});
+
+fn tried(path: PathBuf) -> Tried {
+    let Case {
+        text,
+        told: expected,
+    } = case(&path);
+    let loaded = load("slip.bt", text.into(), &mut NoFiles);
+    let (found, shown) = (told(&loaded, &path), program::shown(&loaded));
+    let fixes = loaded.diagnostics.iter().flat_map(|found| &found.fixes);
+    let offered = fixes.clone().count();
+    let mut unfit = Vec::new();
+    for fix in fixes {
+        let after = edited(&loaded, &fix.edits);
+        if errors(&after) > errors(&loaded) {
+            unfit.push(format!("{}\n{}", fix.title, program::shown(&after)));
+        }
+    }
+    let safe = |found: &Diagnostic| {
+        let mut fixes = found.fixes.iter();
+        fixes.any(|fix| fix.applicability == Applicability::Safe)
+    };
+    let mut wrong = loaded.diagnostics.iter().filter(|found| found.is_error());
+    let fixed = errors(&loaded) > 0 && wrong.all(safe);
+    if fixed {
+        let mut after = loaded;
+        for _ in 0..ROUNDS {
+            let edits = check::fixes(&after);
+            if !edits.is_empty() {
+                after = edited(&after, &edits);
+            }
+        }
+        if errors(&after) > 0 {
+            unfit.push(program::shown(&after));
+        }
+    }
+    Tried {
+        path,
+        expected,
+        found,
+        shown,
+        offered,
+        fixed,
+        unfit,
+    }
 }
 
 /// How many times the fixes are applied that may be applied unseen.
@@ -156,52 +195,53 @@ fn errors(loaded: &Loaded) -> usize {
     found.filter(|found| found.is_error()).count()
 }
 
+#[test]
+fn each_slip_is_told_at_its_place() {
+    let (mut single, mut several) = (0, 0);
+    let mut wrong = Vec::new();
+    for Tried {
+        path,
+        expected,
+        found,
+        ..
+    } in TRIED.iter()
+    {
+        match expected.len() {
+            0 => panic!("{}: nothing is expected", path.display()),
+            1 => single += 1,
+            _ => several += 1,
+        }
+        if found != expected {
+            let name = path.file_name().unwrap();
+            wrong.push(format!("{name:?}: {expected:?}, but told was {found:?}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    assert!(single >= 80 && several >= 20, "{single} and {several}");
+}
+
+#[test]
+fn slips_are_told_in_these_words() {
+    crate::snapshot::settings().bind(|| {
+        insta::glob!("..", "cases/slips/*.slip", |path| {
+            let tried = TRIED
+                .iter()
+                .find(|tried| tried.path.file_name() == path.file_name());
+            insta::assert_snapshot!("slip", tried.unwrap().shown);
+        });
+    });
+}
+
 /// What `btc check --fix` does leaves nothing wrong where it has a fix for all that is wrong; and no fix that is offered
 /// makes more mistakes than there were.
 #[test]
 fn fixes_lead_to_sound_programs() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/slips");
     let (mut fixed, mut offered) = (0, 0);
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.extension().is_none_or(|extension| extension != "slip") {
-            continue;
-        }
-        let slip = load("slip.bt", case(&path).text.into(), &mut NoFiles);
-        for fix in slip.diagnostics.iter().flat_map(|found| &found.fixes) {
-            let after = edited(&slip, &fix.edits);
-            let shown = program::shown(&after);
-            assert!(
-                errors(&after) <= errors(&slip),
-                "{}: {}\n{shown}",
-                path.display(),
-                fix.title
-            );
-            offered += 1;
-        }
-        let safe = |found: &&Diagnostic| {
-            let mut fixes = found.fixes.iter();
-            fixes.any(|fix| fix.applicability == Applicability::Safe)
-        };
-        let mut wrong = slip.diagnostics.iter().filter(|found| found.is_error());
-        if errors(&slip) == 0 || !wrong.all(|found| safe(&found)) {
-            continue;
-        }
-        let mut after = slip;
-        for _ in 0..ROUNDS {
-            let edits = check::fixes(&after);
-            if !edits.is_empty() {
-                after = edited(&after, &edits);
-            }
-        }
-        assert_eq!(
-            errors(&after),
-            0,
-            "{}: {}",
-            path.display(),
-            program::shown(&after)
-        );
-        fixed += 1;
+    for tried in TRIED.iter() {
+        let path = tried.path.display();
+        assert!(tried.unfit.is_empty(), "{path}: {}", tried.unfit.join("\n"));
+        fixed += usize::from(tried.fixed);
+        offered += tried.offered;
     }
     assert!(fixed >= 30 && offered >= 200, "{fixed} and {offered}");
 }

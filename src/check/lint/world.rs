@@ -10,6 +10,7 @@ use crate::ir::task::StartLine;
 use crate::ir::world::{Place, World};
 use crate::source::Span;
 use crate::syntax::ast::{self, Ident, Item, ItemKind, WorldEntryKind};
+use rustc_hash::FxHashSet;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The most cells of the grid on which ways are looked for, along each axis.
@@ -78,14 +79,19 @@ impl<'a> Checker<'a> {
         let grid = Grid::new(world);
         let free = grid.free(world);
         let (from, reached) = match self.starts() {
-            Some(starts) => (String::new(), grid.flood(&free, &starts)),
+            Some(starts) => (String::new(), grid.flood(&free, grid.near(&free, &starts))),
             None => {
-                let from = |(name, _, place): &(&Ident, Span, &Place)| {
-                    let reached = grid.flood(&free, &[place.shape.center()]);
-                    (format!(" from `{}`", name.name), reached)
-                };
-                // Of several the first is taken.
-                let furthest = wanted.iter().rev().map(from);
+                // Of several that get as far the first is taken, and one in reach of another gets no further than that.
+                let mut ways: Vec<(String, Cells)> = Vec::new();
+                for (name, _, place) in &wanted {
+                    let starts = grid.near(&free, &[place.shape.center()]);
+                    let within =
+                        |(_, reached): &(_, Cells)| starts.iter().all(|at| reached.contains(at));
+                    if !ways.iter().any(within) {
+                        ways.push((format!(" from `{}`", name.name), grid.flood(&free, starts)));
+                    }
+                }
+                let furthest = ways.into_iter().rev();
                 let furthest = furthest.max_by_key(|(_, reached)| reached.len());
                 furthest.unwrap_or_default()
             }
@@ -225,6 +231,9 @@ fn has_room(world: &World, shape: &Shape, near: f64) -> bool {
 /// A cell by its column and its row.
 type Cell = (usize, usize);
 
+/// Some cells, in no order.
+type Cells = FxHashSet<Cell>;
+
 /// Square cells over the arena.
 struct Grid {
     low: Point,
@@ -245,7 +254,7 @@ impl Grid {
     }
 
     /// The cells in which a robot a cell smaller fits.
-    fn free(&self, world: &World) -> BTreeSet<Cell> {
+    fn free(&self, world: &World) -> Cells {
         let radius = (world.robot.radius - self.step).max(self.step / 4.0);
         let cells = (0..CELLS).flat_map(|column| (0..CELLS).map(move |row| (column, row)));
         cells
@@ -253,15 +262,19 @@ impl Grid {
             .collect()
     }
 
-    /// The free cells that ways lead to.
-    fn flood(&self, free: &BTreeSet<Cell>, starts: &[Point]) -> BTreeSet<Cell> {
-        let near = |cell: &Cell, start: Point| {
-            let [dx, dy] = minus(self.center(*cell), start);
+    /// The free cells next to some points.
+    fn near(&self, free: &Cells, points: &[Point]) -> Vec<Cell> {
+        let next_to = |cell: &Cell, point: Point| {
+            let [dx, dy] = minus(self.center(*cell), point);
             dx.abs().max(dy.abs()) <= self.step
         };
-        let begin = |cell: &&Cell| starts.iter().any(|start| near(cell, *start));
-        let mut open: Vec<Cell> = free.iter().filter(begin).copied().collect();
-        let mut reached: BTreeSet<Cell> = open.iter().copied().collect();
+        let near = |cell: &&Cell| points.iter().any(|point| next_to(cell, *point));
+        free.iter().filter(near).copied().collect()
+    }
+
+    /// The free cells that ways lead to from some of them.
+    fn flood(&self, free: &Cells, mut open: Vec<Cell>) -> Cells {
+        let mut reached: Cells = open.iter().copied().collect();
         while let Some((column, row)) = open.pop() {
             for next in [
                 (column + 1, row),
