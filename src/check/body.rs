@@ -102,6 +102,7 @@ impl<'a> Checker<'a> {
             scope,
             ended: BTreeSet::new(),
             argument: None,
+            is_given: false,
         };
         let open = Open {
             at: body.span,
@@ -145,6 +146,7 @@ impl<'a> Checker<'a> {
             scope,
             ended: BTreeSet::new(),
             argument: None,
+            is_given: self.given.is_some() || self.context.is_given,
         };
         let open = Open {
             at: body,

@@ -15,6 +15,7 @@ use super::meaning::Meanings;
 use super::members::{Kinds, Member};
 use super::merge;
 use super::names::Names;
+use super::task::history::Unkept;
 use super::tune::Tunes;
 use super::twice;
 use super::types::Type;
@@ -52,8 +53,10 @@ pub struct Checker<'a> {
     pub unsure: Vec<Span>,
     /// How many expressions are being checked within one another.
     pub depth: usize,
-    /// What the history of the task at hand keeps, while its `start` is checked.
-    pub kept: Option<History>,
+    /// What the history of the task at hand keeps, while its `start` is checked, with the task's name.
+    pub kept: Option<(Name, History)>,
+    /// What is needed of the histories of tasks, by their names, that do not keep it.
+    pub unkept: BTreeMap<String, (History, Vec<Unkept>)>,
     /// Where the tree at hand asks the history window.
     pub asked: Vec<(Span, Outcome)>,
     /// Where the program asks whether a behaviour has ended.
@@ -156,6 +159,7 @@ impl<'a> Checker<'a> {
             unsure: Vec::new(),
             depth: 0,
             kept: None,
+            unkept: BTreeMap::new(),
             asked: Vec::new(),
             endings: BTreeSet::new(),
             conditions: Vec::new(),
@@ -271,6 +275,7 @@ impl<'a> Checker<'a> {
                 self.test(test, lost);
             }
         }
+        self.histories_that_keep_too_little();
         self.timeouts_without_a_world();
         self.named_ratios();
         self.tunables(items());

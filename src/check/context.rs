@@ -135,6 +135,8 @@ pub struct Context<'a> {
     pub ended: BTreeSet<&'a str>,
     /// What is called, where the expression is its only argument, and where that stands.
     pub argument: Option<(Span, String)>,
+    /// Whether the expression is, or is used by, what a behaviour or a predicate is given.
+    pub is_given: bool,
 }
 
 impl<'a> Context<'a> {
@@ -146,6 +148,7 @@ impl<'a> Context<'a> {
             scope: Vec::new(),
             ended: BTreeSet::new(),
             argument: None,
+            is_given: false,
         }
     }
 

@@ -85,6 +85,8 @@ impl<'a> Checker<'a> {
         self.settings_of_learners(items());
         self.moments_that_last(items());
         self.ends_at_starts(items());
+        self.training_ends_at_starts(items());
+        self.read_before_set(items());
         self.nodes_without_effect(items());
         self.subtrees_without_effect(items());
         self.claims_in_vain(items());

@@ -106,7 +106,7 @@ impl<'a> Checker<'a> {
             }
         }
         for start in starts {
-            built.start = self.start(start, Some(built.history));
+            built.start = self.start(start, Some((built.name.clone(), built.history)));
         }
         self.dear_moments(task, &built);
         for (word, example) in [

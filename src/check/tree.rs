@@ -12,13 +12,11 @@ use super::Checker;
 use super::context::Region;
 use super::expr::plain_ref;
 use super::names::Decl;
-use super::task::history::keeping;
-use crate::diagnostic::Code;
 use crate::ir::task::Task;
 use crate::ir::tree::Tree;
 use crate::ir::world::Robot;
 use crate::ir::{Id, Name};
-use crate::syntax::ast::{self, Expr, Outcome};
+use crate::syntax::ast::{self, Expr};
 
 impl<'a> Checker<'a> {
     /// `tree name(params) for task = node`
@@ -77,26 +75,12 @@ impl<'a> Checker<'a> {
         tree.task.is_none().then(|| Id::new(at + 1))
     }
 
-    /// `done(b)` and `failed(b)` ask a window that the task has to keep; one message for each outcome.
+    /// `done(b)` and `failed(b)` ask a window that the task has to keep.
     fn asks_kept_history(&mut self, task: Id<Task>) {
-        let history = self.program.tasks[task].history;
-        if self.names.is_lost("history") {
-            return;
-        }
-        for (kept, asks, outcome) in [
-            (history.success, Outcome::Success, "success"),
-            (history.failure, Outcome::Failure, "failure"),
-        ] {
-            let asked = self.asked.iter().find(|(_, outcome)| *outcome == asks);
-            if let Some(&(span, _)) = asked
-                && !kept
-            {
-                let name = &self.program.tasks[task].name;
-                let message = format!("the task `{name}` keeps no {outcome} in its history");
-                self.error(Code::E0607, span, message)
-                    .label("this could never hold")
-                    .help(format!("let the task say `{}`", keeping(history, outcome)));
-            }
+        let task = &self.program.tasks[task];
+        let (name, history) = (task.name.clone(), task.history);
+        for (place, outcome) in std::mem::take(&mut self.asked) {
+            self.unkept((&name, history), place, outcome, "this could never hold");
         }
     }
 }

@@ -16,6 +16,7 @@ mod words;
 
 pub(super) use characters::{no_remainder, unclosed_quote};
 use ends::OPEN_ENDS;
+pub(super) use ends::{ends_after, unfinished};
 pub(super) use foreign::{dashed, other_comment};
 pub(super) use units::{no_such_unit, one_unit, units_note};
 
@@ -71,6 +72,9 @@ pub(super) fn failure(
     }
     if let Some(diagnostic) = place.comment() {
         return (failure.at, diagnostic);
+    }
+    if let Some((last, diagnostic)) = place.cut_before() {
+        return (last.end, diagnostic);
     }
     if let Some(diagnostic) = place.rewritten().or_else(|| place.misplaced_mark()) {
         return (failure.at, diagnostic);

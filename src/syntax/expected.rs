@@ -283,6 +283,7 @@ fn name(rule: Rule) -> Option<(Rank, &'static str)> {
         | Rule::open
         | Rule::missing_open
         | Rule::entry_ahead
+        | Rule::world_ahead
         | Rule::stmt_ahead
         | Rule::call_ahead
         | Rule::child_ahead

@@ -16,6 +16,8 @@ pub(super) struct Glance<'t> {
     declared: FxHashSet<&'t str>,
     /// What stands in a list in braces, as the variants of an enum do.
     listed: FxHashSet<&'t str>,
+    /// Every name in backquotes, without them.
+    quoted: FxHashSet<&'t str>,
     /// What stands where a place or a wall says its kind.
     kinds: FxHashSet<&'t str>,
 }
@@ -43,6 +45,9 @@ impl<'t> Glance<'t> {
             }
             if word == ":" && matches!(spelling(at(3)), "place" | "wall") {
                 glance.kinds.insert(name);
+            }
+            if token.kind == Kind::Name {
+                glance.quoted.insert(name.trim_matches('`'));
             }
             if token.kind != Kind::Word {
                 continue;
@@ -76,6 +81,11 @@ impl<'t> Glance<'t> {
     /// Whether the text seems to declare `name` anywhere.
     pub(super) fn declares(&self, name: &str) -> bool {
         self.declared.contains(name)
+    }
+
+    /// Whether the text has this name in backquotes.
+    pub(super) fn quotes(&self, name: &str) -> bool {
+        self.quoted.contains(name)
     }
 
     /// Whether `name` seems to be a variant of an enum.

@@ -2,7 +2,6 @@
 
 use crate::check::Checker;
 use crate::check::context::Region;
-use crate::check::expr::plain_ref;
 use crate::check::signature::{Signature, Takes};
 use crate::check::types::units::Dim;
 use crate::check::types::{Type, Typed};
@@ -11,7 +10,7 @@ use crate::ir::expr::{Binary, Expr, Pose, Unary};
 use crate::ir::law::Stmt;
 use crate::ir::world::{DriveKind, Robot};
 use crate::source::Span;
-use crate::syntax::ast::{self, Arg, ArgKind, Else, Ref, StmtKind};
+use crate::syntax::ast::{self, Arg, ArgKind, BinaryOp, Else, ExprKind, Ref, StmtKind};
 use crate::syntax::print;
 
 /// What `drive` commands.
@@ -26,6 +25,9 @@ const COMMANDS: [(&str, Type); 4] = [
 /// stands while it is off by more than this angle.
 const GAIN: f64 = 4.0;
 const ROUGHLY: f64 = 0.6;
+
+/// A command of more than so many times what a drive does is likely written in a wrong unit.
+const FAR: f64 = 2.0;
 
 impl<'a> Checker<'a> {
     /// `drive(speed, turn, strafe)`, `drive(course, speed)`
@@ -62,7 +64,9 @@ impl<'a> Checker<'a> {
             }
             let given = self.expr_like(value, &ty);
             let angle = given.ty.dim() == Some(Dim::ANGLE);
-            *command = Some(self.coerce(given, value, &ty, &format!("`{name}`")));
+            let given = self.coerce(given, value, &ty, &format!("`{name}`"));
+            self.beyond_the_drive(name, value.span, &given);
+            *command = Some(given);
             if name == "course" {
                 self.bearing_for_course(value);
             } else if let (ArgKind::Named(word, _), true, Some(last)) =
@@ -171,9 +175,28 @@ impl<'a> Checker<'a> {
         })
     }
 
+    /// Warns of a command that is far beyond what the drive does.
+    fn beyond_the_drive(&mut self, command: &str, at: Span, given: &Typed) {
+        let asked = given.scalar().and_then(|id| self.program.pool.constant(id));
+        let Some((asked, robot)) = asked.zip(self.subject_robot()) else {
+            return;
+        };
+        let (most, unit) = match command {
+            "speed" | "strafe" => (robot.drive.max_speed, "m/s"),
+            "turn" => (robot.drive.max_turn, "rad/s"),
+            _ => return,
+        };
+        if self.context.library || most <= 0.0 || asked.abs() <= FAR * most {
+            return;
+        }
+        let message = format!("the `{command}` is far beyond what the drive does");
+        self.warning(Code::W0402, at, message)
+            .label(format!("at most {} {unit} come of it", most as f32));
+    }
+
     /// Warns of a bearing, which is from the heading, where a course is a direction in the arena.
     pub fn bearing_for_course(&mut self, value: &ast::Expr) {
-        let Some(called) = plain_ref(value).filter(|called| called.name.name == "bearing") else {
+        let Some(called) = bearing_in(value) else {
             return;
         };
         if self.context.library || self.names.value("bearing", false).is_some() {
@@ -270,5 +293,40 @@ impl<'a> Checker<'a> {
             Some(Else::If(inner)) => self.branch_drives(inner, before),
         };
         then.or(otherwise)
+    }
+}
+
+/// The bearing that an angle is made of, if it is not made of the heading as well.
+fn bearing_in(value: &ast::Expr) -> Option<&ast::Ref> {
+    let mut found = None;
+    for called in summands(value) {
+        match called.name.name.as_str() {
+            "heading" => return None,
+            "bearing" => found = found.or(Some(called)),
+            _ => {}
+        }
+    }
+    found
+}
+
+/// The names and calls that a sum is made of, and what is wrapped.
+fn summands(value: &ast::Expr) -> Vec<&ast::Ref> {
+    match &value.kind {
+        ExprKind::Paren(inner) => summands(inner),
+        ExprKind::Ref(called) if called.name.name == "wrap" => {
+            let args = called.args.iter().flatten();
+            let values = args.filter_map(|arg| match &arg.kind {
+                ArgKind::Positional(value) => Some(value),
+                _ => None,
+            });
+            values.flat_map(summands).collect()
+        }
+        ExprKind::Ref(called) => vec![called],
+        ExprKind::Binary { op, left, right }
+            if matches!(op.node, BinaryOp::Add | BinaryOp::Sub) =>
+        {
+            [summands(left), summands(right)].concat()
+        }
+        _ => Vec::new(),
     }
 }

@@ -131,6 +131,7 @@ impl<'a> Checker<'a> {
                         scope: bindings.clone(),
                         ended: BTreeSet::new(),
                         argument: None,
+                        is_given: false,
                     };
                     let outer = std::mem::replace(&mut self.context, context);
                     let (value, _) = self.captured(|checker| checker.expect(default, &ty, &role));

@@ -273,11 +273,15 @@ impl<'a> Checker<'a> {
         {
             self.stands_for(&target.name, binding.name.span);
             let Some(locals) = binding.locals else {
+                let changes = match self.context.region {
+                    Region::Control => "what changes is a `local` of the behaviour",
+                    _ => "what changes is a `state`",
+                };
                 return self
                     .error(Code::E0310, target.span, cannot)
                     .label("it keeps the value that it was given")
                     .also(binding.name.span, "bound here")
-                    .help("what changes is a `local` of the behaviour")
+                    .help(changes)
                     .none();
             };
             let always = self.program.pool.bool(true);

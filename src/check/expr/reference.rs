@@ -123,7 +123,8 @@ impl<'a> Checker<'a> {
     fn sensor_of_another(&mut self, reference: &Ref) -> Option<Typed> {
         let sensor = &reference.name.name;
         let reads = self.subject_robot().map(|robot| robot.name.clone());
-        let reads = reads.unwrap_or_default();
+        // A robot without a name is none: that no robot learns is reported.
+        let reads = reads.filter(|name| !name.family.is_empty())?;
         let mut others = self.names.other_sensors.iter();
         let other = others.find(|(_, name)| name.name == *sensor);
         let acting = self.program.world.as_ref().map(|world| &world.robot.name);

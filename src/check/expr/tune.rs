@@ -118,7 +118,7 @@ impl<'a> Checker<'a> {
                 | Region::Tree
         );
         // An argument belongs to the behaviour or the predicate that it is given to.
-        if !own && self.given.is_none() {
+        if !own && self.given.is_none() && !self.context.is_given {
             self.error(
                 Code::E0307,
                 reference.name.span,

@@ -77,8 +77,14 @@ impl Checker<'_> {
         let state = &self.program.states[cause.state];
         let name = &state.name.family;
         let note = match (cause.lacks, &state.kind) {
-            (Lacks::Less, _) => format!("in an episode nothing makes `{name}` any less"),
-            (Lacks::Greater, _) => format!("in an episode nothing makes `{name}` any greater"),
+            (Lacks::Less, _) => match self.is_first(cause) {
+                true => format!("in an episode nothing makes `{name}` any less"),
+                false => format!("nothing that sets `{name}` makes it small enough"),
+            },
+            (Lacks::Greater, _) => match self.is_first(cause) {
+                true => format!("in an episode nothing makes `{name}` any greater"),
+                false => format!("nothing that sets `{name}` makes it great enough"),
+            },
             (Lacks::Value(value), ValueKind::Enum(variants)) => {
                 let variant = variants.get(value as usize).map(ToString::to_string);
                 format!("nothing sets `{name}` to `{}`", variant.unwrap_or_default())
@@ -89,6 +95,17 @@ impl Checker<'_> {
             *told = told.clone().note(note);
         }
         self.causes.insert(cause, (last, 0));
+    }
+
+    /// Whether the least of a state, or the greatest, is what it begins with.
+    fn is_first(&self, cause: Cause) -> bool {
+        let state = &self.program.states[cause.state];
+        let first = self.program.pool.constant(state.initial);
+        match (&state.stays, cause.lacks) {
+            (Stays::Within(ends), Lacks::Less) => first == Some(*ends.start()),
+            (Stays::Within(ends), Lacks::Greater) => first == Some(*ends.end()),
+            _ => false,
+        }
     }
 
     /// The values that a state never has, as far as they may make a difference.

@@ -117,17 +117,24 @@ impl<'a> Checker<'a> {
             return;
         }
         for (written, node) in children {
+            // What a guard lets answer answers for the selector as well.
+            let (written, node, holds) = match (&written.kind, node) {
+                (NodeKind::Guarded { node: inner, .. }, Node::Composite { children, .. })
+                    if matches!(inner.kind, NodeKind::Leaf(_)) =>
+                {
+                    let last = children.last().unwrap_or(node);
+                    (inner.as_ref(), last, "where this holds behind its guard")
+                }
+                _ => (written, node, "where this holds"),
+            };
             if let (NodeKind::Leaf(asked), Node::Condition(_), false) =
                 (&written.kind, node, is_switch(written))
             {
                 let text = print::expr(asked);
-                self.warning(
-                    Code::W0607,
-                    asked.span,
-                    "the tree runs nothing where this holds",
-                )
-                .label("it answers for the selector, and no other child is ticked")
-                .help(format!("write what is to be done: `{text} => BEHAVIOR`"));
+                let message = format!("the tree runs nothing {holds}");
+                self.warning(Code::W0607, asked.span, message)
+                    .label("it answers for the selector, and no other child is ticked")
+                    .help(format!("write what is to be done: `{text} => BEHAVIOR`"));
             } else {
                 self.stands_where_a_condition_holds(written, node);
             }

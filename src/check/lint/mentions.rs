@@ -270,7 +270,7 @@ impl<'a> Mentions<'a> {
         }
     }
 
-    fn reference(&mut self, reference: &'a Ref) {
+    pub fn reference(&mut self, reference: &'a Ref) {
         self.read.insert(&reference.name.name);
         self.args(reference.args.as_deref().unwrap_or_default());
     }

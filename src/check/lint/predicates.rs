@@ -11,6 +11,7 @@ use crate::ir::expr::ExprId;
 use crate::ir::program::Predicate;
 use crate::ir::world::Robot;
 use crate::ir::{Id, Name, Program};
+use crate::source::Span;
 use crate::spelling::spelled;
 use crate::syntax::ast::{
     AspectKind, BehaviorBody, BinaryOp, ClauseKind, Expr, ExprKind, Item, ItemKind, Ref, Task,
@@ -213,6 +214,16 @@ impl<'a> Checker<'a> {
                 let ClauseKind::Requires(test) = &clause.kind else {
                     continue;
                 };
+                if let Some(part) = self.unread_part(task, test, &observed) {
+                    let message = format!(
+                        "the task `{}` observes nothing of what `{}` requires",
+                        task.name.name, chosen.name.name
+                    );
+                    self.warning(Code::W0514, chosen.span, message)
+                        .label("where it does not hold, this fails, and the policy cannot tell why")
+                        .also(part, "required here");
+                    continue;
+                }
                 let mut asked = Vec::new();
                 conjuncts(test, &mut asked);
                 for reference in asked {
@@ -235,6 +246,36 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// The part of a requirement that names no predicate, and reads states or places of which no predicate of the list tells
+    /// anything. Where the robot has been, its history tells.
+    fn unread_part(
+        &self,
+        task: &Task,
+        test: &'a Expr,
+        observed: &[(&'a Ref, Id<Predicate>)],
+    ) -> Option<Span> {
+        let id = self.program.tasks.named(&Name::word(&task.name.name))?;
+        let remembers = self.program.tasks[id].history.window > 0;
+        let told: BTreeSet<&str> = observed
+            .iter()
+            .flat_map(|(reference, _)| self.read_of(reference))
+            .collect();
+        let mut parts = Vec::new();
+        parts_of(test, &mut parts);
+        let unread = |part: &&&'a Expr| {
+            let read = self.read_by(part);
+            let state =
+                |name: &&str| matches!(self.names.value(name, false), Some((Decl::State(_), _)));
+            let tells = !remembers || read.iter().any(state);
+            let named = plain_ref(part).is_some_and(|reference| {
+                let name = reference.name.name.as_str();
+                matches!(self.names.value(name, false), Some((Decl::Predicate(_), _)))
+            });
+            !named && !read.is_empty() && tells && read.is_disjoint(&told)
+        };
+        parts.iter().find(unread).map(|part| part.span)
+    }
+
     /// Whether another predicate of the list says what the one of this name does.
     fn is_told(&self, name: &str, observed: &[(&'a Ref, Id<Predicate>)]) -> bool {
         let mut predicates = self.program.predicates.values();
@@ -247,6 +288,18 @@ impl<'a> Checker<'a> {
             .iter()
             .map(|(_, id)| self.program.predicates[*id].when);
         observed.any(|other| other == Some(when))
+    }
+}
+
+/// What has to hold for an expression to hold.
+fn parts_of<'a>(expr: &'a Expr, found: &mut Vec<&'a Expr>) {
+    match &expr.kind {
+        ExprKind::Paren(inner) => parts_of(inner, found),
+        ExprKind::Binary { op, left, right } if op.node == BinaryOp::And => {
+            parts_of(left, found);
+            parts_of(right, found);
+        }
+        _ => found.push(expr),
     }
 }
 

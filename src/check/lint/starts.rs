@@ -2,15 +2,19 @@
 
 use super::cases::of_expr;
 use super::interval::Interval;
+use super::mentions::Mentions;
 use super::stays::{Set, set_in_ticks};
 use super::view::View;
 use crate::check::Checker;
+use crate::check::names::Decl;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::expr::ExprId;
 use crate::ir::task::{StartLine, Task};
 use crate::ir::world::World;
 use crate::ir::{Id, Name};
-use crate::syntax::ast::{AspectKind, Item, ItemKind};
+use crate::spelling::spelled;
+use crate::syntax::ast::{AspectKind, Expr, Item, ItemKind, LearnEntry, LetBody, Ref};
+use std::collections::BTreeSet;
 
 /// The most starts of states that are looked at.
 const MOST: usize = 20_000;
@@ -32,7 +36,8 @@ impl<'a> Checker<'a> {
             let Some(id) = self.program.tasks.named(&Name::word(&task.name.name)) else {
                 continue;
             };
-            let held = self.held_at_starts(id, &changed);
+            let start = self.program.tasks[id].start.clone();
+            let held = self.held_at_starts((id, &start), &changed);
             let ends = task.aspects.iter().filter_map(|aspect| match &aspect.kind {
                 AspectKind::EndOn(event) => Some(event),
                 _ => None,
@@ -56,11 +61,129 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Of each end of a task, whether it holds after the first tick, whatever the robot does. What holds always has been
-    /// told already.
-    fn held_at_starts(&mut self, id: Id<Task>, changed: &Set) -> Vec<bool> {
+    /// Warns of learners whose own start lets an end hold in the first tick of every episode.
+    pub fn training_ends_at_starts(&mut self, items: impl Iterator<Item = &'a Item>) {
+        if self.program.tasks.len() * self.program.states.len() > MOST {
+            return;
+        }
+        let changed = set_in_ticks(&self.program);
+        for item in items {
+            let ItemKind::Learn(learn) = &item.kind else {
+                continue;
+            };
+            let own = learn.entries.iter().find_map(|entry| match entry {
+                LearnEntry::Start(start) => Some(start),
+                _ => None,
+            });
+            let name = learn
+                .name
+                .as_ref()
+                .map_or("learned", |name| name.name.as_str());
+            let learner = self.program.learners.named(&Name::word(name));
+            let (Some(own), Some(learner)) = (own, learner) else {
+                continue;
+            };
+            let learner = &self.program.learners[learner];
+            let (task, start) = (learner.task, learner.start.clone());
+            let of_task = self.program.tasks[task].start.clone();
+            let in_training = self.held_at_starts((task, &start), &changed);
+            let at_work = self.held_at_starts((task, &of_task), &changed);
+            let mut ends = in_training.iter().zip(&at_work);
+            if !ends.any(|(in_training, at_work)| *in_training && !at_work) {
+                continue;
+            }
+            let message = "every episode of training ends in its first tick";
+            let label = "an end of the task holds wherever one starts";
+            self.warning(Code::W0522, own.span, message).label(label);
+        }
+    }
+
+    /// Warns of lines of a `start` that read a state which a later line sets: they run in their order.
+    pub fn read_before_set(&mut self, items: impl Iterator<Item = &'a Item>) {
+        let starts = items.flat_map(|item| match &item.kind {
+            ItemKind::Task(task) => {
+                let starts = task.aspects.iter().filter_map(|aspect| match &aspect.kind {
+                    AspectKind::Start(start) => Some(start),
+                    _ => None,
+                });
+                starts.collect::<Vec<_>>()
+            }
+            ItemKind::Learn(learn) => {
+                let starts = learn.entries.iter().filter_map(|entry| match entry {
+                    LearnEntry::Start(start) => Some(start),
+                    _ => None,
+                });
+                starts.collect()
+            }
+            _ => Vec::new(),
+        });
+        for start in starts {
+            for (at, line) in start.lines.iter().enumerate() {
+                let read = self.read_by(&line.value);
+                let mut later = start.lines.iter().skip(at + 1);
+                let set = later.find(|later| read.contains(later.target.name.name.as_str()));
+                let Some(set) = set.map(|set| &set.target.name) else {
+                    continue;
+                };
+                let name = spelled(&set.name);
+                let name = name.trim_matches('`');
+                let message = format!("this reads `{name}` before its line sets it");
+                self.warning(Code::W0309, line.value.span, message)
+                    .label(format!("`{name}` is here as it is declared"))
+                    .also(set.span, "set here, afterwards")
+                    .help(
+                        "the lines of a `start` run in their order: put this one behind the other",
+                    );
+            }
+        }
+    }
+
+    /// The states and places that an expression reads, by itself and by what it names.
+    pub(super) fn read_by(&self, value: &'a Expr) -> BTreeSet<&'a str> {
+        let mut mentions = Mentions::default();
+        mentions.expr(value);
+        self.reached(mentions)
+    }
+
+    /// The states and places that what a reference names reads.
+    pub(super) fn read_of(&self, reference: &'a Ref) -> BTreeSet<&'a str> {
+        let mut mentions = Mentions::default();
+        mentions.reference(reference);
+        self.reached(mentions)
+    }
+
+    fn reached(&self, mentions: Mentions<'a>) -> BTreeSet<&'a str> {
+        let mut open: Vec<&'a str> = mentions.read.iter().copied().collect();
+        let (mut seen, mut read) = (mentions.read, BTreeSet::new());
+        while let Some(name) = open.pop() {
+            let mut within = Mentions::default();
+            match self.names.value(name, false) {
+                Some((Decl::State(_) | Decl::Place(..), _)) => {
+                    read.insert(name);
+                }
+                Some((Decl::Predicate(predicate), _)) => {
+                    predicate.value.iter().for_each(|when| within.expr(when));
+                }
+                Some((Decl::Let(shared), _)) => match &shared.body {
+                    LetBody::Expr(value) => within.expr(value),
+                    LetBody::Yield(_) => {}
+                },
+                _ => {}
+            }
+            open.extend(within.read.into_iter().filter(|name| seen.insert(name)));
+        }
+        read
+    }
+
+    /// Of each end of a task, whether it holds after the first tick of an episode that begins so, whatever the robot does.
+    /// What holds always has been told already.
+    fn held_at_starts(
+        &mut self,
+        (id, start): (Id<Task>, &[StartLine]),
+        changed: &Set,
+    ) -> Vec<bool> {
         let task = self.program.tasks[id].clone();
-        let near = self.near_the_start(&task.start);
+        let near = self.near_the_start(start);
         let holds = |checker: &Self, end: ExprId, near| {
             let view = View {
                 near,
@@ -70,7 +193,7 @@ impl<'a> Checker<'a> {
         };
         let always = task.end_on.iter().map(|end| holds(self, *end, None));
         let always: Vec<bool> = always.collect();
-        let kept = self.starts_with(&task.start, changed);
+        let kept = self.starts_with(start, changed);
         let ends = task.end_on.iter().zip(always);
         let held = ends.map(|(end, always)| !always && holds(self, *end, near));
         let held = held.collect();

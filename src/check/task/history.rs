@@ -5,9 +5,21 @@ use crate::check::builtin::Function;
 use crate::check::context::Region;
 use crate::check::types::{Type, Typed, Value};
 use crate::diagnostic::Code;
+use crate::ir::Name;
 use crate::ir::task::{History, StartLine};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, Outcome, Ref, Spanned};
+
+/// How many further places of one mistake are shown.
+const SHOWN: usize = 3;
+
+/// Where an outcome is needed that the history of a task does not keep.
+pub struct Unkept {
+    place: Span,
+    outcome: Outcome,
+    /// What is said there.
+    label: &'static str,
+}
 
 /// The word for no end of a behaviour in a `history` line of a start.
 pub const NO_END: &str = "none";
@@ -49,27 +61,79 @@ impl<'a> Checker<'a> {
         Typed::new(Type::Termination, Value::Scalar(code), span)
     }
 
-    /// Reports a history that starts with an outcome it does not keep: it would be forgotten at once.
+    /// Notes a history that starts with an outcome it does not keep: it would be forgotten at once.
     pub fn kept_in_history(&mut self, function: Function, reference: &Ref) {
-        let Some(history) = self
-            .kept
-            .filter(|_| self.context.region == Region::StartHistory)
-        else {
+        let starts = self.context.region == Region::StartHistory;
+        let Some((task, history)) = self.kept.clone().filter(|_| starts) else {
             return;
         };
-        let kept = match function {
-            Function::Failure => history.failure,
-            _ => history.success,
+        let outcome = match function {
+            Function::Failure => Outcome::Failure,
+            _ => Outcome::Success,
         };
-        if !kept && !self.names.is_lost("history") {
-            let outcome = function.name();
-            self.error(
-                Code::E0607,
-                reference.name.span,
-                format!("the history of the task keeps no {outcome}"),
-            )
-            .label("so it cannot start with one")
-            .help(format!("let the task say `{}`", keeping(history, outcome)));
+        let place = reference.name.span;
+        self.unkept(
+            (&task, history),
+            place,
+            outcome,
+            "so it cannot start with one",
+        );
+    }
+
+    /// Notes that an outcome is needed at a place which the history of a task may not keep.
+    pub fn unkept(
+        &mut self,
+        (task, history): (&Name, History),
+        place: Span,
+        outcome: Outcome,
+        label: &'static str,
+    ) {
+        let kept = match outcome {
+            Outcome::Success => history.success,
+            Outcome::Failure => history.failure,
+        };
+        if kept || self.names.is_lost("history") {
+            return;
+        }
+        let (_, all) = self
+            .unkept
+            .entry(task.to_string())
+            .or_insert((history, Vec::new()));
+        all.push(Unkept {
+            place,
+            outcome,
+            label,
+        });
+    }
+
+    /// Reports what tasks do not keep in their histories, one message each.
+    pub fn histories_that_keep_too_little(&mut self) {
+        for (task, (history, mut all)) in std::mem::take(&mut self.unkept) {
+            all.sort_by_key(|it| it.place);
+            let needs = |outcome| all.iter().any(|it| it.outcome == outcome);
+            let needed = [Outcome::Success, Outcome::Failure].map(needs);
+            let outcomes = match needed {
+                [true, true] => "neither success nor failure",
+                [true, false] => "no success",
+                _ => "no failure",
+            };
+            let mut places = all.iter();
+            let Some(first) = places.next() else {
+                continue;
+            };
+            let message = format!("the task `{task}` keeps {outcomes} in its history");
+            let mut told = self
+                .error(Code::E0607, first.place, message)
+                .label(first.label);
+            let further = places.len().saturating_sub(SHOWN);
+            for place in places.take(SHOWN) {
+                told = told.also(place.place, "and here");
+            }
+            if further > 0 {
+                let places = if further == 1 { "place" } else { "places" };
+                told = told.note(format!("and in {further} more {places}"));
+            }
+            told.help(format!("let the task say `{}`", keeping(history, needed)));
         }
     }
 }
@@ -79,12 +143,13 @@ pub fn is_no_end(value: &Expr) -> bool {
     matches!(&value.kind, ExprKind::Ref(reference) if reference.args.is_none() && reference.name.name == NO_END)
 }
 
-/// The `history` line that keeps an outcome in addition to those it keeps already.
-pub fn keeping(history: History, outcome: &str) -> String {
+/// The `history` line that keeps successes and failures as they are needed, in addition to those it keeps already.
+fn keeping(history: History, [success, failure]: [bool; 2]) -> String {
     let window = history.window.max(1);
-    if history.success || history.failure {
-        format!("history last {window} success, failure")
-    } else {
-        format!("history last {window} {outcome}")
-    }
+    let outcomes = match (history.success || success, history.failure || failure) {
+        (true, true) => "success, failure",
+        (true, false) => "success",
+        _ => "failure",
+    };
+    format!("history last {window} {outcomes}")
 }

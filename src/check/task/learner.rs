@@ -70,12 +70,13 @@ impl<'a> Checker<'a> {
             dwell: 0,
             start: task.map_or(Vec::new(), |task| self.program.tasks[task].start.clone()),
         };
-        let history = task.map(|task| self.program.tasks[task].history);
+        let history = task.map(|task| &self.program.tasks[task]);
+        let history = history.map(|task| (task.name.clone(), task.history));
         let mut seen: BTreeMap<&str, Span> = BTreeMap::new();
         for entry in &learn.entries {
             match entry {
                 LearnEntry::Start(start) => {
-                    for line in self.start(start, history) {
+                    for line in self.start(start, history.clone()) {
                         // The last one is what counts in the task.
                         let mut lines = built.start.iter_mut().rev();
                         match lines.find(|old| old.replaced_by(&line)) {

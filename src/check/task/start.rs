@@ -8,15 +8,19 @@ use crate::check::names::{Decl, START_WORDS};
 use crate::check::task::history::is_no_end;
 use crate::check::types::{Type, Value};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::ir::Id;
 use crate::ir::expr::ExprId;
 use crate::ir::task::{History, Placing, StartLine};
 use crate::ir::world::Robot;
+use crate::ir::{Id, Name};
 use crate::syntax::{ast, print};
 
 impl<'a> Checker<'a> {
-    /// `start { … }`, for a task that keeps this history.
-    pub fn start(&mut self, start: &'a ast::Start, history: Option<History>) -> Vec<StartLine> {
+    /// `start { … }`, for a task of this name that keeps this history.
+    pub fn start(
+        &mut self,
+        start: &'a ast::Start,
+        history: Option<(Name, History)>,
+    ) -> Vec<StartLine> {
         self.context = Context::new(Region::Start);
         self.kept = history;
         let mut lines: Vec<StartLine> = Vec::new();

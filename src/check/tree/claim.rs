@@ -8,7 +8,7 @@ use crate::diagnostic::{Applicability, Code};
 use crate::ir::program::Event;
 use crate::ir::task::{Claim, ClaimKind, Occurrence, TreeRef};
 use crate::ir::{Id, Name};
-use crate::syntax::ast::{self, ClaimWhat, Expr, ExprKind, Ident, Item, ItemKind};
+use crate::syntax::ast::{self, BinaryOp, ClaimWhat, Expr, ExprKind, Ident, Item, ItemKind};
 use crate::syntax::print;
 
 /// Below this, the probability of `never` is likely meant as that of the event.
@@ -155,6 +155,21 @@ impl<'a> Checker<'a> {
     }
 
     fn claimed_event(&mut self, event: &'a Expr) -> Option<Id<Event>> {
+        if let ExprKind::Binary { op, left, right } = &event.kind
+            && let ExprKind::Ref(reference) = &left.kind
+            && matches!(op.node, BinaryOp::Ge | BinaryOp::Gt)
+            && matches!(
+                self.names.value(&reference.name.name, false),
+                Some((Decl::Event(_), _))
+            )
+        {
+            let place = op.span.to(right.span);
+            let right = format!("with probability >= {}", print::expr(right));
+            return self
+                .error(Code::E0608, place, "how probable it is stands behind words")
+                .write(place, right, Applicability::Unsafe)
+                .none();
+        }
         let ExprKind::Ref(reference) = &event.kind else {
             let declaration = format!("event NAME = {}", print::expr(event));
             self.not_named(event, "an event", &declaration);

@@ -219,6 +219,14 @@ impl<'a> Checker<'a> {
                 return condition(self);
             }
             let what = "behaviour, subtree or predicate";
+            if self.names.tasks.contains_key(name) {
+                let message = format!("`{name}` is not a node of a tree");
+                return self
+                    .error(Code::E0203, reference.span, message)
+                    .label("this is a task")
+                    .help("a node is a behaviour, a subtree, or a predicate")
+                    .none();
+            }
             return self
                 .undeclared_value(&reference.name, what, |decl| {
                     matches!(decl, Decl::Behavior(_) | Decl::Tree(_) | Decl::Predicate(_))

@@ -61,13 +61,15 @@ impl<'a> Checker<'a> {
     pub fn a_script_is_lost(&self) -> bool {
         let scripts = self.scripts.iter().map(|(_, runs)| runs.span);
         let scripts: BTreeMap<_, Span> = scripts.map(|at| ((at.file, at.start), at)).collect();
-        self.diagnostics.iter().any(|found| {
-            let place = found.span();
-            let before = scripts.range(..=(place.file, place.start)).next_back();
-            let within = |script: &Span| script.file == place.file && place.end <= script.end;
-            found.code == Code::E0408
-                || found.is_error() && before.is_some_and(|(_, script)| within(script))
-        })
+        let mut told = self.diagnostics.iter();
+        self.robots_unsure
+            || told.any(|found| {
+                let place = found.span();
+                let before = scripts.range(..=(place.file, place.start)).next_back();
+                let within = |script: &Span| script.file == place.file && place.end <= script.end;
+                found.code == Code::E0408
+                    || found.is_error() && before.is_some_and(|(_, script)| within(script))
+            })
     }
 
     fn tested(&mut self, test: &'a ast::Test) -> Option<Tested> {

@@ -385,7 +385,10 @@ impl<'i> Builder<'i> {
     /// The name behind a colon, if places or walls are of a kind that is called so.
     fn kind_after(&self, colon: Option<&Node<'i>>) -> Option<String> {
         let kind = self.token_at(self.ends(colon?))?.of(self.text);
-        let is_kind = matches!(kind, "robot" | "place" | "wall") || self.glance().is_kind(kind);
+        let glance = self.glance();
+        let is_kind = matches!(kind, "robot" | "place" | "wall")
+            || glance.is_kind(kind)
+            || glance.declares_by(&["enum"], kind);
         is_kind.then(|| kind.to_owned())
     }
 

@@ -181,14 +181,23 @@ impl<'i> Builder<'i> {
         if what == "arguments" && self.named_behind(before, place) {
             return;
         }
+        if what == "the children of a node"
+            && (self.missing_quotes(before, place) || self.missing_paren(before, place))
+        {
+            return;
+        }
         // Between two arguments an operator may be missing as well.
         let product = before.filter(|before| {
             let value = self.slice(*before);
             what == "arguments" && !value.contains('=') && self.on_one_line(*before, place)
         });
-        let applicability = match product {
-            Some(_) => Applicability::Unsafe,
-            None => Applicability::Safe,
+        // What stands on one line may lack more than a comma, unless it is a node.
+        let unsure = what == "the children of a node"
+            && !self.names_leaf(self.slice(place))
+            && before.is_some_and(|before| self.on_one_line(before, place));
+        let applicability = match product.is_some() || unsure {
+            true => Applicability::Unsafe,
+            false => Applicability::Safe,
         };
         let mut diagnostic = Diagnostic::new(Code::E0112, place, message)
             .label("this begins another one")
@@ -208,12 +217,62 @@ impl<'i> Builder<'i> {
             && what != "variants"
         {
             let argument = self.slice(place);
-            diagnostic = diagnostic.help(match product {
-                Some(_) => format!("a product is written with `*`: `{name} * {argument}`"),
-                None => format!("if `{argument}` is an argument: `{name}({argument})`"),
-            });
+            let family = |name| {
+                let declaring = ["predicate", "state", "event", "behavior", "let", "tree"];
+                CALLED.contains(&name) || self.glance().declares_called(&declaring, name)
+            };
+            let help = match product {
+                Some(_) => Some(format!(
+                    "a product is written with `*`: `{name} * {argument}`"
+                )),
+                None => family(name)
+                    .then(|| format!("if `{argument}` is an argument: `{name}({argument})`")),
+            };
+            if let Some(help) = help {
+                diagnostic = diagnostic.help(help);
+            }
         }
         self.report(diagnostic);
+    }
+
+    /// Reports a name with a blank in it that lacks its backquotes.
+    fn missing_quotes(&mut self, before: Option<Span>, next: Span) -> bool {
+        let Some(before) = before.filter(|before| self.on_one_line(*before, next)) else {
+            return false;
+        };
+        let word = self.slice(before).rsplit(' ').next().unwrap_or_default();
+        let name = [word, self.slice(next)].join(" ");
+        if !self.glance().quotes(&name) {
+            return false;
+        }
+        let start = before.range().end - word.len();
+        let place = Span::new(self.file, start, next.range().end);
+        let message = format!("the name `{name}` lacks its backquotes");
+        let diagnostic = Diagnostic::new(Code::E0101, place, message).write(
+            place,
+            format!("`{name}`"),
+            Applicability::Safe,
+        );
+        self.report(diagnostic);
+        true
+    }
+
+    /// Reports a `(` that is missing behind a name: of `sees door)`.
+    fn missing_paren(&mut self, before: Option<Span>, next: Span) -> bool {
+        let Some(before) = before.filter(|before| self.on_one_line(*before, next)) else {
+            return false;
+        };
+        let closes = self.token_at(next.range().end);
+        if closes.is_none_or(|token| token.of(self.text) != ")") {
+            return false;
+        }
+        let message = format!("`(` is missing before `{}`", self.slice(next));
+        let gap = before.after().to(next.before());
+        let diagnostic = Diagnostic::new(Code::E0101, next, message)
+            .label("the arguments of a name stand in parentheses")
+            .fix("put a `(`", gap, "(", Applicability::Unsafe);
+        self.report(diagnostic);
+        true
     }
 
     /// Reports a `=>` that is missing on one line between a condition and what it guards, which begins with `next`.

@@ -5,7 +5,7 @@ use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::source::Span;
 use crate::spelling::spelled;
 use crate::syntax::ast::{Axis, BinaryOp, Expr, ExprKind, Spanned, UnaryOp, chain};
-use crate::syntax::diagnose::unclosed_quote;
+use crate::syntax::diagnose::{ends_after, unclosed_quote, unfinished};
 use crate::syntax::grammar::{Node, Parts, Rule};
 
 impl<'i> Builder<'i> {
@@ -57,7 +57,12 @@ impl<'i> Builder<'i> {
             return left;
         };
         let place = self.span(&sign);
-        if sign.as_str() == "=>" {
+        let range = (left.span.range().start, place.range().start);
+        if let Some(last) = unfinished(self.text, self.tokens, range) {
+            let at = Span::new(self.file, last.start, last.end);
+            let diagnostic = ends_after(at, last.of(self.text), "a value", "line");
+            self.report(diagnostic);
+        } else if sign.as_str() == "=>" {
             self.respell(Code::E0110, place, "`=>` is written `>=`".into(), ">=");
         } else {
             let message = "`=` gives a value; two values are compared with `==`".to_owned();

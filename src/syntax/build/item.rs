@@ -2,6 +2,7 @@
 
 use super::Builder;
 use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
 use crate::syntax::ast::{
     Enum, Event, Expr, ExprKind, Ident, Input, InputKind, ItemKind, Let, LetBody, On, Param,
     Params, Predicate, State, Trigger, TypeExpr, Use, UseWhat,
@@ -230,6 +231,13 @@ impl<'i> Builder<'i> {
         Some(Params { params, span })
     }
 
+    /// Whether the line of a name declares a family of states or events.
+    fn is_family(&self, name: Span) -> bool {
+        let before = self.text.get(..name.range().start).unwrap_or_default();
+        let line = before.rsplit('\n').next().unwrap_or_default();
+        line.starts_with("state ") || line.starts_with("event ")
+    }
+
     fn param(&mut self, node: Node<'i>) -> Param {
         let span = self.span(&node);
         let mut parts = Parts::of(node);
@@ -241,7 +249,7 @@ impl<'i> Builder<'i> {
         let untyped = parts.has(Rule::missing_type);
         let default = self.take_is(&mut parts).then(|| self.take_expr(&mut parts));
         if untyped {
-            let of_default = default.as_ref().map_or("length", type_of);
+            let of_default = default.as_ref().map(type_of);
             let diagnostic = Diagnostic::new(
                 Code::E0128,
                 name.span,
@@ -250,10 +258,19 @@ impl<'i> Builder<'i> {
             .label("a type goes after it")
             .help(match self.glance().declares_by(&["task"], &name.name) {
                 true => format!("if it is the task: `tree NAME for {} = …`", name.name),
-                false => format!(
-                    "write `{}: {}`, or whichever type it has",
-                    name.name, of_default
-                ),
+                false => match of_default {
+                    Some(of) => format!("write `{}: {of}`, or whichever type it has", name.name),
+                    None if self.is_family(name.span) => {
+                        format!(
+                            "write `{}: KIND`: the kind or the enum of its members",
+                            name.name
+                        )
+                    }
+                    None => {
+                        let types = "`length`, `number`, `place` or whichever it is";
+                        format!("write `{}: TYPE`: {types}", name.name)
+                    }
+                },
             });
             self.report(diagnostic);
         }

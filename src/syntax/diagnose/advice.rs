@@ -285,6 +285,9 @@ impl Place<'_> {
             (Rule::strict_aspect, "[" | "{") if wants_value => {
                 "a list has no brackets: its entries are parted by commas"
             }
+            (Rule::strict_world_entry, "facing") if self.begins_with("place") => {
+                "the direction follows the shape: `place NAME = SHAPE facing ANGLE`"
+            }
             (Rule::strict_world_entry, "facing") => "only a place has a `facing`",
             (Rule::strict_world_entry, "if") => "the condition of a door follows `when`",
             (_, "if") if self.expects(Rule::or_op) || self.expects(Rule::sum_op) => {
@@ -371,6 +374,11 @@ impl Place<'_> {
             }
             (_, "^" | "%") if self.after_found() == "=" => {
                 "what sets a state is `=`, `+=`, `-=`, `*=` or `/=`"
+            }
+            (Rule::strict_child | Rule::strict_item, "{")
+                if wants_value && self.before() == "not" =>
+            {
+                "a node that answers the opposite is `invert { … }`"
             }
             (_, "{") if wants_value => "a value stands without braces",
             (Rule::strict_item, "{") if self.before() == "=" && self.begins_with("behavior") => {

@@ -7,7 +7,7 @@ use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::grammar::Rule;
 use crate::syntax::tokens::{Kind, Token};
-use crate::syntax::words::{NODES, TYPES, UNITS};
+use crate::syntax::words::{CALLED, NODES, TYPES, UNITS};
 
 /// The words that declare one name.
 const DECLARING: [&str; 5] = ["event", "predicate", "behavior", "task", "tree"];
@@ -287,6 +287,16 @@ impl Place<'_> {
         if is_node && word.of(self.text) == "tree" && self.after_found() == "{" {
             let gap = self.span_of(name).after();
             let message = "`=` gives a tree its node";
+            return Some(
+                Diagnostic::new(Code::E0101, self.span(), message)
+                    .label("a `=` is missing before this")
+                    .fix("put a `=`", gap, " =", Applicability::Safe),
+            );
+        }
+        let is_alias = CALLED.contains(&self.found()) && self.after_found() == "(";
+        if is_alias && word.of(self.text) == "behavior" {
+            let gap = self.span_of(name).after();
+            let message = "`=` gives a behaviour what it stands for";
             return Some(
                 Diagnostic::new(Code::E0101, self.span(), message)
                     .label("a `=` is missing before this")

@@ -198,6 +198,8 @@ impl Place<'_> {
                     .help(format!("put it there: `{example}`")),
             );
         }
+        let lacks_its_word = self.failure.strict == Rule::strict_aspect && word == "last";
+        let foreign = foreign.or(lacks_its_word.then_some("history last"));
         let near = foreign.or_else(|| suggest::nearest(word, candidates.iter().copied()));
         let in_reward = self.failure.strict == Rule::strict_reward && near.is_none();
         if in_reward && matches!(after, "+=" | "-=" | "*=") {
@@ -322,7 +324,8 @@ impl Place<'_> {
         let line = self.text.get(self.found.end..).unwrap_or_default();
         let line = line.lines().next().unwrap_or_default();
         let line = line.split("//").next().unwrap_or_default().trim_end();
-        line.starts_with('(') && (line.ends_with(',') || line.contains("=>"))
+        (line.starts_with('(') || self.found() == "not")
+            && (line.ends_with(',') || line.contains("=>"))
     }
 
     /// A word that is meant with what has to follow it, and the text in whose place it is written.
