@@ -39,6 +39,8 @@ mod world;
 
 use super::{Checker, Input};
 use crate::diagnostic::Diagnostic;
+use crate::ir::Program;
+use crate::ir::expr::ExprId;
 pub use causes::Causes;
 pub use chains::Links;
 pub use conditions::{Condition, is_nameless};
@@ -49,6 +51,11 @@ pub use exclusions::exclusions;
 pub use mentions::Mentions;
 pub use regions::FailClause;
 pub use same::Again;
+
+/// The least that an expression may be, as far as its operators and the world tell.
+pub fn least(program: &Program, id: ExprId) -> f64 {
+    ranges::range(view::View::from(program), id).ends().0
+}
 
 impl<'a> Checker<'a> {
     /// The passes over the whole program, the main file being the last of the files.

@@ -27,7 +27,7 @@ mod types;
 mod world;
 
 pub use builtin::names as built_in_names;
-pub use lint::exclusions;
+pub use lint::{exclusions, least};
 pub use meaning::{Entity, Meaning, Meanings};
 pub use names::learned_name;
 pub use task::learner::methods;

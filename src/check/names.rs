@@ -193,9 +193,12 @@ pub struct Names<'a> {
 /// The words besides states that a `start` sets.
 pub const START_WORDS: [&str; 4] = ["pose", "position", "heading", "history"];
 
+/// What a tree that was learned is called where its learner has no name.
+pub const LEARNED: &str = "learned";
+
 /// The name of what a learner learns.
 pub fn learned_name(learn: &ast::Learn) -> &str {
-    learn.name.as_ref().map_or("learned", |name| &name.name)
+    learn.name.as_ref().map_or(LEARNED, |name| &name.name)
 }
 
 impl<'a> Names<'a> {

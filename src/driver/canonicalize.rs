@@ -6,9 +6,10 @@ use super::refused::Refused;
 use super::target;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::emit::bt;
-use crate::ir::tree::Tree;
+use crate::ir::tree::{Atom, Tree};
 use crate::ir::{Name, Program};
 use crate::policy::decisions;
+use crate::tree::atoms::atoms as asked;
 use crate::tree::canonicalise::{Canonical, canonicalise};
 use crate::tree::reading::{Irreducible, Reading};
 
@@ -95,7 +96,11 @@ fn table(
 ) -> Result<(String, Option<String>), Refused> {
     let program = &loaded.program;
     let window = tree.task.map(|task| program.tasks[task].history.window);
-    let atoms = canonical.atoms();
+    let mut atoms = canonical.atoms();
+    // What the tree asks in vain has its column: the table is held against the tree by its names.
+    let in_vain = asked(&tree.root).into_iter();
+    let in_vain: Vec<Atom> = in_vain.filter(|atom| !atoms.contains(atom)).collect();
+    atoms.extend(in_vain);
     let Some(divided) = canonical.divided(&atoms, window) else {
         let message = format!("the table of `{}` is too large", tree.name.family);
         let place = export::place(loaded, tree, &[]);

@@ -54,6 +54,12 @@ impl Account {
         Self::new(self.left() / parts.max(1) as u64)
     }
 
+    /// Another account of so many times the work that this one allowed at first.
+    #[must_use]
+    pub fn again(&self, times: u64) -> Self {
+        Self::new(self.limit.saturating_mul(times))
+    }
+
     /// An account of what is left but for one of so many equal parts.
     #[must_use]
     pub fn but(&self, parts: usize) -> Self {

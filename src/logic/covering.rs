@@ -16,7 +16,7 @@ mod top_down;
 pub use grouped::{Grouped, Part, grouped, picked};
 pub use rebuild::{Known, lists};
 pub use regrouped::Regroup;
-pub use top_down::top_down;
+pub use top_down::{Sought, top_down};
 
 use super::account::Account;
 use super::bits::Bits;

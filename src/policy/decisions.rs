@@ -4,7 +4,7 @@
 //! far as they are known, `visits`, `q_gap` and `q:NAME` for each behaviour that could be chosen.
 
 use super::error::{TableError, TableErrorKind};
-use super::reader::Format;
+use super::reader::{self, Format};
 use super::records::REMARK;
 use super::sheet;
 use super::table::Table;
@@ -40,18 +40,42 @@ pub fn write(policy: &Policy, program: &Program) -> String {
     sheet::write(std::iter::once(header).chain(rows))
 }
 
-/// The decisions alone as text, under names without backquotes: a table as anybody writes it, with remarks above it.
+/// The decisions alone as text, under names without backquotes where they are read so: a table as anybody writes it, with
+/// remarks above it.
 pub fn write_bare(policy: &Policy, program: &Program, remarks: &[String]) -> String {
     let atoms = policy.atoms.iter();
-    let atoms = atoms.map(|atom| AtomName::of(*atom, program).to_string());
+    let atoms = atoms.map(|atom| column(AtomName::of(*atom, program)));
     let header = atoms.chain(["behavior".to_owned()]).collect();
     let rows = policy.rows.iter().map(|row| {
         let behavior = program.behaviors[row.behavior].name.bare();
-        cells(row).chain([behavior]).collect()
+        cells(row).chain([cell(behavior)]).collect()
     });
     let remarks = remarks.iter().map(|line| format!("{REMARK}{line}\n"));
     let remarks: String = remarks.collect();
     remarks + &sheet::write(std::iter::once(header).chain(rows))
+}
+
+/// The column of an atom.
+fn column(atom: AtomName) -> String {
+    match atom {
+        AtomName::Predicate(name) if !is_plain(&name) || reader::is_special(&name) => {
+            format!("`{name}`")
+        }
+        atom => atom.to_string(),
+    }
+}
+
+/// A behaviour in its cell.
+fn cell(behavior: String) -> String {
+    match is_plain(&behavior) {
+        true => behavior,
+        false => format!("`{behavior}`"),
+    }
+}
+
+/// Whether a name is read as it is.
+fn is_plain(name: &str) -> bool {
+    name.trim() == name && !name.contains('|') && name != "-"
 }
 
 /// The values of a row's atoms as cells, `-` where they are free.

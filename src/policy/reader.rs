@@ -13,6 +13,7 @@ use super::records;
 use super::table::Table;
 use super::valued::Valued;
 use crate::ir::input::Measure;
+pub(in crate::policy) use header::is_special;
 
 /// How a table is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -295,6 +295,29 @@ impl<'a> Checker<'a> {
         Some(Typed::new(Type::Point, Value::Point(x, y), reference.span))
     }
 
+    /// `heading(robot)`: which way a robot looks.
+    pub fn heading_of(&mut self, reference: &'a Ref) -> Option<Typed> {
+        let &[value] = self.positional(reference, 1, 1)?.as_slice() else {
+            return None;
+        };
+        let robot = self.expect(value, &Type::Robot, "`heading` is read of a robot: it");
+        if robot.value == Value::Unknown {
+            return Some(Typed::unknown(Type::ANGLE, reference.span));
+        }
+        let angle = self.of_each(&robot.value, &mut |checker, robot| {
+            let leaf = match robot {
+                Value::Robot(id) if *id != checker.subject => Expr::Robot(*id, Pose::Heading),
+                _ => Expr::Pose(Pose::Heading),
+            };
+            Some(checker.program.pool.leaf(leaf))
+        })?;
+        Some(Typed::new(
+            Type::ANGLE,
+            Value::Scalar(angle),
+            reference.span,
+        ))
+    }
+
     fn inside(&mut self, target: &Value) -> Option<ExprId> {
         let id = match target {
             Value::Place(id) => *id,

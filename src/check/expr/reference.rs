@@ -48,6 +48,10 @@ impl<'a> Checker<'a> {
             }
         }
         let own = self.names.value(name, self.context.library).is_some();
+        if name == builtin::Constant::Heading.name() && !own && self.has_world {
+            self.is_built_in(&reference.name);
+            return self.heading_of(reference);
+        }
         if let Some(args) = &reference.args
             && builtin::Constant::named(name).is_some()
             && !own

@@ -6,7 +6,7 @@ use super::mentions::Mentions;
 use super::stays::{Set, set_in_ticks};
 use super::view::View;
 use crate::check::Checker;
-use crate::check::names::Decl;
+use crate::check::names::{Decl, learned_name};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::expr::ExprId;
 use crate::ir::task::{StartLine, Task};
@@ -75,10 +75,7 @@ impl<'a> Checker<'a> {
                 LearnEntry::Start(start) => Some(start),
                 _ => None,
             });
-            let name = learn
-                .name
-                .as_ref()
-                .map_or("learned", |name| name.name.as_str());
+            let name = learned_name(learn);
             let learner = self.program.learners.named(&Name::word(name));
             let (Some(own), Some(learner)) = (own, learner) else {
                 continue;

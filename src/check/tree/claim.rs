@@ -2,7 +2,7 @@
 
 use crate::check::Checker;
 use crate::check::context::{Context, Region};
-use crate::check::names::Decl;
+use crate::check::names::{Decl, LEARNED};
 use crate::check::types::Type;
 use crate::diagnostic::{Applicability, Code};
 use crate::ir::program::Event;
@@ -78,6 +78,16 @@ impl<'a> Checker<'a> {
                 .error(Code::E0203, name.span, "a tree is needed here")
                 .label(format!("`{}` is {}", name.name, decl.what()))
                 .emit(),
+            _ if name.name == LEARNED
+                && self.names.learners.is_empty()
+                && !self.names.is_lost(LEARNED) =>
+            {
+                let message = format!("`{}` is not declared", name.name);
+                self.error(Code::E0202, name.span, message)
+                    .label("the tree of a learner, and there is none")
+                    .help("what learns is an item: `learn TASK { episodes = 1_000 }`")
+                    .emit();
+            }
             _ => {
                 let trees = self.names.values(|decl| matches!(decl, Decl::Tree(_)));
                 let trees = trees.chain(self.names.learners.keys().copied());

@@ -1,6 +1,7 @@
 //! What a person should know of a result before they trust it.
 
 use super::places::Places;
+use crate::check;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::driver::load::Loaded;
 use crate::driver::target;
@@ -107,7 +108,7 @@ impl Warner<'_> {
         lines.filter_map(|(at, line)| {
             let pays = match self.program.pool.get(line.value) {
                 Expr::Num(value) => value > 0.0,
-                _ => false,
+                _ => check::least(self.program, line.value) >= 0.0,
             };
             match self.program.pool.get(line.event) {
                 Expr::Event(event) if pays => Some((at, line, event)),

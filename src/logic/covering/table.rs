@@ -3,6 +3,7 @@
 use crate::logic::account::Account;
 use crate::logic::bits::Bits;
 use crate::logic::columns::Columns;
+use crate::logic::minimise::random::Random;
 
 pub(super) struct Table {
     pub(super) columns: Columns,
@@ -41,6 +42,23 @@ impl Table {
         Self {
             columns: columns.pick(&rows),
             classes,
+        }
+    }
+
+    /// The same rows, their classes exchanged at random.
+    pub(super) fn shuffled(&self, random: &mut Random) -> Self {
+        let mut places: Vec<usize> = (0..self.columns.rows()).collect();
+        for at in (1..places.len()).rev() {
+            places.swap(at, random.below(at + 1));
+        }
+        let moved = |own: &Bits| {
+            let rows = own.iter().filter_map(|row| places.get(row).copied());
+            Bits::collect(own.bound(), rows)
+        };
+        let classes = self.classes.iter();
+        Self {
+            columns: self.columns.clone(),
+            classes: classes.map(|(class, own)| (*class, moved(own))).collect(),
         }
     }
 

@@ -33,12 +33,24 @@ const FIRST: u64 = 2;
 /// Groups within groups.
 const DEPTH: usize = 16;
 
+/// By how much classes are told apart by fewer leaves than if they fell by chance, where there is structure.
+const BY_CHANCE: f64 = 0.85;
+
+/// Which tables a list is sought for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sought {
+    /// Those of which a decision tree has few leaves.
+    Plain,
+    /// Those of which it has fewer than if the classes fell by chance, too: long lists ask much of a tree.
+    Any,
+}
+
 /// A list with groups that decides every row rightly; `None` where the table has too little structure for it, or the account is spent.
 /// Rows are minterms. Another number, another sample.
 pub fn top_down(
     columns: &Columns,
     classes: &[Bits],
-    number: u64,
+    (number, sought): (u64, Sought),
     account: &Account,
 ) -> Option<Grouped> {
     let all = Bits::full(columns.rows());
@@ -50,7 +62,15 @@ pub fn top_down(
     };
     let table = search.sample(&all, SAMPLE);
     let rows = table.columns.rows();
-    leaves(&table, &Bits::full(rows), rows / RARE, account)?;
+    let whole = Bits::full(rows);
+    if leaves(&table, &whole, rows / RARE, account).is_none() {
+        let shuffled = (sought == Sought::Any).then(|| table.shuffled(&mut search.random))?;
+        let own = leaves(&table, &whole, rows, account)? as f64;
+        let by_chance = leaves(&shuffled, &whole, rows, account)? as f64;
+        if own > BY_CHANCE * by_chance {
+            return None;
+        }
+    }
     search.list(&all, DEPTH)
 }
 

@@ -3,6 +3,7 @@
 use super::Units;
 use crate::ir::input::Measure;
 use crate::policy::error::TableErrorKind;
+use crate::policy::names::AtomName;
 use crate::policy::table::BEHAVIOR;
 use crate::policy::valued::Builder;
 use crate::spelling::bare;
@@ -48,7 +49,8 @@ pub(super) enum Role {
 
 /// The name of a column and the kind that stands behind it.
 pub(super) fn divided(column: &str) -> Option<(&str, &str)> {
-    if column.starts_with("q:") {
+    let is_quoted = column.starts_with('`') && column.ends_with('`');
+    if column.starts_with("q:") || is_quoted {
         return None;
     }
     column.match_indices(':').find_map(|(at, _)| {
@@ -62,6 +64,13 @@ pub(super) fn divided(column: &str) -> Option<(&str, &str)> {
             || osa_distance(&word, "number") <= NEARLY;
         (known && !name.is_empty()).then_some((name, kind))
     })
+}
+
+/// Whether a column of this name says something else than whether a predicate of this name holds.
+pub(in crate::policy) fn is_special(name: &str) -> bool {
+    let word = BEHAVIOR.contains(&name) || matches!(name, "visits" | "q_gap");
+    let value = name.starts_with("q:") || divided(name).is_some();
+    word || value || AtomName::read(name) != AtomName::Predicate(name.to_owned())
 }
 
 /// Whether a list of values begins and does not end.

@@ -380,6 +380,9 @@ impl Place<'_> {
             {
                 "a node that answers the opposite is `invert { … }`"
             }
+            (Rule::strict_item, "{") if self.before() == ":" && self.begins_with("state") => {
+                "its values have a type with a name: `enum NAME { a, b }`, then `state NAME: ENUM = a`"
+            }
             (_, "{") if wants_value => "a value stands without braces",
             (Rule::strict_item, "{") if self.before() == "=" && self.begins_with("behavior") => {
                 "the clauses of a behaviour follow its name, without `=`"

@@ -150,6 +150,16 @@ pub(in crate::syntax) fn units_note() -> String {
 
 /// The message for a word that follows a number and is not a unit; `others` may follow a number too.
 pub(in crate::syntax) fn no_such_unit(span: Span, word: &str, others: &[&str]) -> Diagnostic {
+    if matches!(word, "then" | "do") {
+        return Diagnostic::new(
+            Code::E0101,
+            span,
+            format!("a block follows without `{word}`"),
+        )
+        .label("not said here")
+        .fix(format!("drop `{word}`"), span, "", Applicability::Unsafe)
+        .help("its form is `if CONDITION { … }`");
+    }
     let diagnostic = Diagnostic::new(Code::E0114, span, format!("`{word}` is not a unit"));
     let units = UNITS.into_iter().filter(|unit| unit.len() > 1);
     let foreign = match word {

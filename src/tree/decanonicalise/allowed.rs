@@ -10,7 +10,9 @@ use super::share::shared;
 use super::{Decanonicalised, Options, decanonicalise, proved};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
-use crate::logic::covering::{Grouped, Known, List, Part, Regroup, Rule, lists, picked, top_down};
+use crate::logic::covering::{
+    Grouped, Known, List, Part, Regroup, Rule, Sought, lists, picked, top_down,
+};
 use crate::logic::impurity::Impurity;
 use crate::logic::partition::{Classified, Partition};
 use crate::logic::{Account, Bits, Columns, Cube, Literal};
@@ -149,7 +151,8 @@ fn renumbered(list: &Grouped, number: &impl Fn(usize) -> Option<usize>) -> Group
 /// The behaviour of each row by the smallest of a few lists with groups that are made from the top.
 fn from_the_top(columns: &Columns, classes: &[Bits], account: &Account) -> Option<Vec<usize>> {
     let part = account.part(2);
-    let made = (0..SAMPLES).map_while(|sample| top_down(columns, classes, sample, &part));
+    let made =
+        (0..SAMPLES).map_while(|sample| top_down(columns, classes, (sample, Sought::Plain), &part));
     let least = made.min_by_key(Grouped::nodes);
     account.settle(&part);
     let mut choice = vec![0; columns.rows()];

@@ -14,7 +14,7 @@ use super::problem::Problem;
 use super::share::shared;
 use super::subunit::behaviors;
 use crate::ir::tree::Node;
-use crate::logic::covering::{Known, List, grouped, lists, top_down};
+use crate::logic::covering::{Known, List, Sought, grouped, lists, top_down};
 use crate::logic::impurity::Impurity;
 use crate::logic::partition::{Classified, Partition};
 use crate::logic::{Account, Cover, Cube, Order};
@@ -29,7 +29,7 @@ pub(super) const REACH: u64 = 60_000;
 /// A list with fewer nodes than one for so many rows may have groups.
 const LONG: usize = 2;
 /// A tree that is so many times smaller than one by a partition is not one of those that a partition begins.
-const CLEAR: usize = 4;
+pub(super) const CLEAR: usize = 4;
 /// The lists that are made from the top.
 const SAMPLES: u64 = 6;
 /// Attempts at a smaller list with groups before it is tried on all rows.
@@ -161,8 +161,21 @@ fn from_the_top(
     if !tight || problem.wide {
         return Vec::new();
     }
-    let (columns, classes) = (problem.columns(), problem.classes());
     let whole = account.part(2);
+    let found = samples(problem, Sought::Plain, core, known, &whole);
+    account.settle(&whole);
+    found
+}
+
+/// Lists from the top for as many samples as an account allows.
+pub(super) fn samples(
+    problem: &Problem,
+    sought: Sought,
+    core: &mut Core,
+    known: &mut Known,
+    whole: &Account,
+) -> Vec<Node> {
+    let (columns, classes) = (problem.columns(), problem.classes());
     let mut found = Vec::new();
     for sample in 0..SAMPLES {
         // The first may take all of it: if there is no list from one sample, there is none from the others.
@@ -170,7 +183,7 @@ fn from_the_top(
             0 => whole.part(1),
             _ => whole.part(2),
         };
-        let made = top_down(columns, &classes, sample, &part);
+        let made = top_down(columns, &classes, (sample, sought), &part);
         whole.settle(&part);
         let Some(list) = made else { break };
         found.push(Children::grouped(problem, &list).node());
@@ -178,7 +191,6 @@ fn from_the_top(
         found.extend(core.groups(list, QUICK, known, &part));
         whole.settle(&part);
     }
-    account.settle(&whole);
     found
 }
 

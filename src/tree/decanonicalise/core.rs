@@ -22,6 +22,8 @@ const KEPT: usize = 4;
 pub(super) struct Core<'a, 'p> {
     problem: &'a Problem<'p>,
     pub(super) rows: Bits,
+    /// The smallest list for some rows that no account went far enough to make right on all of them.
+    pub(super) unfinished: Option<Grouped>,
 }
 
 impl<'a, 'p> Core<'a, 'p> {
@@ -30,7 +32,11 @@ impl<'a, 'p> Core<'a, 'p> {
         let count = problem.policy.rows.len();
         if count <= WHOLE || problem.wide {
             let rows = Bits::full(count);
-            return Self { problem, rows };
+            return Self {
+                problem,
+                rows,
+                unfinished: None,
+            };
         }
         let mut rows = Bits::empty(count);
         for (_, own) in &problem.on {
@@ -39,7 +45,11 @@ impl<'a, 'p> Core<'a, 'p> {
             let step = size.div_ceil(wanted).max(1);
             rows.unite(&Bits::collect(count, own.iter().step_by(step)));
         }
-        Self { problem, rows }
+        Self {
+            problem,
+            rows,
+            unfinished: None,
+        }
     }
 
     pub(super) fn policy(&self) -> Policy {
@@ -114,11 +124,26 @@ impl<'a, 'p> Core<'a, 'p> {
             }
         }
         if account.is_spent() {
+            self.leave(list);
             return None;
         }
         let (columns, classes) = (self.problem.columns(), self.problem.classes());
-        let list = Regroup::new(columns, &classes, account).smaller(&list, 0, known)?;
-        Some(Children::grouped(self.problem, &list).node())
+        let Some(right) = Regroup::new(columns, &classes, account).smaller(&list, 0, known) else {
+            self.leave(list);
+            return None;
+        };
+        Some(Children::grouped(self.problem, &right).node())
+    }
+
+    fn leave(&mut self, list: Grouped) {
+        let nodes = |list: &Grouped| list.nodes();
+        if self
+            .unfinished
+            .as_ref()
+            .is_none_or(|other| list.nodes() < nodes(other))
+        {
+            self.unfinished = Some(list);
+        }
     }
 
     /// Whether the tree is right on all rows. Else some rows on which it is wrong join the core.

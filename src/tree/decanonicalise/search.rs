@@ -6,7 +6,7 @@
 //! account of work, and what runs at the same time has a part of it each, so that every machine finds the same tree on any
 //! number of threads.
 
-use super::alone;
+use super::alone::{self, CLEAR};
 use super::beams;
 use super::core::Core;
 use super::memory::configurations;
@@ -20,7 +20,7 @@ use super::subunit::{Subunit, behaviors};
 use super::windows::Windows;
 use super::{Proof, Stage, paper};
 use crate::ir::tree::Node;
-use crate::logic::covering::Known;
+use crate::logic::covering::{Known, Sought};
 use crate::logic::{Account, Cover, Order};
 use crate::tree::Size;
 use crate::tree::prune::asked_once;
@@ -35,6 +35,15 @@ const TIGHT: usize = 8;
 const THOROUGH: usize = 100;
 /// The most nodes of a tree whose windows are looked at.
 const WINDOWED: usize = 2000;
+
+/// The fewest nodes of a tree beside which a list may be lost.
+const LOST: usize = 300;
+/// A list for some of the rows is made right on all of them if it is so many times smaller than the smallest tree.
+const SMALLER: usize = 2;
+/// Attempts at a smaller list that is found beyond the account.
+const QUICK: usize = 15;
+/// What is allowed for one from the top, in accounts.
+const FURTHER: u64 = 3;
 
 /// What a search came to.
 pub(super) struct Found {
@@ -97,6 +106,10 @@ pub(super) fn tree(problem: &Problem, is_tight: bool, account: &Account) -> Foun
         problem, &held, is_tight, &mut core, &mut known, &half,
     ));
     account.settle(&half);
+    if is_tight {
+        let both = (&held.trees[..], &trees[..]);
+        trees.extend(further(problem, both, &mut core, &mut known, account));
+    }
     let parts: Vec<(&Vec<Subunit>, Account)> = with_memory
         .iter()
         .map(|subunits| (subunits, account.part(with_memory.len())))
@@ -131,6 +144,44 @@ pub(super) fn tree(problem: &Problem, is_tight: bool, account: &Account) -> Foun
         paper,
         unfinished,
     }
+}
+
+/// What is found beyond the account: a list for some of the rows that is much smaller than what was found for all of them is made right
+/// on these; and where no list was found, one is sought with more patience, for a partition of a table that has one is many times
+/// larger.
+fn further(
+    problem: &Problem,
+    (held, trees): (&[Node], &[Node]),
+    core: &mut Core,
+    known: &mut Known,
+    account: &Account,
+) -> Vec<Node> {
+    let (Some(held), Some(least)) = (smallest_of(held), smallest_of(trees)) else {
+        return Vec::new();
+    };
+    if problem.wide || least < LOST {
+        return Vec::new();
+    }
+    let finish = |core: &mut Core, known: &mut Known, least: usize| {
+        let list = core.unfinished.take();
+        let list = list.filter(|list| list.nodes() * SMALLER < least)?;
+        core.groups(list, QUICK, known, &account.again(1))
+    };
+    if let Some(found) = finish(core, known, least) {
+        return vec![found];
+    }
+    if least * CLEAR <= held {
+        return Vec::new();
+    }
+    let mut found = alone::samples(problem, Sought::Any, core, known, &account.again(FURTHER));
+    let least = smallest_of(&found).map_or(least, |own| own.min(least));
+    found.extend(finish(core, known, least));
+    found
+}
+
+/// The nodes of the smallest tree.
+fn smallest_of(trees: &[Node]) -> Option<usize> {
+    trees.iter().map(|tree| Size::of(tree).nodes).min()
 }
 
 fn sized(trees: Vec<Node>) -> Vec<(Size, Node)> {

@@ -4,7 +4,7 @@
 //! The values of a table do not show what follows from an exchange. So a tree made with slack is never called equal to
 //! its table, and every minterm in which it deviates is listed.
 
-use super::{Decanonicalised, Options, decanonicalise};
+use super::{Decanonicalised, Options, allowing, decanonicalise};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::Atom;
@@ -65,9 +65,17 @@ pub fn loosen(
         return None;
     }
     let own: Vec<_> = policy.rows.iter().map(|row| row.behavior).collect();
-    let mut best = Fitted {
-        found: trials.tree(&fixed(&own))?,
-        behaviors: own,
+    // Rows that allow several behaviours are what other tables have, too; what is found so may still grow smaller.
+    let by_sets = allowing(&trials.plain(), &trials.allowed, options).ok();
+    let mut best = match by_sets {
+        Some((chosen, found)) if found.size < exact.size => Fitted {
+            behaviors: chosen.rows.iter().map(|row| row.behavior).collect(),
+            found,
+        },
+        _ => Fitted {
+            found: trials.tree(&fixed(&own))?,
+            behaviors: own,
+        },
     };
     let fewest = trials.fewest();
     trials.improve(&mut best, fixed(&fewest));
@@ -85,9 +93,12 @@ pub fn loosen(
     trials.options = *options;
     trials.left = 1;
     let found = trials.tree(&fixed(&best.behaviors))?;
-    (found.size < exact.size).then(|| Loosened {
+    if found.size < best.found.size {
+        best.found = found;
+    }
+    (best.found.size < exact.size).then(|| Loosened {
         deviations: deviations(policy, &best.behaviors),
-        found,
+        found: best.found,
     })
 }
 
@@ -148,6 +159,17 @@ struct Trials<'a> {
 }
 
 impl Trials<'_> {
+    /// The policy without its transitions.
+    fn plain(&self) -> Policy {
+        Policy {
+            rows: self.policy.rows.clone(),
+            atoms: self.policy.atoms.clone(),
+            behaviors: self.policy.behaviors.clone(),
+            history: self.policy.history,
+            ..Policy::default()
+        }
+    }
+
     /// Allowed behaviours for all rows, few different ones: greedily the one that is allowed in most open rows.
     fn fewest(&self) -> Vec<Id<Behavior>> {
         let mut chosen: Wanted = vec![None; self.allowed.len()];
@@ -252,10 +274,7 @@ impl Trials<'_> {
         });
         let policy = Policy {
             rows: rows.collect(),
-            atoms: self.policy.atoms.clone(),
-            behaviors: self.policy.behaviors.clone(),
-            history: self.policy.history,
-            ..Policy::default()
+            ..self.plain()
         };
         decanonicalise(&policy, &self.options).ok()
     }

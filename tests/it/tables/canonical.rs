@@ -87,6 +87,45 @@ fn tables_of_trees_read_back() {
     }
 }
 
+/// Names that a table reads otherwise stand in it as the language quotes them, and what is asked in vain has a column.
+#[test]
+fn odd_names_and_what_is_asked_in_vain_read_back() {
+    let source = "\
+predicate `a,b`
+predicate `x:number`
+predicate `m:{a,b}`
+predicate visits
+predicate `q:go`
+predicate action
+predicate ` lead`
+behavior `c|d`
+behavior ` sp `
+behavior `-`
+behavior c
+tree t = selector {
+    `a,b` => `c|d`,
+    `x:number` => ` sp `,
+    `m:{a,b}` and visits => `-`,
+    `q:go` or action => c,
+    ` lead` => ` sp `,
+    c,
+}
+tree vain = selector { visits and not visits => `c|d`, action => c, ` sp ` }
+";
+    let program = load("odd.bt", source.into(), &mut NoFiles);
+    for name in ["t", "vain"] {
+        let (table, _) = canonicalize(&program, name, Form::Csv).unwrap();
+        let proved = verify::table(
+            &program,
+            name,
+            (text("t.csv", table.as_bytes()), None),
+            None,
+        );
+        let proved = proved.unwrap_or_else(|refused| panic!("{table}\n{}", shown(&refused)));
+        assert!(proved.holds(), "{name}: {}", proved.text);
+    }
+}
+
 /// The table of a tree with memory says what it lacks, and so does a comparison without it; in an environment that was
 /// recorded the two are equal.
 #[test]

@@ -89,34 +89,78 @@ fn lists_are_found_though_other_behaviors_are_allowed() {
     assert!(found <= 21, "{found} nodes");
 }
 
-/// Twenty-five rules over a hundred truth values: what is found for a part of the rows is made right on all of them.
-#[test]
-fn long_lists_are_found_though_other_behaviors_are_allowed() {
-    const ATOMS: usize = 100;
-    let all = ["a", "b", "c", "d", "e"];
-    for seed in [3, 5, 7] {
+/// A list of rules over truth values.
+struct Long {
+    atoms: usize,
+    rules: usize,
+    fewest: usize,
+    rows: usize,
+    /// With what chance a row allows each behaviour that its rule does not say.
+    chance: f64,
+}
+
+impl Long {
+    /// A table of random rows, and the nodes of the tree that it is of.
+    fn planted(&self, all: &[&str], seed: u64) -> (String, usize) {
         let mut random = Random::new(seed, 0, 0);
         let mut draw = |of: usize| random.uniform(0.0, of as f64) as usize % of;
-        let rules: Vec<(Vec<(usize, bool)>, &str)> = (0..25)
+        let rules: Vec<(Vec<(usize, bool)>, &str)> = (0..self.rules)
             .map(|_| {
-                let literals = 1 + draw(4);
-                let cube = (0..literals).map(|_| (draw(ATOMS), draw(2) == 1));
+                let literals = self.fewest + draw(5 - self.fewest);
+                let cube = (0..literals).map(|_| (draw(self.atoms), draw(2) == 1));
                 (cube.collect(), all[draw(all.len())])
             })
             .collect();
         let mut table = BTreeMap::new();
-        while table.len() < 10_000 {
-            let row: Vec<bool> = (0..ATOMS).map(|_| random.chance(0.5)).collect();
+        while table.len() < self.rows {
+            let row: Vec<bool> = (0..self.atoms).map(|_| random.chance(0.5)).collect();
             let mut holds = rules
                 .iter()
                 .filter(|(cube, _)| cube.iter().all(|(atom, value)| row[*atom] == *value));
             let rule = holds.next().map_or("a", |(_, behavior)| *behavior);
-            let behaviors = allowed(&mut random, &all, rule, 0.4);
+            let behaviors = allowed(&mut random, all, rule, self.chance);
             table.entry(row).or_insert(behaviors);
         }
-        let planted: usize = 2 + rules.iter().map(|(cube, _)| 2 + cube.len()).sum::<usize>();
-        let found = nodes(&truths(&table), 30);
+        let planted = 2 + rules.iter().map(|(cube, _)| 2 + cube.len()).sum::<usize>();
+        (truths(&table), planted)
+    }
+}
+
+/// Twenty-five rules over a hundred truth values: what is found for a part of the rows is made right on all of them.
+#[test]
+fn long_lists_are_found_though_other_behaviors_are_allowed() {
+    let long = Long {
+        atoms: 100,
+        rules: 25,
+        fewest: 1,
+        rows: 10_000,
+        chance: 0.4,
+    };
+    for seed in [3, 5, 7] {
+        let (table, planted) = long.planted(&["a", "b", "c", "d", "e"], seed);
+        let found = nodes(&table, 30);
         assert!(found <= planted, "{found} nodes for {planted}");
+    }
+}
+
+/// Thirty rules, so long that a decision tree for some of the rows has a leaf for each third of them: nothing seems to be in the table,
+/// and a partition of all rows has thousands of nodes.
+#[test]
+fn long_lists_over_many_columns_are_found() {
+    let long = Long {
+        atoms: 60,
+        rules: 30,
+        fewest: 2,
+        rows: 20_000,
+        chance: 0.0,
+    };
+    for seed in [1, 2] {
+        let (table, planted) = long.planted(&["a", "b", "c", "d", "e", "f", "g"], seed);
+        let found = nodes(&table, USUAL.effort);
+        assert!(
+            found <= planted + planted / 4,
+            "{found} nodes for {planted}"
+        );
     }
 }
 

@@ -4,6 +4,8 @@ use super::{USUAL, compared, made, text};
 use crate::snapshot;
 use btc::diagnostic::Code;
 use btc::driver::decanonicalize::Options;
+use btc::random::Random;
+use btc::tree::Size;
 use proptest::prelude::*;
 
 fn with(slack: f64) -> Options<'static> {
@@ -34,6 +36,38 @@ fn minterms_that_are_decided_otherwise_are_listed() {
     assert!(loose.text.contains("NOT equal"));
     assert!(!compared(&loose, table).holds());
     assert_eq!(loose.warnings.len(), 3);
+}
+
+/// Slack makes no larger tree than the same table whose rows allow what the slack does.
+#[test]
+fn slack_is_as_good_as_rows_that_allow_as_much() {
+    let mut random = Random::new(5, 0, 0);
+    let all = ["w", "x", "y", "z"];
+    let mut with_values = String::from("a,b,c,d,e,behavior,q:w,q:x,q:y,q:z\n");
+    let mut with_sets = String::from("a,b,c,d,e,behavior\n");
+    for row in 0..32 {
+        let cells: Vec<String> = (0..5).map(|bit| (row >> bit & 1).to_string()).collect();
+        let values: Vec<f64> = all.iter().map(|_| random.uniform(0.0, 1.0)).collect();
+        let most = values.iter().copied().fold(0.0, f64::max);
+        let best = values.iter().position(|value| *value == most).unwrap();
+        let allowed = all
+            .iter()
+            .zip(&values)
+            .filter(|(_, value)| **value >= most - 0.4);
+        let allowed: Vec<&str> = allowed.map(|(name, _)| *name).collect();
+        let cells = cells.join(",");
+        let [w, x, y, z] = values[..] else {
+            unreachable!()
+        };
+        with_values += &format!("{cells},{},{w},{x},{y},{z}\n", all[best]);
+        with_sets += &format!("{cells},{}\n", allowed.join("|"));
+    }
+    let nodes = |table: &str, options: &Options| {
+        let made = made(text("t.csv", table.as_bytes()), None, options).unwrap();
+        Size::of(&made.program.trees[made.tree].root).nodes
+    };
+    let (slack, sets) = (nodes(&with_values, &with(0.4)), nodes(&with_sets, &USUAL));
+    assert!(slack <= sets, "{slack} nodes, {sets} with sets");
 }
 
 /// What is worth too little, and what has no value, is never taken.
