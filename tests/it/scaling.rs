@@ -15,6 +15,11 @@ const SMALL: &str = include_str!("../../examples/delivery_small.bt");
 /// The fewest copies of the lines that are written many times.
 const COPIES: usize = 120;
 
+/// The instructions that copies have to cost, so that those of a process, which are never quite the same, do not matter; and the most
+/// copies that are made for that.
+const TOLD: f64 = 500_000.0;
+const MOST: usize = 30_000;
+
 /// By how much the second doubling may cost more than the first: 2 if each copy costs the same, 4 if it costs as much as there
 /// are copies.
 const LIMIT: f64 = 2.5;
@@ -68,18 +73,24 @@ fn growth(file: &Path, command: &str) -> (f64, f64) {
         .split(' ')
         .map(|word| if word == "FILE" { name } else { word })
         .collect();
-    let works = [1, 2, 4].map(|times| {
-        fs::write(place.path().join(name), with_copies(&case, COPIES * times)).unwrap();
-        let (work, code) = instructions(&arguments, place.path());
-        let expected = i32::from(name.starts_with("wrong"));
-        assert!(
-            code == Some(expected) || arguments[0] == "fmt",
-            "{name}, {command}: {code:?}"
-        );
-        work
-    });
-    let growth = (works[2] - works[1]) / (works[1] - works[0]);
-    (growth, (works[1] - works[0]) / COPIES as f64)
+    let mut copies = COPIES;
+    loop {
+        let works = [1, 2, 4].map(|times| {
+            fs::write(place.path().join(name), with_copies(&case, copies * times)).unwrap();
+            let (work, code) = instructions(&arguments, place.path());
+            let expected = i32::from(name.starts_with("wrong"));
+            assert!(
+                code == Some(expected) || arguments[0] == "fmt",
+                "{name}, {command}: {code:?}"
+            );
+            work
+        });
+        let first = works[1] - works[0];
+        if first >= TOLD || copies >= MOST {
+            return ((works[2] - works[1]) / first, first / copies as f64);
+        }
+        copies *= 16;
+    }
 }
 
 #[test]
