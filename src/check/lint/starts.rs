@@ -165,7 +165,13 @@ impl<'a> Checker<'a> {
                     LetBody::Expr(value) => within.expr(value),
                     LetBody::Yield(_) => {}
                 },
-                _ => {}
+                // What goes through a kind reads each of its places.
+                _ => read.extend(self.names.values(|decl| match decl {
+                    Decl::Place(_, kind) => {
+                        name == "place" || kind.is_some_and(|kind| kind.name == name)
+                    }
+                    _ => false,
+                })),
             }
             open.extend(within.read.into_iter().filter(|name| seen.insert(name)));
         }
