@@ -5,7 +5,7 @@ use super::expr::plain_ref;
 use super::meaning::Meaning;
 use super::names::Decl;
 use super::types::{Type, Typed};
-use crate::diagnostic::{Applicability, Code, Diagnostic, Fix, Label};
+use crate::diagnostic::{Applicability, Code, Diagnostic, Fix};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, Ident, State};
 use crate::syntax::print;
@@ -21,9 +21,6 @@ pub struct Clash<'a> {
     /// The type that the use would agree with.
     used_as: Type,
 }
-
-/// How many uses are shown.
-const SHOWN: usize = 3;
 
 impl<'a> Checker<'a> {
     /// Notes that what an expression names was taken for something of another type, which was reported at `at`.
@@ -115,18 +112,10 @@ impl<'a> Checker<'a> {
         };
         let span = state.ty.as_ref().map_or(state.value.span, |ty| ty.span);
         let message = format!("`{name}` is declared as {is}, and used as {used_as}");
-        let mut found = Diagnostic::new(code, span, message).label(format!("this is {is}"));
-        found
-            .labels
-            .extend(clashes.iter().take(SHOWN).map(|clash| Label {
-                span: clash.at,
-                message: format!("used as {used_as}"),
-            }));
-        match clashes.len().saturating_sub(SHOWN) {
-            0 => {}
-            1 => found = found.note("and in one more place"),
-            more => found = found.note(format!("and in {more} more places")),
-        }
+        let places: Vec<Span> = clashes.iter().map(|clash| clash.at).collect();
+        let mut found = Diagnostic::new(code, span, message)
+            .label(format!("this is {is}"))
+            .and_at(&places, &format!("used as {used_as}"));
         let (Some(ty), Some(value)) = (used_as.written(), initial(used_as, &state.value)) else {
             return found;
         };

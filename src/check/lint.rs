@@ -23,6 +23,7 @@ mod moments;
 mod overwritten;
 mod predicates;
 mod ranges;
+mod reads;
 mod regions;
 mod repaid;
 mod rewards;
@@ -92,7 +93,6 @@ impl<'a> Checker<'a> {
         self.settings_of_learners(items());
         self.moments_that_last(items());
         self.ends_at_starts(items());
-        self.training_ends_at_starts(items());
         self.read_before_set(items());
         self.nodes_without_effect(items());
         self.subtrees_without_effect(items());

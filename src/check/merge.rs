@@ -5,9 +5,6 @@ use crate::diagnostic::{Code, Diagnostic, Label};
 use crate::source::Span;
 use std::collections::BTreeMap;
 
-/// How many further places of one mistake are shown.
-const SHOWN: usize = 3;
-
 /// Makes one diagnostic of those that say the same of one thing in several places: a name that nothing declares, a
 /// sensor or a world that is missing, entries of one list that are of the wrong kind, a wall that is taken for a place.
 /// `declared` says where the name at a place is declared.
@@ -129,16 +126,7 @@ pub fn merge(sorted: &mut Vec<Diagnostic>, declared: impl Fn(Span) -> Option<Spa
         let Some(found) = merged.get_mut(at) else {
             continue;
         };
-        let labels = places.iter().take(SHOWN).map(|span| Label {
-            span: *span,
-            message: "and here".to_owned(),
-        });
-        found.labels.extend(labels);
-        match places.len().saturating_sub(SHOWN) {
-            0 => {}
-            1 => found.notes.push("and in one more place".to_owned()),
-            more => found.notes.push(format!("and in {more} more places")),
-        }
+        *found = found.clone().and_at(&places, "and here");
     }
     *sorted = merged;
 }

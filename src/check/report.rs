@@ -68,6 +68,11 @@ impl<'d> Draft<'d> {
         self.with(|diagnostic| diagnostic.also(span, message))
     }
 
+    /// Shows further places of one mistake.
+    pub fn and_at(self, places: &[Span], message: &str) -> Self {
+        self.with(|diagnostic| diagnostic.and_at(places, message))
+    }
+
     /// Adds a note.
     pub fn note(self, note: impl Into<String>) -> Self {
         self.with(|diagnostic| diagnostic.note(note))
@@ -271,4 +276,9 @@ pub fn listed(names: &[&str], word: &str) -> String {
         [one] => one.clone(),
         [most @ .., last] => format!("{} {word} {last}", most.join(", ")),
     }
+}
+
+/// A number to three places: a length to the millimetre.
+pub fn short(number: f64) -> f64 {
+    (number * 1000.0).round() / 1000.0
 }

@@ -68,6 +68,9 @@ pub struct Diagnostic {
     pub fixes: Vec<Fix>,
 }
 
+/// How many further places of one mistake are shown.
+const SHOWN: usize = 3;
+
 impl Diagnostic {
     /// A diagnostic of `code` at `span`; its severity is the code's.
     pub fn new(code: Code, span: Span, message: impl Into<String>) -> Self {
@@ -102,6 +105,19 @@ impl Diagnostic {
             message: message.into(),
         });
         self
+    }
+
+    /// Shows further places of one mistake, the first of them, and says how many more there are.
+    #[must_use]
+    pub fn and_at(mut self, places: &[Span], message: &str) -> Self {
+        for place in places.iter().take(SHOWN) {
+            self = self.also(*place, message);
+        }
+        match places.len().saturating_sub(SHOWN) {
+            0 => self,
+            1 => self.note("and in one more place"),
+            more => self.note(format!("and in {more} more places")),
+        }
     }
 
     /// Adds a note.

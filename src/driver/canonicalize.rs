@@ -120,6 +120,13 @@ fn table(
         false => Vec::new(),
     };
     let policy = divided.policy(atoms);
+    if let Some(name) = decisions::unsaid(&policy, program) {
+        let message = format!("no table can say the name `{name}`");
+        let place = export::place(loaded, tree, &[]);
+        let note = "it would be read as something else";
+        let diagnostic = Diagnostic::new(Code::E0819, place, message).label(note);
+        return Err(Refused::program(loaded, [diagnostic]));
+    }
     Ok((decisions::write_bare(&policy, program, &remarks), warning))
 }
 

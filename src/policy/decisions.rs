@@ -55,6 +55,17 @@ pub fn write_bare(policy: &Policy, program: &Program, remarks: &[String]) -> Str
     remarks + &sheet::write(std::iter::once(header).chain(rows))
 }
 
+/// A name of the policy that no table can say.
+pub fn unsaid(policy: &Policy, program: &Program) -> Option<String> {
+    let atoms = policy.atoms.iter();
+    let mut atoms = atoms.map(|atom| AtomName::of(*atom, program));
+    let atom = atoms.find(|atom| atom.check().is_err());
+    let behaviors = policy.behaviors.iter();
+    let mut behaviors = behaviors.map(|id| program.behaviors[*id].name.bare());
+    let behavior = || behaviors.find(|name| names::check(name).is_err());
+    atom.map(|atom| atom.to_string()).or_else(behavior)
+}
+
 /// The column of an atom.
 fn column(atom: AtomName) -> String {
     match atom {

@@ -107,13 +107,10 @@ fn too_early(text: &str, found: Diagnostic) -> Diagnostic {
         .fix("drop the `}`", close, "", Applicability::Unsafe)
 }
 
-/// How many places of a habit are shown.
-const SHOWN: usize = 3;
-
 /// One message for all the marks of one sign that nothing needs: who ends one line by it ends them all so.
 fn one_of_a_habit(text: &str, told: Vec<Diagnostic>) -> Vec<Diagnostic> {
     let mut kept: Vec<Diagnostic> = Vec::new();
-    let mut first: BTreeMap<&str, (usize, usize)> = BTreeMap::new();
+    let mut first: BTreeMap<&str, (usize, Vec<Span>)> = BTreeMap::new();
     for found in told {
         if let Some(last) = kept.last_mut()
             && lacks_its_type(last)
@@ -129,29 +126,22 @@ fn one_of_a_habit(text: &str, told: Vec<Diagnostic>) -> Vec<Diagnostic> {
         }
         let mark = slice(text, &found);
         let Some((at, further)) = first.get_mut(mark) else {
-            first.insert(mark, (kept.len(), 0));
+            first.insert(mark, (kept.len(), Vec::new()));
             kept.push(found);
             continue;
         };
         let Some(habit) = kept.get_mut(*at) else {
             continue;
         };
-        *further += 1;
-        if *further <= SHOWN {
-            *habit = habit.clone().also(found.span(), "and here");
-        }
+        further.push(found.span());
         if let (Some(all), Some(one)) = (habit.fixes.first_mut(), found.fixes.into_iter().next()) {
             all.title = format!("drop every `{mark}` that nothing needs");
             all.edits.extend(one.edits);
         }
     }
     for (at, further) in first.into_values() {
-        if let Some(habit) = kept.get_mut(at)
-            && further > SHOWN
-        {
-            let more = further - SHOWN;
-            let places = if more == 1 { "place" } else { "places" };
-            habit.notes.push(format!("and in {more} more {places}"));
+        if let Some(habit) = kept.get_mut(at) {
+            *habit = habit.clone().and_at(&further, "and here");
         }
     }
     kept

@@ -2,6 +2,7 @@
 
 use crate::check::Checker;
 use crate::check::context::Region;
+use crate::check::report::short;
 use crate::check::signature::{Signature, Takes};
 use crate::check::types::units::Dim;
 use crate::check::types::{Type, Typed};
@@ -191,7 +192,7 @@ impl<'a> Checker<'a> {
         }
         let message = format!("the `{command}` is far beyond what the drive does");
         self.warning(Code::W0402, at, message)
-            .label(format!("at most {} {unit} come of it", most as f32));
+            .label(format!("at most {} {unit} come of it", short(most)));
     }
 
     /// Warns of a bearing, which is from the heading, where a course is a direction in the arena.
@@ -298,35 +299,35 @@ impl<'a> Checker<'a> {
 
 /// The bearing that an angle is made of, if it is not made of the heading as well.
 fn bearing_in(value: &ast::Expr) -> Option<&ast::Ref> {
-    let mut found = None;
-    for called in summands(value) {
-        match called.name.name.as_str() {
-            "heading" => return None,
-            "bearing" => found = found.or(Some(called)),
-            _ => {}
-        }
-    }
-    found
+    let summands = summands(value);
+    let mut named = summands.iter();
+    let with_heading = named.any(|called| called.name.name == "heading");
+    let mut bearings = summands.into_iter();
+    let bearing = bearings.find(|called| called.name.name == "bearing");
+    bearing.filter(|_| !with_heading)
 }
 
 /// The names and calls that a sum is made of, and what is wrapped.
 fn summands(value: &ast::Expr) -> Vec<&ast::Ref> {
-    match &value.kind {
-        ExprKind::Paren(inner) => summands(inner),
-        ExprKind::Ref(called) if called.name.name == "wrap" => {
-            let args = called.args.iter().flatten();
-            let values = args.filter_map(|arg| match &arg.kind {
-                ArgKind::Positional(value) => Some(value),
-                _ => None,
-            });
-            values.flat_map(summands).collect()
+    let (mut found, mut open) = (Vec::new(), vec![value]);
+    while let Some(value) = open.pop() {
+        match &value.kind {
+            ExprKind::Paren(inner) => open.push(inner),
+            ExprKind::Ref(called) if called.name.name == "wrap" => {
+                let args = called.args.iter().flatten();
+                open.extend(args.filter_map(|arg| match &arg.kind {
+                    ArgKind::Positional(value) => Some(value),
+                    _ => None,
+                }));
+            }
+            ExprKind::Ref(called) => found.push(called),
+            ExprKind::Binary { op, left, right }
+                if matches!(op.node, BinaryOp::Add | BinaryOp::Sub) =>
+            {
+                open.extend([&**left, &**right]);
+            }
+            _ => {}
         }
-        ExprKind::Ref(called) => vec![called],
-        ExprKind::Binary { op, left, right }
-            if matches!(op.node, BinaryOp::Add | BinaryOp::Sub) =>
-        {
-            [summands(left), summands(right)].concat()
-        }
-        _ => Vec::new(),
     }
+    found
 }

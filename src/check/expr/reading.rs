@@ -275,12 +275,9 @@ impl<'a> Checker<'a> {
 
     /// `pose(robot)`: where a robot is.
     pub fn position_of(&mut self, reference: &'a Ref) -> Option<Typed> {
-        let &[value] = self.positional(reference, 1, 1)?.as_slice() else {
-            return None;
-        };
-        let robot = self.expect(value, &Type::Robot, "`pose` is read of a robot: it");
+        let robot = self.robot_read(reference, &Type::Point)?;
         if robot.value == Value::Unknown {
-            return Some(Typed::unknown(Type::Point, reference.span));
+            return Some(robot);
         }
         let coordinate = |checker: &mut Self, of: fn((ExprId, ExprId)) -> ExprId| {
             checker.of_each(&robot.value, &mut |checker, robot| {
@@ -297,12 +294,9 @@ impl<'a> Checker<'a> {
 
     /// `heading(robot)`: which way a robot looks.
     pub fn heading_of(&mut self, reference: &'a Ref) -> Option<Typed> {
-        let &[value] = self.positional(reference, 1, 1)?.as_slice() else {
-            return None;
-        };
-        let robot = self.expect(value, &Type::Robot, "`heading` is read of a robot: it");
+        let robot = self.robot_read(reference, &Type::ANGLE)?;
         if robot.value == Value::Unknown {
-            return Some(Typed::unknown(Type::ANGLE, reference.span));
+            return Some(robot);
         }
         let angle = self.of_each(&robot.value, &mut |checker, robot| {
             let leaf = match robot {
@@ -316,6 +310,19 @@ impl<'a> Checker<'a> {
             Value::Scalar(angle),
             reference.span,
         ))
+    }
+
+    /// The robot of which something of a type is read; of one that is not known, what is read of it is not, either.
+    fn robot_read(&mut self, reference: &'a Ref, read: &Type) -> Option<Typed> {
+        let &[value] = self.positional(reference, 1, 1)?.as_slice() else {
+            return None;
+        };
+        let role = format!("`{}` is read of a robot: it", reference.name.name);
+        let robot = self.expect(value, &Type::Robot, &role);
+        Some(match robot.value {
+            Value::Unknown => Typed::unknown(read.clone(), reference.span),
+            _ => robot,
+        })
     }
 
     fn inside(&mut self, target: &Value) -> Option<ExprId> {

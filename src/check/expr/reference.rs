@@ -48,7 +48,8 @@ impl<'a> Checker<'a> {
             }
         }
         let own = self.names.value(name, self.context.library).is_some();
-        if name == builtin::Constant::Heading.name() && !own && self.has_world {
+        let given = reference.args.as_ref().is_some_and(|args| !args.is_empty());
+        if name == builtin::Constant::Heading.name() && given && !own && self.has_world {
             self.is_built_in(&reference.name);
             return self.heading_of(reference);
         }

@@ -8,7 +8,7 @@ use crate::check::Checker;
 use crate::diagnostic::Code;
 use crate::ir::tree::{Composite, Decorator, Guard, Node, Status};
 use crate::source::Span;
-use crate::syntax::ast::{self, BinaryOp, Expr, ExprKind, NodeKind, Tree};
+use crate::syntax::ast::{self, Expr, ExprKind, NodeKind, Tree};
 use crate::syntax::print;
 
 impl<'a> Checker<'a> {
@@ -57,8 +57,7 @@ impl<'a> Checker<'a> {
         if asked(guard) {
             places.push(written.span);
         } else if let Guard::And(parts) = guard {
-            let mut conjuncts = Vec::new();
-            operands(written, &mut conjuncts);
+            let conjuncts = written.conjuncts();
             if conjuncts.len() == parts.len() {
                 let of = conjuncts.iter().zip(parts);
                 places.extend(of.filter(|(_, part)| asked(part)).map(|(at, _)| at.span));
@@ -159,18 +158,6 @@ fn is_instant(node: &Node) -> bool {
     );
     let runs = matches!(node, Node::Behavior(_));
     !waits && !runs && node.children().iter().all(is_instant)
-}
-
-/// The operands of a conjunction.
-fn operands<'a>(expr: &'a Expr, found: &mut Vec<&'a Expr>) {
-    match &expr.kind {
-        ExprKind::Paren(inner) => operands(inner, found),
-        ExprKind::Binary { op, left, right } if op.node == BinaryOp::And => {
-            operands(left, found);
-            operands(right, found);
-        }
-        _ => found.push(expr),
-    }
 }
 
 /// Whether a node is written as a mere `true` or `false`: whoever writes that has switched something off on purpose.

@@ -231,7 +231,7 @@ impl<'a> Mentions<'a> {
         self.expr(&binding.value);
     }
 
-    fn yielded(&mut self, body: &'a Yield) {
+    pub fn yielded(&mut self, body: &'a Yield) {
         for binding in &body.bindings {
             self.binding(binding);
         }

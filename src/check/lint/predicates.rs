@@ -13,9 +13,7 @@ use crate::ir::world::Robot;
 use crate::ir::{Id, Name, Program};
 use crate::source::Span;
 use crate::spelling::spelled;
-use crate::syntax::ast::{
-    AspectKind, BehaviorBody, BinaryOp, ClauseKind, Expr, ExprKind, Item, ItemKind, Ref, Task,
-};
+use crate::syntax::ast::{AspectKind, BehaviorBody, ClauseKind, Expr, Item, ItemKind, Ref, Task};
 use std::collections::{BTreeMap, BTreeSet};
 
 impl<'a> Checker<'a> {
@@ -195,6 +193,10 @@ impl<'a> Checker<'a> {
             .iter()
             .map(|(reference, _)| reference.name.name.as_str())
             .collect();
+        let told = observed
+            .iter()
+            .flat_map(|(reference, _)| self.read_of(reference));
+        let told: BTreeSet<&str> = told.collect();
         let lists = task.aspects.iter().filter_map(|aspect| match &aspect.kind {
             AspectKind::Choose(list) => Some(list),
             _ => None,
@@ -214,7 +216,7 @@ impl<'a> Checker<'a> {
                 let ClauseKind::Requires(test) = &clause.kind else {
                     continue;
                 };
-                if let Some(part) = self.unread_part(task, test, &observed) {
+                if let Some(part) = self.unread_part(task, test, &told) {
                     let message = format!(
                         "the task `{}` observes nothing of what `{}` requires",
                         task.name.name, chosen.name.name
@@ -224,9 +226,7 @@ impl<'a> Checker<'a> {
                         .also(part, "required here");
                     continue;
                 }
-                let mut asked = Vec::new();
-                conjuncts(test, &mut asked);
-                for reference in asked {
+                for reference in test.conjuncts().into_iter().filter_map(plain_ref) {
                     let name = reference.name.name.as_str();
                     let is_predicate =
                         matches!(self.names.value(name, false), Some((Decl::Predicate(_), _)));
@@ -246,23 +246,12 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// The part of a requirement that names no predicate, and reads states or places of which no predicate of the list tells
-    /// anything. Where the robot has been, its history tells.
-    fn unread_part(
-        &self,
-        task: &Task,
-        test: &'a Expr,
-        observed: &[(&'a Ref, Id<Predicate>)],
-    ) -> Option<Span> {
+    /// The part of a requirement that names no predicate, and reads states or places that are not among those of which the task is
+    /// told. Where the robot has been, its history tells.
+    fn unread_part(&self, task: &Task, test: &'a Expr, told: &BTreeSet<&str>) -> Option<Span> {
         let id = self.program.tasks.named(&Name::word(&task.name.name))?;
         let remembers = self.program.tasks[id].history.window > 0;
-        let told: BTreeSet<&str> = observed
-            .iter()
-            .flat_map(|(reference, _)| self.read_of(reference))
-            .collect();
-        let mut parts = Vec::new();
-        parts_of(test, &mut parts);
-        let unread = |part: &&&'a Expr| {
+        let unread = |part: &&'a Expr| {
             let read = self.read_by(part);
             let state =
                 |name: &&str| matches!(self.names.value(name, false), Some((Decl::State(_), _)));
@@ -271,9 +260,10 @@ impl<'a> Checker<'a> {
                 let name = reference.name.name.as_str();
                 matches!(self.names.value(name, false), Some((Decl::Predicate(_), _)))
             });
-            !named && !read.is_empty() && tells && read.is_disjoint(&told)
+            !named && !read.is_empty() && tells && read.is_disjoint(told)
         };
-        parts.iter().find(unread).map(|part| part.span)
+        let part = test.conjuncts().into_iter().find(unread);
+        part.map(|part| part.span)
     }
 
     /// Whether another predicate of the list says what the one of this name does.
@@ -288,30 +278,5 @@ impl<'a> Checker<'a> {
             .iter()
             .map(|(_, id)| self.program.predicates[*id].when);
         observed.any(|other| other == Some(when))
-    }
-}
-
-/// What has to hold for an expression to hold.
-fn parts_of<'a>(expr: &'a Expr, found: &mut Vec<&'a Expr>) {
-    match &expr.kind {
-        ExprKind::Paren(inner) => parts_of(inner, found),
-        ExprKind::Binary { op, left, right } if op.node == BinaryOp::And => {
-            parts_of(left, found);
-            parts_of(right, found);
-        }
-        _ => found.push(expr),
-    }
-}
-
-/// The references that have to hold for an expression to hold.
-fn conjuncts<'a>(expr: &'a Expr, found: &mut Vec<&'a Ref>) {
-    match &expr.kind {
-        ExprKind::Ref(reference) => found.push(reference),
-        ExprKind::Paren(inner) => conjuncts(inner, found),
-        ExprKind::Binary { op, left, right } if op.node == BinaryOp::And => {
-            conjuncts(left, found);
-            conjuncts(right, found);
-        }
-        _ => {}
     }
 }

@@ -1,6 +1,7 @@
 //! Sizes out of proportion to the arena or to the robot: most are written in a wrong unit.
 
 use crate::check::Checker;
+use crate::check::report::short;
 use crate::diagnostic::Code;
 use crate::geometry::{Shape, minus};
 use crate::ir::Name;
@@ -136,11 +137,6 @@ impl<'a> Checker<'a> {
             }
         }
     }
-}
-
-/// A length to the millimetre.
-fn short(length: f64) -> f64 {
-    (length * 1000.0).round() / 1000.0
 }
 
 /// Whether a place has all of the arena in it, as far as its bounds show.

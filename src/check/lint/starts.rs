@@ -2,19 +2,18 @@
 
 use super::cases::of_expr;
 use super::interval::Interval;
-use super::mentions::Mentions;
 use super::stays::{Set, set_in_ticks};
 use super::view::View;
 use crate::check::Checker;
-use crate::check::names::{Decl, learned_name};
+use crate::check::names::learned_name;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::expr::ExprId;
 use crate::ir::task::{StartLine, Task};
 use crate::ir::world::World;
 use crate::ir::{Id, Name};
 use crate::spelling::spelled;
-use crate::syntax::ast::{AspectKind, Expr, Item, ItemKind, LearnEntry, LetBody, Ref};
-use std::collections::BTreeSet;
+use crate::syntax::ast::{self, AspectKind, Ident, Item, ItemKind, LearnEntry};
+use std::collections::BTreeMap;
 
 /// The most starts of states that are looked at.
 const MOST: usize = 20_000;
@@ -23,75 +22,70 @@ const MOST: usize = 20_000;
 const NOISE: f64 = 6.0;
 
 impl<'a> Checker<'a> {
-    /// Warns of ends that hold in the first tick of every episode.
+    /// Warns of ends that hold in the first tick of every episode, of a task or of training alone.
     pub fn ends_at_starts(&mut self, items: impl Iterator<Item = &'a Item>) {
         if self.program.tasks.len() * self.program.states.len() > MOST {
             return;
         }
         let changed = set_in_ticks(&self.program);
         for item in items {
-            let ItemKind::Task(task) = &item.kind else {
-                continue;
-            };
-            let Some(id) = self.program.tasks.named(&Name::word(&task.name.name)) else {
-                continue;
-            };
-            let start = self.program.tasks[id].start.clone();
-            let held = self.held_at_starts((id, &start), &changed);
-            let ends = task.aspects.iter().filter_map(|aspect| match &aspect.kind {
-                AspectKind::EndOn(event) => Some(event),
-                _ => None,
-            });
-            let written = &self.program.tasks[id].written.end_on;
-            let ends = ends.enumerate().filter(|(place, _)| {
-                let mut members = written.iter().zip(&held);
-                members.any(|(of, held)| of == place && *held)
-            });
-            let ends: Vec<_> = ends.map(|(_, event)| event.span).collect();
-            for at in ends {
-                // So have an event that is waited for wrongly, and a condition that holds always.
-                let told = |found: &Diagnostic| found.span() == at || found.code == Code::W0601;
-                if self.diagnostics.iter().any(told) {
-                    continue;
-                }
-                self.warning(Code::W0522, at, "every episode ends in its first tick")
-                    .label("this holds wherever an episode starts")
-                    .help("let it wait for something that is yet to happen, or let episodes start otherwise");
+            match &item.kind {
+                ItemKind::Task(task) => self.task_ends_at_start(task, &changed),
+                ItemKind::Learn(learn) => self.training_ends_at_start(learn, &changed),
+                _ => {}
             }
         }
     }
 
-    /// Warns of learners whose own start lets an end hold in the first tick of every episode.
-    pub fn training_ends_at_starts(&mut self, items: impl Iterator<Item = &'a Item>) {
-        if self.program.tasks.len() * self.program.states.len() > MOST {
+    fn task_ends_at_start(&mut self, task: &'a ast::Task, changed: &Set) {
+        let Some(id) = self.program.tasks.named(&Name::word(&task.name.name)) else {
             return;
-        }
-        let changed = set_in_ticks(&self.program);
-        for item in items {
-            let ItemKind::Learn(learn) = &item.kind else {
-                continue;
-            };
-            let own = learn.entries.iter().find_map(|entry| match entry {
-                LearnEntry::Start(start) => Some(start),
-                _ => None,
-            });
-            let name = learned_name(learn);
-            let learner = self.program.learners.named(&Name::word(name));
-            let (Some(own), Some(learner)) = (own, learner) else {
-                continue;
-            };
-            let learner = &self.program.learners[learner];
-            let (task, start) = (learner.task, learner.start.clone());
-            let of_task = self.program.tasks[task].start.clone();
-            let in_training = self.held_at_starts((task, &start), &changed);
-            let at_work = self.held_at_starts((task, &of_task), &changed);
-            let mut ends = in_training.iter().zip(&at_work);
-            if !ends.any(|(in_training, at_work)| *in_training && !at_work) {
+        };
+        let start = self.program.tasks[id].start.clone();
+        let held = self.held_at_starts((id, &start), changed);
+        let ends = task.aspects.iter().filter_map(|aspect| match &aspect.kind {
+            AspectKind::EndOn(event) => Some(event),
+            _ => None,
+        });
+        let written = &self.program.tasks[id].written.end_on;
+        let ends = ends.enumerate().filter(|(place, _)| {
+            let mut members = written.iter().zip(&held);
+            members.any(|(of, held)| of == place && *held)
+        });
+        let ends: Vec<_> = ends.map(|(_, event)| event.span).collect();
+        for at in ends {
+            // So have an event that is waited for wrongly, and a condition that holds always.
+            let told = |found: &Diagnostic| found.span() == at || found.code == Code::W0601;
+            if self.diagnostics.iter().any(told) {
                 continue;
             }
+            self.warning(Code::W0522, at, "every episode ends in its first tick")
+                .label("this holds wherever an episode starts")
+                .help("let it wait for something that is yet to happen, or let episodes start otherwise");
+        }
+    }
+
+    /// Warns of a learner whose own start lets an end hold in the first tick that does not hold at the start of the task.
+    fn training_ends_at_start(&mut self, learn: &'a ast::Learn, changed: &Set) {
+        let own = learn.entries.iter().find_map(|entry| match entry {
+            LearnEntry::Start(start) => Some(start),
+            _ => None,
+        });
+        let named = Name::word(learned_name(learn));
+        let learner = self.program.learners.named(&named);
+        let Some((own, learner)) = own.zip(learner) else {
+            return;
+        };
+        let learner = &self.program.learners[learner];
+        let (task, start) = (learner.task, learner.start.clone());
+        let of_task = self.program.tasks[task].start.clone();
+        let in_training = self.held_at_starts((task, &start), changed);
+        let at_work = self.held_at_starts((task, &of_task), changed);
+        let mut ends = in_training.iter().zip(&at_work);
+        if ends.any(|(in_training, at_work)| *in_training && !at_work) {
             let message = "every episode of training ends in its first tick";
-            let label = "an end of the task holds wherever one starts";
-            self.warning(Code::W0522, own.span, message).label(label);
+            self.warning(Code::W0522, own.span, message)
+                .label("an end of the task holds wherever one starts");
         }
     }
 
@@ -115,11 +109,18 @@ impl<'a> Checker<'a> {
             _ => Vec::new(),
         });
         for start in starts {
-            for (at, line) in start.lines.iter().enumerate() {
-                let read = self.read_by(&line.value);
-                let mut later = start.lines.iter().skip(at + 1);
-                let set = later.find(|later| read.contains(later.target.name.name.as_str()));
-                let Some(set) = set.map(|set| &set.target.name) else {
+            let lines = start.lines.iter().enumerate();
+            let set = lines.clone().map(|(at, line)| {
+                let name = &line.target.name;
+                (name.name.as_str(), (at, name))
+            });
+            let set: BTreeMap<&str, (usize, &Ident)> = set.collect();
+            for (at, line) in lines {
+                let read = self.read_by(&line.value).into_iter();
+                let later = read
+                    .filter_map(|name| set.get(name))
+                    .filter(|(set, _)| *set > at);
+                let Some((_, set)) = later.min_by_key(|(set, _)| *set) else {
                     continue;
                 };
                 let name = spelled(&set.name);
@@ -133,49 +134,6 @@ impl<'a> Checker<'a> {
                     );
             }
         }
-    }
-
-    /// The states and places that an expression reads, by itself and by what it names.
-    pub(super) fn read_by(&self, value: &'a Expr) -> BTreeSet<&'a str> {
-        let mut mentions = Mentions::default();
-        mentions.expr(value);
-        self.reached(mentions)
-    }
-
-    /// The states and places that what a reference names reads.
-    pub(super) fn read_of(&self, reference: &'a Ref) -> BTreeSet<&'a str> {
-        let mut mentions = Mentions::default();
-        mentions.reference(reference);
-        self.reached(mentions)
-    }
-
-    fn reached(&self, mentions: Mentions<'a>) -> BTreeSet<&'a str> {
-        let mut open: Vec<&'a str> = mentions.read.iter().copied().collect();
-        let (mut seen, mut read) = (mentions.read, BTreeSet::new());
-        while let Some(name) = open.pop() {
-            let mut within = Mentions::default();
-            match self.names.value(name, false) {
-                Some((Decl::State(_) | Decl::Place(..), _)) => {
-                    read.insert(name);
-                }
-                Some((Decl::Predicate(predicate), _)) => {
-                    predicate.value.iter().for_each(|when| within.expr(when));
-                }
-                Some((Decl::Let(shared), _)) => match &shared.body {
-                    LetBody::Expr(value) => within.expr(value),
-                    LetBody::Yield(_) => {}
-                },
-                // What goes through a kind reads each of its places.
-                _ => read.extend(self.names.values(|decl| match decl {
-                    Decl::Place(_, kind) => {
-                        name == "place" || kind.is_some_and(|kind| kind.name == name)
-                    }
-                    _ => false,
-                })),
-            }
-            open.extend(within.read.into_iter().filter(|name| seen.insert(name)));
-        }
-        read
     }
 
     /// Of each end of a task, whether it holds after the first tick of an episode that begins so, whatever the robot does.

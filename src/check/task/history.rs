@@ -10,9 +10,6 @@ use crate::ir::task::{History, StartLine};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, Outcome, Ref, Spanned};
 
-/// How many further places of one mistake are shown.
-const SHOWN: usize = 3;
-
 /// Where an outcome is needed that the history of a task does not keep.
 pub struct Unkept {
     place: Span,
@@ -117,22 +114,15 @@ impl<'a> Checker<'a> {
                 [true, false] => "no success",
                 _ => "no failure",
             };
-            let mut places = all.iter();
-            let Some(first) = places.next() else {
+            let places: Vec<Span> = all.iter().map(|it| it.place).collect();
+            let Some((first, further)) = all.first().zip(places.get(1..)) else {
                 continue;
             };
             let message = format!("the task `{task}` keeps {outcomes} in its history");
-            let mut told = self
+            let told = self
                 .error(Code::E0607, first.place, message)
-                .label(first.label);
-            let further = places.len().saturating_sub(SHOWN);
-            for place in places.take(SHOWN) {
-                told = told.also(place.place, "and here");
-            }
-            if further > 0 {
-                let places = if further == 1 { "place" } else { "places" };
-                told = told.note(format!("and in {further} more {places}"));
-            }
+                .label(first.label)
+                .and_at(further, "and here");
             told.help(format!("let the task say `{}`", keeping(history, needed)));
         }
     }

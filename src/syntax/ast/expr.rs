@@ -12,6 +12,24 @@ pub struct Expr {
     pub span: Span,
 }
 
+impl Expr {
+    /// What has to hold for it to hold, part by part: `a`, `b` and `c` of `a and (b and c)`.
+    pub fn conjuncts(&self) -> Vec<&Expr> {
+        let mut found = Vec::new();
+        let mut open = vec![self];
+        while let Some(expr) = open.pop() {
+            match &expr.kind {
+                ExprKind::Paren(inner) => open.push(inner),
+                ExprKind::Binary { op, left, right } if op.node == BinaryOp::And => {
+                    open.extend([&**right, &**left]);
+                }
+                _ => found.push(expr),
+            }
+        }
+        found
+    }
+}
+
 /// The kinds of expressions.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ExprKind {

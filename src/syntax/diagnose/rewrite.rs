@@ -282,23 +282,19 @@ impl Place<'_> {
         let follows = matches!(self.after_found(), "=" | "(" | ":" | "{");
         let words = is_word(name) && is_word(self.found) && self.same_line_as_before();
         let keyword = matches!(self.found(), "for" | "of" | "if" | "when");
-        // Of `tree hand selector {` the `=` is missing.
+        // Of `tree hand selector {` and `behavior fetch goto(A)` the `=` is missing.
         let is_node = NODES.iter().any(|(node, _)| *node == self.found());
-        if is_node && word.of(self.text) == "tree" && self.after_found() == "{" {
+        let gives = match (word.of(self.text), self.after_found()) {
+            ("tree", "{") if is_node => Some("gives a tree its node"),
+            ("behavior", "(") if CALLED.contains(&self.found()) => {
+                Some("gives a behaviour what it stands for")
+            }
+            _ => None,
+        };
+        if let Some(gives) = gives {
             let gap = self.span_of(name).after();
-            let message = "`=` gives a tree its node";
             return Some(
-                Diagnostic::new(Code::E0101, self.span(), message)
-                    .label("a `=` is missing before this")
-                    .fix("put a `=`", gap, " =", Applicability::Safe),
-            );
-        }
-        let is_alias = CALLED.contains(&self.found()) && self.after_found() == "(";
-        if is_alias && word.of(self.text) == "behavior" {
-            let gap = self.span_of(name).after();
-            let message = "`=` gives a behaviour what it stands for";
-            return Some(
-                Diagnostic::new(Code::E0101, self.span(), message)
+                Diagnostic::new(Code::E0101, self.span(), format!("`=` {gives}"))
                     .label("a `=` is missing before this")
                     .fix("put a `=`", gap, " =", Applicability::Safe),
             );

@@ -33,7 +33,7 @@ pub(super) const CLEAR: usize = 4;
 /// The lists that are made from the top.
 const SAMPLES: u64 = 6;
 /// Attempts at a smaller list with groups before it is tried on all rows.
-const QUICK: usize = 15;
+pub(super) const QUICK: usize = 15;
 /// Attempts at a smaller list before the search for lists ends.
 pub(super) const THOROUGH: usize = 3000;
 

@@ -40,8 +40,6 @@ const WINDOWED: usize = 2000;
 const LOST: usize = 300;
 /// A list for some of the rows is made right on all of them if it is so many times smaller than the smallest tree.
 const SMALLER: usize = 2;
-/// Attempts at a smaller list that is found beyond the account.
-const QUICK: usize = 15;
 /// What is allowed for one from the top, in accounts.
 const FURTHER: u64 = 3;
 
@@ -165,7 +163,7 @@ fn further(
     let finish = |core: &mut Core, known: &mut Known, least: usize| {
         let list = core.unfinished.take();
         let list = list.filter(|list| list.nodes() * SMALLER < least)?;
-        core.groups(list, QUICK, known, &account.again(1))
+        core.groups(list, alone::QUICK, known, &account.again(1))
     };
     if let Some(found) = finish(core, known, least) {
         return vec![found];

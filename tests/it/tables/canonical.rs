@@ -98,6 +98,7 @@ predicate visits
 predicate `q:go`
 predicate action
 predicate ` lead`
+predicate `done(c)`
 behavior `c|d`
 behavior ` sp `
 behavior `-`
@@ -110,6 +111,7 @@ tree t = selector {
     ` lead` => ` sp `,
     c,
 }
+tree asks_history = selector { `done(c)` => `c|d`, c }
 tree vain = selector { visits and not visits => `c|d`, action => c, ` sp ` }
 ";
     let program = load("odd.bt", source.into(), &mut NoFiles);
@@ -124,6 +126,11 @@ tree vain = selector { visits and not visits => `c|d`, action => c, ` sp ` }
         let proved = proved.unwrap_or_else(|refused| panic!("{table}\n{}", shown(&refused)));
         assert!(proved.holds(), "{name}: {}", proved.text);
     }
+    let Err(refused) = canonicalize(&program, "asks_history", Form::Csv) else {
+        panic!("a column of this name asks the history");
+    };
+    let message = &refused.diagnostics[0].message;
+    assert_eq!(message, "no table can say the name `done(c)`");
 }
 
 /// The table of a tree with memory says what it lacks, and so does a comparison without it; in an environment that was

@@ -156,6 +156,8 @@ fn long_lists_over_many_columns_are_found() {
     };
     for seed in [1, 2] {
         let (table, planted) = long.planted(&["a", "b", "c", "d", "e", "f", "g"], seed);
+        let partition = nodes(&table, 0);
+        assert!(partition > 4000, "{partition} nodes");
         let found = nodes(&table, USUAL.effort);
         assert!(
             found <= planted + planted / 4,
