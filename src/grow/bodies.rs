@@ -3,7 +3,7 @@
 //! A behaviour that fails at once in most minterms needs another to bring about where it does not:
 //! `at(p) => inspect(p), fly(p)` is a unit that a person writes, and hard to find one behaviour at a time.
 
-use super::evidence::{Evidence, KNOWN};
+use super::evidence::{Cell, Evidence, KNOWN};
 use super::ground::Ground;
 use crate::ir::Id;
 use crate::ir::law::Behavior;
@@ -23,6 +23,12 @@ const CONDITIONS: usize = 4;
 const BRINGERS: usize = 2;
 /// How much oftener than behaviours do on average one brings a literal about that it is tried for.
 const OFTENER: f64 = 1.5;
+
+/// The part of its decisions that fail at once from which on it is worth to know what to do meanwhile; how much oftener it has to work
+/// after another; and how many others are tried.
+const SELDOM: f64 = 0.05;
+const OPENS: f64 = 0.05;
+const OPENERS: usize = 3;
 
 /// The decisions for a behaviour after which it shows where it works, if the minterms show that at all; and those after which
 /// one that always failed at once is not tried any more before another.
@@ -107,6 +113,45 @@ fn enablers<W: World>(ground: &Ground<W>, evidence: &Evidence, choice: usize) ->
     let others = ground.choices.iter().enumerate();
     let others = others.filter(|(other, _)| *other != choice && fails(*other).is_none());
     others.map(|(_, id)| *id).collect()
+}
+
+/// For each choice that fails at once now and then, those after which it oftenest does no more: what to do meanwhile.
+pub fn openers(evidence: &Evidence, choices: usize) -> Vec<Vec<usize>> {
+    let openers = |choice: usize| {
+        let (all, refused) = sums(&tried(evidence, choice));
+        if refused < KNOWN.max(SELDOM * all) {
+            return Vec::new();
+        }
+        let others = (0..choices).filter(|other| *other != choice);
+        let opens = others.map(|other| (opens(evidence, choice, other), other));
+        let mut opens: Vec<(f64, usize)> = opens.filter(|(gain, _)| *gain > OPENS).collect();
+        opens.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        opens.truncate(OPENERS);
+        opens.into_iter().map(|(_, other)| other).collect()
+    };
+    (0..choices).map(openers).collect()
+}
+
+/// How much oftener a choice does not fail at once after a decision for another than before it, where it does at times.
+fn opens(evidence: &Evidence, choice: usize, other: usize) -> f64 {
+    let refused = |row: usize| {
+        let cell = evidence.cells(row).get(choice);
+        cell.filter(|cell| cell.count >= KNOWN).map(Cell::refused)
+    };
+    let (mut gain, mut all) = (0.0, 0.0);
+    for row in 0..evidence.keys().len() {
+        let before = refused(row).filter(|refused| *refused > SELDOM);
+        let (Some(before), Some(cell)) = (before, evidence.cells(row).get(other)) else {
+            continue;
+        };
+        for (to, count) in cell.next() {
+            if let Some(after) = refused(to) {
+                gain += count * (before - after);
+                all += count;
+            }
+        }
+    }
+    gain / f64::max(all, KNOWN)
 }
 
 /// The decisions for a choice, by minterm.

@@ -18,6 +18,8 @@ use serde::{Deserialize, Serialize};
 
 /// For each stage of the choice, the episodes up to which its trees play, and the most that stay after it.
 const STAGES: [(usize, usize); 3] = [(60, 7), (160, 3), (500, 3)];
+/// The episodes of the tree that was chosen, before it is taken: in fewer, what seldom goes wrong does not show.
+const VETTED: usize = 1500;
 /// The standard errors by which a tree does surely more harm than another.
 const SURE: f64 = 2.0;
 /// The most trees that are looked at for the front.
@@ -117,9 +119,20 @@ pub(super) fn choose<W: World>(
     let exact = entrants.len().saturating_sub(1);
     let theirs = starts.others.iter().map(|(_, other)| other);
     let theirs: Vec<&Node> = theirs.collect();
+    let vetted = judge.scaled(of(VETTED));
+    let ended = entrants.last().map_or(0, |it| it.contender.episodes());
     let chosen = loop {
-        let chosen = chosen(judge, &entrants, (exact, &theirs), settings.choice, price);
-        if chosen != exact || !plays_next((judge, &trials), &mut entrants, price) {
+        let Some(known) = known(judge, &entrants, (exact, &theirs), ended) else {
+            break exact;
+        };
+        let chosen = chosen(judge, &entrants, &known, settings.choice, price);
+        let by = (&mut *judge, &trials);
+        let goes_on = match settings.choice {
+            _ if chosen == exact => plays_next(by, &mut entrants, ended, price),
+            Choice::Knee => is_doubted(by, &mut entrants, [chosen, known.best], vetted),
+            Choice::Nodes(_) | Choice::Loss(_) => false,
+        };
+        if !goes_on {
             break chosen;
         }
     };
@@ -249,12 +262,12 @@ fn confirmed<W: World>(
 fn plays_next<W: World>(
     (judge, trials): (&mut Judge<'_, '_, W>, &Trials<'_, W>),
     entrants: &mut [Entrant],
+    episodes: usize,
     price: f64,
 ) -> bool {
     let Some((exact, others)) = entrants.split_last_mut() else {
         return false;
     };
-    let episodes = exact.contender.episodes();
     let gains = others.iter_mut().filter_map(|entrant| {
         let gain = judge.gain(entrant, exact, Terms::taking(price)).mean;
         let waits = entrant.contender.episodes() < episodes && gain > 0.0;
@@ -268,39 +281,100 @@ fn plays_next<W: World>(
     true
 }
 
-/// The place of the tree that is taken; the exact one stands last.
-fn chosen<W: World>(
+/// What was there before the search.
+struct Known {
+    /// The place of the exact tree, the last one.
+    exact: usize,
+    /// That of the best tree: the exact one, or one of the file that does no more harm.
+    best: usize,
+    /// The episodes of all that did not leave early.
+    ended: usize,
+    /// The least harm in them: of the exact tree, or of one of the file that returns as much.
+    harms: u64,
+}
+
+fn known<W: World>(
     judge: &Judge<'_, '_, W>,
     entrants: &[Entrant],
     (exact, theirs): (usize, &[&Node]),
+    ended: usize,
+) -> Option<Known> {
+    let base = entrants.get(exact)?;
+    let harms = |entrant: &Entrant| judge.ground.harms(&entrant.contender, ended);
+    let mut known = Known {
+        exact,
+        best: exact,
+        ended,
+        harms: harms(base),
+    };
+    let mut most = 0.0;
+    for (at, entrant) in entrants.iter().enumerate() {
+        if !theirs.contains(&&entrant.root) || entrant.contender.episodes() < ended {
+            continue;
+        }
+        if entrant.contender.loss(&base.contender).mean <= 0.0 {
+            known.harms = known.harms.min(harms(entrant));
+        }
+        let gain = judge.gain(entrant, base, Terms::taking(0.0));
+        let surely = gain.mean - error(&gain);
+        if surely > most && !does_more_harm([harms(entrant), harms(base)], SURE) {
+            (most, known.best) = (surely, at);
+        }
+    }
+    Some(known)
+}
+
+/// Lets the tree that was chosen play on and, where it then looks worse than the best that was known before, that one, too.
+/// Whether it does, so that the choice has to be made again.
+fn is_doubted<W: World>(
+    (judge, trials): (&mut Judge<'_, '_, W>, &Trials<'_, W>),
+    entrants: &mut [Entrant],
+    [chosen, best]: [usize; 2],
+    episodes: usize,
+) -> bool {
+    if chosen == best || judge.plays_to(trials, entrants, chosen, episodes) == 0 {
+        return false;
+    }
+    let [Some(own), Some(other)] = [chosen, best].map(|at| entrants.get(at)) else {
+        return false;
+    };
+    let worth = |entrant: &Entrant| {
+        let harm = judge.one_harm(other, Terms::taking(0.0)) * other.contender.episodes() as f64;
+        entrant.contender.returns().mean - harm * judge.harm_rate(entrant)
+    };
+    let is_worse = worth(own) < worth(other);
+    if is_worse {
+        judge.plays_to(trials, entrants, best, episodes);
+    }
+    is_worse
+}
+
+/// The place of the tree that is taken.
+fn chosen<W: World>(
+    judge: &Judge<'_, '_, W>,
+    entrants: &[Entrant],
+    known: &Known,
     choice: Choice,
     price: f64,
 ) -> usize {
-    let Some(base) = entrants.get(exact) else {
-        return exact;
-    };
     let mean = |entrant: &Entrant| entrant.contender.returns().mean;
-    // Those that have played to the end and did no more harm, as far as the episodes can tell, than the exact tree, or one of
-    // the file that returns as much.
-    let ended = |entrant: &&Entrant| entrant.contender.episodes() == base.contender.episodes();
-    let known = entrants.iter().filter(ended);
-    let known =
-        known.filter(|entrant| theirs.contains(&&entrant.root) && mean(entrant) >= mean(base));
-    let harms = known.map(|entrant| judge.harms(entrant));
-    let least = harms.fold(judge.harms(base), u64::min);
+    // Those that have played to the end and did no more harm, as far as the episodes can tell, than was known to be possible.
+    let is_safe = |entrant: &Entrant| {
+        let harms = judge.ground.harms(&entrant.contender, known.ended);
+        entrant.contender.episodes() >= known.ended && !does_more_harm([harms, known.harms], SURE)
+    };
     let safe: Vec<(usize, &Entrant)> = entrants
         .iter()
         .enumerate()
-        .filter(|(_, entrant)| ended(entrant))
-        .filter(|(_, entrant)| !does_more_harm([judge.harms(entrant), least], SURE))
+        .filter(|(_, entrant)| is_safe(entrant))
         .collect();
     let best = |from: &[(usize, &Entrant)], worth: &dyn Fn(&Entrant) -> f64| {
         let worths = from.iter().map(|(at, entrant)| (*at, worth(entrant)));
         let best = worths.reduce(|best, next| if next.1 > best.1 { next } else { best });
-        best.map_or(exact, |(at, _)| at)
+        best.map_or(known.exact, |(at, _)| at)
     };
     match choice {
-        Choice::Knee => knee(judge, &safe, (exact, base), price),
+        Choice::Knee => knee(judge, entrants, (&safe, known), price),
         Choice::Nodes(most) => {
             let all = entrants.iter().enumerate();
             let few: Vec<_> = all.filter(|(_, e)| e.nodes <= most).collect();
@@ -316,20 +390,22 @@ fn chosen<W: World>(
     }
 }
 
-/// The place of the tree that returns most for its nodes and its harm, of those that are as good as the exact one without
-/// regard to nodes, with and without regard to harm.
+/// The place of the tree that returns most for its nodes and its harm, of those that are as good as the best that was known before
+/// without regard to nodes, with and without regard to harm.
 fn knee<W: World>(
     judge: &Judge<'_, '_, W>,
-    safe: &[(usize, &Entrant)],
-    (exact, base): (usize, &Entrant),
+    entrants: &[Entrant],
+    (safe, known): (&[(usize, &Entrant)], &Known),
     price: f64,
 ) -> usize {
-    let mean = |entrant: &Entrant| entrant.contender.returns().mean;
+    let [Some(exact), Some(base)] = [known.exact, known.best].map(|at| entrants.get(at)) else {
+        return known.exact;
+    };
     // Less harm alone does not make a tree as good: one that does nothing has none.
     let as_good = |entrant: &Entrant| {
         let (times, part) = LESS;
         let less = match entrant.nodes * times <= base.nodes {
-            true => part * mean(base).abs(),
+            true => part * base.contender.returns().mean.abs(),
             false => 0.0,
         };
         [Terms::taking(0.0), Terms::free()]
@@ -341,14 +417,12 @@ fn knee<W: World>(
                 gain.mean >= -chance.max(less)
             })
     };
+    let worth = |entrant: &Entrant| judge.gain(entrant, base, Terms::taking(price)).mean;
     let good = safe.iter().filter(|(_, entrant)| as_good(entrant));
-    let gains = good.map(|(at, entrant)| {
-        let gain = judge.gain(entrant, base, Terms::taking(price));
-        (*at, gain.mean)
-    });
+    let gains = good.map(|(at, entrant)| (*at, worth(entrant) - worth(exact)));
     let best = gains.reduce(|best, next| if next.1 > best.1 { next } else { best });
     let gives_way = best.filter(|(_, gain)| *gain > PROVED * price);
-    gives_way.map_or(exact, |(at, _)| at)
+    gives_way.map_or(known.exact, |(at, _)| at)
 }
 
 /// The trees that none beats in both nodes and return, and the one that was taken.

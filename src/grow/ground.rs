@@ -4,13 +4,14 @@ use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::task::History;
 use crate::ir::tree::Atom;
+use crate::learn::apart::apart;
 use crate::learn::discount::Discounting;
 use crate::learn::episode::Episode;
 use crate::learn::process::World;
 use crate::learn::simulated::Purpose;
 use crate::learn::statistics::Mean;
 use crate::trial::decisions::Watch;
-use crate::trial::paired::{Trials, error};
+use crate::trial::paired::{Contender, Trials, error};
 use crate::world::Start;
 
 /// Where trees grow.
@@ -74,6 +75,19 @@ impl<'w, W: World> Ground<'w, W> {
         self.watch()
             .broken(&episode.events)
             .max(u64::from(episode.lost))
+    }
+
+    /// What went wrong in the first episodes of a tree; one that returns far less than nearly all others counts as well.
+    pub fn harms(&self, played: &Contender, episodes: usize) -> u64 {
+        let figures = played.each(|episode| (self.harm(episode), episode.total));
+        let (mut harms, mut unharmed) = (0, Vec::new());
+        for (harm, total) in figures.into_iter().take(episodes) {
+            match harm {
+                0 => unharmed.push(total),
+                _ => harms += harm,
+            }
+        }
+        harms + apart(&unharmed)
     }
 
     /// What counts as a decision, and what as harm.

@@ -8,7 +8,7 @@ use crate::ir::tree::{Composite, Guard, Node};
 use crate::tree::Size;
 use crate::tree::guard::{and, conjuncts, not, or, with_part};
 use crate::tree::prune::{self, Requirement, tidy};
-use crate::tree::unit::{guarded, memory};
+use crate::tree::unit::{guarded, memory, selector};
 use rayon::prelude::*;
 use rustc_hash::FxHasher;
 use std::hash::{Hash, Hasher};
@@ -222,6 +222,27 @@ impl Proposer<'_, '_> {
                         children.push(Node::Behavior(*other));
                     }
                 }));
+            }
+        }
+        found.into_iter().map(|root| self.proposal(root)).collect()
+    }
+
+    /// Behaviours that fail at once now and then, with another to do meanwhile. The counts cannot tell what that is worth: in a minterm in
+    /// which one fails at times, they take it for one that works when it is tried again.
+    pub fn falls(&self, root: &Node, openers: &[Vec<usize>]) -> Vec<Proposal> {
+        let mut found = Vec::new();
+        for path in paths(root, &|node| matches!(node, Node::Behavior(_))) {
+            let Some(leaf @ Node::Behavior(id)) = place::at(root, &path) else {
+                continue;
+            };
+            let choice = self.field.choices.iter().position(|choice| choice == id);
+            let others = choice.and_then(|choice| openers.get(choice));
+            for other in others.into_iter().flatten() {
+                let Some(other) = self.field.choices.get(*other) else {
+                    continue;
+                };
+                let unit = selector([leaf.clone(), Node::Behavior(*other)]);
+                found.push(edited(root, &path, &mut |node| *node = unit.clone()));
             }
         }
         found.into_iter().map(|root| self.proposal(root)).collect()

@@ -207,14 +207,30 @@ impl<'g, 'w, W: World> Judge<'g, 'w, W> {
         self.seen.harmed = self.seen.harmed || harmed;
     }
 
-    /// What went wrong in a tree's episodes.
+    /// Lets one of these trees play up to a number of episodes; gives how many it played.
+    pub fn plays_to(
+        &mut self,
+        trials: &Trials<'_, W>,
+        entrants: &mut [Entrant],
+        at: usize,
+        episodes: usize,
+    ) -> usize {
+        let Some(entrant) = entrants.get_mut(at) else {
+            return 0;
+        };
+        let before = entrant.contender.episodes();
+        self.play(trials, std::slice::from_mut(entrant), episodes, None);
+        entrant.contender.episodes() - before
+    }
+
+    /// What went wrong in a tree's episodes, those among it in which it was stuck.
     pub fn harms(&self, entrant: &Entrant) -> u64 {
-        let harms = entrant.contender.each(|episode| self.ground.harm(episode));
-        harms.into_iter().sum()
+        self.ground
+            .harms(&entrant.contender, entrant.contender.episodes())
     }
 
     /// The harm of a tree in an episode, on average.
-    fn harm_rate(&self, entrant: &Entrant) -> f64 {
+    pub fn harm_rate(&self, entrant: &Entrant) -> f64 {
         self.harms(entrant) as f64 / entrant.contender.episodes().max(1) as f64
     }
 

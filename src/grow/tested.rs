@@ -70,10 +70,7 @@ pub(super) fn test<W: World>(
     judge.seen.ticks += ticks;
     let figures = |contender: &Contender, root: &Node| Figures {
         size: Size::of(root),
-        harms: contender
-            .each(|episode| ground.harm(episode))
-            .into_iter()
-            .sum(),
+        harms: ground.harms(contender, contender.episodes()),
         summary: Summary::of(&contender.results(), ground.ends),
     };
     let beside = others.first().map(|(name, root, contender)| Beside {

@@ -4,6 +4,7 @@
 //! simulator. [`train`] goes through the episodes, a [`method::Method`] learns from them.
 
 pub mod agreement;
+pub mod apart;
 pub mod average;
 pub mod binomial;
 pub mod bootstrap;

@@ -1,5 +1,6 @@
 //! Figures of a sample.
 
+use super::apart::Worst;
 use super::episode::Episode;
 use super::rate::Rate;
 use crate::world::End;
@@ -50,6 +51,8 @@ pub struct Summary {
     pub ticks: u64,
     /// The return of an episode.
     pub total: Mean,
+    /// The lowest one; `None` if nothing was played.
+    pub worst: Option<Worst>,
     /// How often each event happened.
     pub events: Vec<Rate>,
     /// The number of episodes that each line of `end on` ended.
@@ -74,6 +77,7 @@ impl Summary {
             episodes: episodes.len() as u64,
             ticks: episodes.iter().map(|episode| episode.ticks).sum(),
             total: Mean::of(&totals),
+            worst: Worst::of(&totals),
             events: (0..events)
                 .map(|event| Rate::of(episodes.iter().map(|e| (count(event, e), e.ticks))))
                 .collect(),

@@ -2,7 +2,7 @@
 
 use super::ends::Ended;
 use super::json::{self, Named};
-use super::words::{end_names, numbered};
+use super::words::{self, end_names, numbered};
 use crate::ir::Program;
 use crate::ir::task::Task;
 use crate::learn::rate;
@@ -25,8 +25,18 @@ struct Document<'a> {
     episodes: u64,
     ticks: u64,
     r#return: &'a Mean,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    worst: Option<Worst>,
     events: Named<Rate>,
     ended: Named<End>,
+}
+
+/// The episode with the lowest return, and how many return far less than the others.
+#[derive(Serialize)]
+struct Worst {
+    episode: u64,
+    r#return: f64,
+    apart: u64,
 }
 
 #[derive(Serialize)]
@@ -77,6 +87,11 @@ impl Episodes {
             episodes: summary.episodes,
             ticks: summary.ticks,
             r#return: &summary.total,
+            worst: summary.worst.map(|worst| Worst {
+                episode: worst.episode,
+                r#return: worst.total,
+                apart: worst.apart,
+            }),
             events: self.events.iter().zip(&summary.events).map(rate).collect(),
             ended: ends.chain([("limit".to_owned(), limit)]).collect(),
         }
@@ -105,6 +120,16 @@ impl Episodes {
             low,
             high
         );
+        if let Some(worst) = summary.worst {
+            text.push_str(&format!(
+                "  {:<width$} {:>9.3}   in episode {}",
+                "worst", worst.total, worst.episode
+            ));
+            if let Some(apart) = words::apart(summary) {
+                text.push_str(&format!("; {apart}"));
+            }
+            text.push('\n');
+        }
         for (name, rate) in self.events.iter().zip(&summary.events) {
             let [low, high] = rate.ci95;
             text.push_str(&format!(

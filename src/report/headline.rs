@@ -25,6 +25,9 @@ pub fn lines<W>(results: &Results<W>) -> Vec<String> {
         first.push_str("; ");
         first.push_str(&often);
     }
+    if let (Some(apart), Some(worst)) = (words::apart(summary), summary.worst) {
+        first.push_str(&format!("; {apart}, {:.3} at worst", worst.total));
+    }
     let events = program.events.values().zip(&summary.events);
     let events: Vec<String> = events
         .map(|(event, rate)| {

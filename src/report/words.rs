@@ -4,6 +4,7 @@ use crate::ir::expr::Binary;
 use crate::ir::task::Task;
 use crate::ir::tree::Atom;
 use crate::ir::{Expr, ExprId, Program};
+use crate::learn::statistics::Summary;
 use crate::policy::{Minterm, Policy};
 use crate::tree::Size;
 use crate::tree::decanonicalise::Failing;
@@ -27,6 +28,14 @@ pub fn numbered(n: u64, what: &str) -> String {
         1 => format!("1 {what}"),
         n => format!("{n} {what}s"),
     }
+}
+
+/// That episodes return far less than nearly all others, if any do.
+pub fn apart(summary: &Summary) -> Option<String> {
+    let apart = summary.worst.map_or(0, |worst| worst.apart);
+    let verb = if apart == 1 { "returns" } else { "return" };
+    let far = || format!("{} {verb} far less than the others", numbered(apart, "episode"));
+    (apart > 0).then(far)
 }
 
 /// The size of a tree.

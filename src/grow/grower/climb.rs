@@ -13,10 +13,12 @@ use crate::learn::process::World;
 use crate::tree::Size;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// Proposals of a round: those of which the counts promise most, others at random, and nodes with memory.
+/// Proposals of a round: those of which the counts promise most, others at random, nodes with memory, and behaviours with another to
+/// do where they fail.
 const BEST: usize = 20;
 const RANDOM: usize = 20;
 const MEMORIES: usize = 8;
+const FALLS: usize = 6;
 /// Proposals that do the same in the minterms that matter, at most: where trees change, and where they only get smaller.
 const ALIKE: [usize; 2] = [1, 3];
 /// The stages of climbing: the part of a node's price, what harm costs, whether trees only get smaller, and the part of the
@@ -149,27 +151,25 @@ impl<W: World> Grower<'_, '_, '_, W> {
             return Vec::new();
         };
         let mut found = proposer.prunings(base, &now);
-        let mut memories = Vec::new();
+        let (mut memories, mut falls) = (Vec::new(), Vec::new());
         if !only {
             found.extend(proposer.insertions(base, &now));
             found.extend(proposer.changes(base, &now));
             found.extend(proposer.moves(base, &now));
             memories = proposer.memories(base);
+            let openers = bodies::openers(&self.evidence, self.ground.choices.len());
+            falls = proposer.falls(base, &openers);
         }
-        let (best, random, memory) = if only {
-            (30, 18, 0)
-        } else {
-            (BEST, RANDOM, MEMORIES)
-        };
+        let (best, random) = if only { (30, 18) } else { (BEST, RANDOM) };
         let mut trees: Vec<Node> = Vec::new();
         let most = ALIKE.get(usize::from(only)).copied().unwrap_or(1);
         // What does the same as the base is worth a race if it is smaller.
         let (own, nodes) = (number(&now), Size::of(base).nodes);
         let mut alike: FxHashMap<u64, usize> = FxHashMap::default();
-        let mut take = |proposal: Proposal, remembers: bool| {
+        let mut take = |proposal: Proposal, unseen: bool| {
             let same = alike.entry(proposal.does).or_default();
             let other =
-                remembers || *same < most && (proposal.does != own || proposal.nodes < nodes);
+                unseen || *same < most && (proposal.does != own || proposal.nodes < nodes);
             let fresh =
                 other && proposal.root != *base && tried.insert(format!("{:?}", proposal.root));
             if fresh {
@@ -188,11 +188,16 @@ impl<W: World> Grower<'_, '_, '_, W> {
                 rest.push(proposal);
             }
         }
-        for (mut from, count, remembers) in [(rest, random, false), (memories, memory, true)] {
+        let others = [
+            (rest, random, false),
+            (memories, MEMORIES, true),
+            (falls, FALLS, true),
+        ];
+        for (mut from, count, unseen) in others {
             let mut left = count;
             while left > 0 && !from.is_empty() {
                 let at = self.random.below(from.len() as u64) as usize;
-                left -= usize::from(take(from.swap_remove(at), remembers));
+                left -= usize::from(take(from.swap_remove(at), unseen));
             }
         }
         trees

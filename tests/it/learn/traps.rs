@@ -95,3 +95,12 @@ fn waiting_is_not_given_up_unseen() {
     assert!(policy > 50.0, "{policy}");
     assert!(returns("shut_door", &learned) > 50.0);
 }
+
+/// Of a tree that seldom is stuck, its worst episode says so.
+#[test]
+fn episodes_in_which_a_tree_is_stuck_are_named() {
+    let text = include_str!("../../worlds/traps/stuck_at_times.bt");
+    let program = btc::Program::from_text(text).unwrap();
+    let runs = ["fast", "slow"].map(|tree| program.run(tree, 1000, 3).unwrap().human());
+    snapshot::check("stuck_at_times", &runs.join("\n"));
+}
