@@ -285,12 +285,12 @@ fn plays_next<W: World>(
 struct Known {
     /// The place of the exact tree, the last one.
     exact: usize,
-    /// That of the best tree: the exact one, or one of the file that does no more harm.
+    /// That of the best tree where harm is dear: the exact one, or one of the file.
     best: usize,
     /// The episodes of all that did not leave early.
     ended: usize,
-    /// The least harm in them: of the exact tree, or of one of the file that returns as much.
-    harms: u64,
+    /// The least harm in them, of the exact tree or of one of the file that returns as much; and that of the best tree.
+    harms: [u64; 2],
 }
 
 fn known<W: World>(
@@ -305,22 +305,24 @@ fn known<W: World>(
         exact,
         best: exact,
         ended,
-        harms: harms(base),
+        harms: [harms(base); 2],
     };
-    let mut most = 0.0;
+    let (mut least, mut most) = (harms(base), 0.0);
     for (at, entrant) in entrants.iter().enumerate() {
         if !theirs.contains(&&entrant.root) || entrant.contender.episodes() < ended {
             continue;
         }
         if entrant.contender.loss(&base.contender).mean <= 0.0 {
-            known.harms = known.harms.min(harms(entrant));
+            least = least.min(harms(entrant));
         }
         let gain = judge.gain(entrant, base, Terms::taking(0.0));
         let surely = gain.mean - error(&gain);
-        if surely > most && !does_more_harm([harms(entrant), harms(base)], SURE) {
+        if surely > most {
             (most, known.best) = (surely, at);
         }
     }
+    let best = entrants.get(known.best).map_or(least, harms);
+    known.harms = [least, best.max(least)];
     Some(known)
 }
 
@@ -358,29 +360,36 @@ fn chosen<W: World>(
     price: f64,
 ) -> usize {
     let mean = |entrant: &Entrant| entrant.contender.returns().mean;
-    // Those that have played to the end and did no more harm, as far as the episodes can tell, than was known to be possible.
-    let is_safe = |entrant: &Entrant| {
-        let harms = judge.ground.harms(&entrant.contender, known.ended);
-        entrant.contender.episodes() >= known.ended && !does_more_harm([harms, known.harms], SURE)
+    // Those that have played to the end and did no more harm than so much, as far as the episodes can tell.
+    let within = |most: u64| {
+        let is_safe = |entrant: &Entrant| {
+            let harms = judge.ground.harms(&entrant.contender, known.ended);
+            entrant.contender.episodes() >= known.ended && !does_more_harm([harms, most], SURE)
+        };
+        let safe = entrants.iter().enumerate();
+        let safe = safe.filter(|(_, entrant)| is_safe(entrant));
+        safe.collect::<Vec<(usize, &Entrant)>>()
     };
-    let safe: Vec<(usize, &Entrant)> = entrants
-        .iter()
-        .enumerate()
-        .filter(|(_, entrant)| is_safe(entrant))
-        .collect();
+    let [least, of_best] = known.harms;
     let best = |from: &[(usize, &Entrant)], worth: &dyn Fn(&Entrant) -> f64| {
         let worths = from.iter().map(|(at, entrant)| (*at, worth(entrant)));
         let best = worths.reduce(|best, next| if next.1 > best.1 { next } else { best });
         best.map_or(known.exact, |(at, _)| at)
     };
     match choice {
-        Choice::Knee => knee(judge, entrants, (&safe, known), price),
+        // A tree that does nothing does no harm: it does not rule out those that do no more of it than the best one.
+        Choice::Knee => [least, of_best]
+            .into_iter()
+            .map(|most| knee(judge, entrants, (&within(most), known), price))
+            .find(|chosen| *chosen != known.exact)
+            .unwrap_or(known.exact),
         Choice::Nodes(most) => {
             let all = entrants.iter().enumerate();
             let few: Vec<_> = all.filter(|(_, e)| e.nodes <= most).collect();
             best(&few, &mean)
         }
         Choice::Loss(part) => {
+            let safe = within(least);
             let means = safe.iter().map(|(_, entrant)| mean(entrant));
             let most = means.fold(f64::NEG_INFINITY, f64::max);
             let least = most - part * most.abs();

@@ -24,23 +24,28 @@ impl Impurity {
     }
 }
 
-/// n log n for small n.
-static SMALL: LazyLock<Vec<f64>> = LazyLock::new(|| (0..1 << 14).map(by_its_logarithm).collect());
+/// The logarithms of small numbers, and of those that count the rows of a large table.
+static SMALL: LazyLock<Vec<f64>> = LazyLock::new(|| (0..1 << 12).map(calculated).collect());
+static LARGE: LazyLock<Vec<f64>> = LazyLock::new(|| (0..1 << 17).map(calculated).collect());
 
-fn by_its_logarithm(n: u32) -> f64 {
-    let n = f64::from(n);
-    if n > 1.0 { n * math::log2(n) } else { 0.0 }
+fn calculated(n: u32) -> f64 {
+    if n > 1 { math::log2(f64::from(n)) } else { 0.0 }
+}
+
+/// log n to the base of 2; of 0 it is 0.
+fn log2(n: u32) -> f64 {
+    let known = SMALL.get(n as usize).or_else(|| LARGE.get(n as usize));
+    known.copied().unwrap_or_else(|| calculated(n))
 }
 
 /// n log n.
 pub(super) fn n_log_n(n: u32) -> f64 {
-    let known = SMALL.get(n as usize);
-    known.copied().unwrap_or_else(|| by_its_logarithm(n))
+    f64::from(n) * log2(n)
 }
 
 /// The information of knowing that a row is one of so many of these, in bits (the gain of FOIL: Quinlan 1990).
-pub fn information(own: usize, all: usize) -> f64 {
-    -math::log2(own as f64 / all as f64)
+pub fn information(own: u32, all: u32) -> f64 {
+    log2(all) - log2(own)
 }
 
 /// The rows of a part by their class, as they come and go.

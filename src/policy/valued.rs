@@ -11,6 +11,7 @@ mod coded;
 mod cuts;
 mod decimal;
 mod name;
+mod ordered;
 mod rows;
 
 pub use builder::Builder;

@@ -34,7 +34,12 @@ pub fn numbered(n: u64, what: &str) -> String {
 pub fn apart(summary: &Summary) -> Option<String> {
     let apart = summary.worst.map_or(0, |worst| worst.apart);
     let verb = if apart == 1 { "returns" } else { "return" };
-    let far = || format!("{} {verb} far less than the others", numbered(apart, "episode"));
+    let far = || {
+        format!(
+            "{} {verb} far less than the others",
+            numbered(apart, "episode")
+        )
+    };
     (apart > 0).then(far)
 }
 

@@ -168,8 +168,7 @@ impl<W: World> Grower<'_, '_, '_, W> {
         let mut alike: FxHashMap<u64, usize> = FxHashMap::default();
         let mut take = |proposal: Proposal, unseen: bool| {
             let same = alike.entry(proposal.does).or_default();
-            let other =
-                unseen || *same < most && (proposal.does != own || proposal.nodes < nodes);
+            let other = unseen || *same < most && (proposal.does != own || proposal.nodes < nodes);
             let fresh =
                 other && proposal.root != *base && tried.insert(format!("{:?}", proposal.root));
             if fresh {

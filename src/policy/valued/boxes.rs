@@ -4,10 +4,12 @@
 //! before it leave, each box has rows alone that allow one behaviour (separate and conquer: Fürnkranz 1999).
 
 use super::cuts::shortest;
+use super::ordered::Ordered;
 use super::{Asks, Comparison, Kind, OPEN, Valued};
 use crate::logic::impurity::information;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 /// The most cells that are looked at.
@@ -38,10 +40,11 @@ pub(super) fn used(valued: &Valued) -> Option<BTreeSet<Comparison>> {
     let mut left: Vec<u32> = (0..u32::try_from(valued.len()).ok()?).collect();
     let mut found = Vec::new();
     let mut work = 0_usize;
+    let mut ordered = Ordered::new(valued, &left);
     while !valued.agree(&left) {
         let seeds = seeds(valued, &left, found.len() as u64);
         let grown = seeds.into_par_iter().map(|(seed, behavior)| {
-            let mut growth = Growth::new(valued, &left, behavior);
+            let mut growth = Growth::new(valued, (&left, &ordered), behavior);
             let grown = growth.grow(seed);
             (grown, growth.work)
         });
@@ -52,7 +55,9 @@ pub(super) fn used(valued: &Valued) -> Option<BTreeSet<Comparison>> {
             true => next,
             false => best,
         })?;
-        left.retain(|row| !best.loose.contains(valued, *row));
+        let stays = |row: u32| !best.loose.contains(valued, row);
+        left.retain(|row| stays(*row));
+        ordered.retain(stays);
         found.push(best);
         let last = found.iter().rev().take(LAST);
         let (few, rows) = (last.clone().count(), last.map(|it| it.rows).sum::<usize>());
@@ -150,22 +155,31 @@ enum Cut {
 struct Growth<'v> {
     valued: &'v Valued,
     left: &'v [u32],
-    behavior: u32,
+    ordered: &'v Ordered,
+    /// For each row, whether it allows the behaviour.
+    own: Vec<bool>,
     work: usize,
 }
 
 impl<'v> Growth<'v> {
-    fn new(valued: &'v Valued, left: &'v [u32], behavior: u32) -> Self {
+    fn new(valued: &'v Valued, (left, ordered): (&'v [u32], &'v Ordered), behavior: u32) -> Self {
+        let mut own = vec![false; valued.len()];
+        for row in left {
+            if let Some(own) = own.get_mut(*row as usize) {
+                *own = valued.allowed(*row as usize).contains(&behavior);
+            }
+        }
         Self {
             valued,
             left,
-            behavior,
+            ordered,
+            own,
             work: 0,
         }
     }
 
     fn allows(&self, row: u32) -> bool {
-        self.valued.allowed(row as usize).contains(&self.behavior)
+        self.own.get(row as usize).copied().unwrap_or(false)
     }
 
     /// The box around a row; `None` if no box divides it from all others.
@@ -173,13 +187,19 @@ impl<'v> Growth<'v> {
         let columns = &self.valued.columns;
         let mut bounds = Bounds(columns.iter().map(|it| Side::all(&it.kind)).collect());
         let mut inside: Vec<u32> = self.left.to_vec();
+        let mut ordered = Cow::Borrowed(self.ordered);
         let mut cuts: Vec<(usize, Cut)> = Vec::new();
         while inside.iter().any(|row| !self.allows(*row)) {
-            let (column, cut) = self.best(seed, &inside)?;
+            let (column, cut) = self.best(seed, &inside, &ordered)?;
             narrow(bounds.0.get_mut(column)?, cut);
             cuts.push((column, cut));
             let side = bounds.0.get(column)?;
-            inside.retain(|row| side.contains(self.valued.code(column, *row as usize)));
+            let stays = |row: u32| side.contains(self.valued.code(column, row as usize));
+            inside.retain(|row| stays(*row));
+            match &mut ordered {
+                Cow::Borrowed(all) => ordered = Cow::Owned(all.only(stays)),
+                Cow::Owned(some) => some.retain(stays),
+            }
         }
         self.widen(&mut bounds, &cuts, seed);
         let rows = self.left.iter().copied();
@@ -197,39 +217,33 @@ impl<'v> Growth<'v> {
     }
 
     /// The cut that leaves out most of the other rows for what it leaves out of its own (FOIL: Quinlan 1990).
-    fn best(&mut self, seed: u32, inside: &[u32]) -> Option<(usize, Cut)> {
+    fn best(&mut self, seed: u32, inside: &[u32], ordered: &Ordered) -> Option<(usize, Cut)> {
         self.work += inside.len() * self.valued.columns.len();
-        let own: Vec<bool> = inside.iter().map(|row| self.allows(*row)).collect();
-        let all = own.iter().filter(|own| **own).count();
-        let before = information(all, inside.len());
+        let all = inside.iter().filter(|row| self.allows(**row)).count() as u32;
+        let total = [all, inside.len() as u32 - all];
+        let before = information(all, inside.len() as u32);
         let mut best: Option<(f64, usize, Cut)> = None;
-        let mut offer = |column: usize, cut: Cut, [kept, others]: [usize; 2]| {
-            if kept == 0 || others == inside.len() - all {
+        let mut offer = |column: usize, cut: Cut, [kept, others]: [u32; 2]| {
+            if kept == 0 || others == total[1] {
                 return;
             }
-            let gain = kept as f64 * (before - information(kept, kept + others));
+            let gain = f64::from(kept) * (before - information(kept, kept + others));
             if best.is_none_or(|(most, ..)| gain > most + 1e-9) {
                 best = Some((gain, column, cut));
             }
         };
-        for (column, of) in self.valued.columns.iter().enumerate() {
+        let columns = self.valued.columns.iter().zip(ordered.columns());
+        for (column, (of, cells)) in columns.enumerate() {
             let here = self.valued.code(column, seed as usize);
-            let codes = inside.iter().zip(&own);
-            let codes = codes.map(|(row, own)| {
-                u64::from(self.valued.code(column, *row as usize)) << 1 | u64::from(*own)
-            });
-            let mut codes: Vec<u64> = codes.collect();
-            codes.sort_unstable();
-            let groups: Vec<(u32, [usize; 2])> = codes
-                .chunk_by(|a, b| a >> 1 == b >> 1)
+            let groups: Vec<(u32, [u32; 2])> = cells
+                .chunk_by(|a, b| a.code == b.code)
                 .map(|group| {
-                    let own = group.iter().filter(|it| **it & 1 == 1).count();
-                    let code = group.first().map_or(0, |it| (it >> 1) as u32);
-                    (code, [own, group.len() - own])
+                    let own = group.iter().filter(|cell| self.allows(cell.row)).count() as u32;
+                    let code = group.first().map_or(0, |cell| cell.code);
+                    (code, [own, group.len() as u32 - own])
                 })
                 .collect();
-            let total = [all, inside.len() - all];
-            let rest = |[own, others]: [usize; 2]| [total[0] - own, total[1] - others];
+            let rest = |[own, others]: [u32; 2]| [total[0] - own, total[1] - others];
             if matches!(of.kind, Kind::Number(..)) {
                 let mut so_far = [0, 0];
                 for (at, (code, [own, others])) in groups.iter().enumerate() {

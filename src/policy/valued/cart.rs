@@ -1,6 +1,7 @@
 //! Partitions of rows by their values (CART: Breiman, Friedman, Olshen and Stone 1984), for the comparisons that they use.
 
 use super::cuts::shortest;
+use super::ordered::Ordered;
 use super::{Asks, Comparison, Kind, OPEN, Valued};
 use crate::logic::impurity::{Impurity, Mixture};
 use rustc_hash::FxHashMap;
@@ -21,32 +22,34 @@ pub(super) fn used(
     let mut found = BTreeSet::new();
     let mut work = 0_usize;
     let rows = u32::try_from(valued.len()).unwrap_or(u32::MAX);
-    let mut open: Vec<Vec<u32>> = vec![(0..rows).collect()];
-    while let Some(part) = open.pop() {
-        work = work.saturating_add(part.len() * valued.columns.len());
+    let rows: Vec<u32> = (0..rows).collect();
+    let mut classes = Classes(vec![0; rows.len()]);
+    let mut open = vec![(Ordered::new(valued, &rows), rows)];
+    while let Some((ordered, rows)) = open.pop() {
+        work = work.saturating_add(rows.len() * valued.columns.len());
         if work > WORK {
             return None;
         }
-        let classes = match shared {
-            true => favoured(valued, &part),
-            false => decided(valued, &part),
+        let count = match shared {
+            true => classes.favoured(valued, &rows),
+            false => classes.decided(valued, &rows),
         };
-        let Some(best) = classes.and_then(|classes| best(valued, &part, &classes, impurity)) else {
+        let best = (count > 1).then(|| best(valued, &ordered, (&classes, count), impurity));
+        let Some(best) = best.flatten() else {
             continue;
         };
         let best = moved(valued, best, &found);
         if !matches!(kind(valued, best.column), Some(Kind::Truth(_))) {
             found.insert(best);
         }
-        let side = |wanted: bool| {
-            let rows = part.iter().copied();
-            let on = rows.filter(|row| match code(valued, best.column, *row) {
+        open.extend([true, false].map(|wanted| {
+            let is_on = |row: u32| match code(valued, best.column, row) {
                 OPEN => true,
                 code => best.asks.holds(code) == wanted,
-            });
-            on.collect::<Vec<u32>>()
-        };
-        open.extend([side(true), side(false)]);
+            };
+            let on = rows.iter().copied().filter(|row| is_on(*row));
+            (ordered.only(is_on), on.collect())
+        }));
     }
     Some(found)
 }
@@ -86,84 +89,91 @@ struct Split {
     next: Option<u32>,
 }
 
-/// What the rows of a part do, numbered from 0; `None` where all do the same.
-fn decided(valued: &Valued, part: &[u32]) -> Option<Vec<usize>> {
-    let decided = |row: &u32| valued.decided.get(*row as usize).copied().unwrap_or(0);
-    numbered(part.iter().map(decided))
-}
+/// What each row of a part is to do, numbered from 0.
+struct Classes(Vec<usize>);
 
-/// Of what each row of a part allows, what most of its rows allow, numbered from 0; `None` where all allow one.
-fn favoured(valued: &Valued, part: &[u32]) -> Option<Vec<usize>> {
-    let mut counts: FxHashMap<u32, usize> = FxHashMap::default();
-    for row in part {
-        for behavior in valued.allowed(*row as usize) {
-            *counts.entry(*behavior).or_default() += 1;
-        }
+impl Classes {
+    /// What the rows of a part do; gives how many things that are.
+    fn decided(&mut self, valued: &Valued, part: &[u32]) -> usize {
+        self.number(part, |row| {
+            valued.decided.get(row as usize).copied().unwrap_or(0)
+        })
     }
-    let count = |behavior: &u32| counts.get(behavior).copied().unwrap_or(0);
-    let favourite = |row: &u32| {
-        let all = valued.allowed(*row as usize).iter();
-        let most = all.max_by_key(|behavior| (count(behavior), std::cmp::Reverse(**behavior)));
-        most.copied().unwrap_or(0)
-    };
-    numbered(part.iter().map(favourite))
-}
 
-fn numbered(classes: impl Iterator<Item = u32>) -> Option<Vec<usize>> {
-    let mut numbers: FxHashMap<u32, usize> = FxHashMap::default();
-    let local = classes.map(|class| {
-        let next = numbers.len();
-        *numbers.entry(class).or_insert(next)
-    });
-    let local: Vec<usize> = local.collect();
-    (numbers.len() > 1).then_some(local)
+    /// Of what each row of a part allows, what most of its rows allow; gives how many things that are.
+    fn favoured(&mut self, valued: &Valued, part: &[u32]) -> usize {
+        let mut counts: FxHashMap<u32, usize> = FxHashMap::default();
+        for row in part {
+            for behavior in valued.allowed(*row as usize) {
+                *counts.entry(*behavior).or_default() += 1;
+            }
+        }
+        let count = |behavior: &u32| counts.get(behavior).copied().unwrap_or(0);
+        self.number(part, |row| {
+            let all = valued.allowed(row as usize).iter();
+            let most = all.max_by_key(|behavior| (count(behavior), std::cmp::Reverse(**behavior)));
+            most.copied().unwrap_or(0)
+        })
+    }
+
+    fn number(&mut self, part: &[u32], class: impl Fn(u32) -> u32) -> usize {
+        let mut numbers: FxHashMap<u32, usize> = FxHashMap::default();
+        for row in part {
+            let next = numbers.len();
+            let number = *numbers.entry(class(*row)).or_insert(next);
+            if let Some(slot) = self.0.get_mut(*row as usize) {
+                *slot = number;
+            }
+        }
+        numbers.len()
+    }
+
+    fn of(&self, row: u32) -> usize {
+        self.0.get(row as usize).copied().unwrap_or(0)
+    }
 }
 
 /// The comparison that makes the two sides least mixed by their classes; `None` where nothing divides them.
-fn best(valued: &Valued, part: &[u32], local: &[usize], impurity: Impurity) -> Option<Split> {
-    let classes = local.iter().max().map_or(0, |most| most + 1);
-    let none = Mixture::new(impurity, classes);
+fn best(
+    valued: &Valued,
+    ordered: &Ordered,
+    (classes, count): (&Classes, usize),
+    impurity: Impurity,
+) -> Option<Split> {
+    let none = Mixture::new(impurity, count);
     let mut best: Option<(f64, Split)> = None;
-    for (column, of) in valued.columns.iter().enumerate() {
+    for (column, (of, cells)) in valued.columns.iter().zip(ordered.columns()).enumerate() {
+        let (cells, open) = cells.split_at(cells.partition_point(|cell| cell.code != OPEN));
         let mut left_open = none.clone();
-        let mut cells: Vec<u64> = Vec::with_capacity(part.len());
-        for (row, class) in part.iter().zip(local) {
-            match of.codes.get(*row as usize).copied().unwrap_or(OPEN) {
-                OPEN => left_open.change(*class, 1),
-                code => cells.push(u64::from(code) << 32 | *class as u64),
-            }
+        for cell in open {
+            left_open.change(classes.of(cell.row), 1);
         }
-        cells.sort_unstable();
-        let same = |a: &u64, b: &u64| a >> 32 == b >> 32;
-        let groups: Vec<&[u64]> = cells.chunk_by(same).collect();
         let mut all = left_open.clone();
-        for cell in &cells {
-            all.change((cell & 0xffff_ffff) as usize, 1);
+        for cell in cells {
+            all.change(classes.of(cell.row), 1);
         }
         let mut rest = all.clone();
         let mut taken = left_open.clone();
         let ordered = matches!(of.kind, Kind::Number(..));
-        for (at, group) in groups.iter().enumerate() {
+        let mut groups = cells.chunk_by(|a, b| a.code == b.code).peekable();
+        let mut divided = false;
+        while let Some(group) = groups.next() {
+            let Some(code) = group.first().map(|cell| cell.code) else {
+                continue;
+            };
             if !ordered {
                 (rest, taken) = (all.clone(), left_open.clone());
             }
-            let Some(code) = group.first().map(|cell| (cell >> 32) as u32) else {
-                continue;
-            };
-            for cell in *group {
-                let class = (cell & 0xffff_ffff) as usize;
+            for cell in group {
+                let class = classes.of(cell.row);
                 taken.change(class, 1);
                 rest.change(class, -1);
             }
-            let next = groups.get(at + 1).and_then(|group| group.first());
-            let divides = if ordered {
-                next.is_some()
-            } else {
-                groups.len() > 1
-            };
+            let next = groups.peek().and_then(|group| group.first());
+            divided = next.is_some() || divided && !ordered;
             let mixed = taken.mixed() + rest.mixed();
             let better = |(least, _): &(f64, Split)| Impurity::better(mixed, *least);
-            if divides && best.as_ref().is_none_or(better) {
+            if divided && best.as_ref().is_none_or(better) {
                 let asks = if ordered {
                     Asks::AtMost(code)
                 } else {
@@ -171,7 +181,7 @@ fn best(valued: &Valued, part: &[u32], local: &[usize], impurity: Impurity) -> O
                 };
                 let split = Split {
                     best: Comparison { column, asks },
-                    next: next.map(|cell| (cell >> 32) as u32),
+                    next: next.map(|cell| cell.code),
                 };
                 best = Some((mixed, split));
             }

@@ -82,8 +82,9 @@ impl Valued {
         if several && !(many && self.leaves_choice()) {
             return (apart(), Cow::Borrowed(self));
         }
-        let listed = boxes::used(self).map(|listed| listed.into_iter().collect());
-        let both = [self.partitioned(several), listed].into_iter().flatten();
+        let (partitioned, listed) = rayon::join(|| self.partitioned(several), || boxes::used(self));
+        let listed = listed.map(|listed| listed.into_iter().collect());
+        let both = [partitioned, listed].into_iter().flatten();
         let fewer = both.min_by_key(Vec::len);
         match fewer.and_then(|fewer| Some((self.narrowed(&fewer)?, fewer))) {
             Some((narrowed, fewer)) => (fewer, Cow::Owned(narrowed)),
