@@ -5,32 +5,32 @@ use super::text::Text;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
-use crate::ir::tree::Node;
+use crate::ir::tree::{Atom, Node};
 use crate::policy::table::Table;
 use crate::policy::{Minterm, Policy, Row};
 use crate::source::Span;
+use crate::tree::cube::{Cube, Reader};
 use crate::tree::tick::Runner;
 use rustc_hash::FxHashMap;
-use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// A policy and the table that it was read from.
 pub(super) type Listed<'a> = (&'a mut Policy, &'a Table);
 
-/// The most minterms that rows are written out into.
-const WRITTEN_OUT: usize = 65_536;
+/// The most parts of rows.
+const PARTS: usize = 1 << 20;
 
-/// Gives each row that allows several behaviours the one that the tree takes there, if it is allowed, and each minterm a row;
-/// `None` if the tree remembers, or asks what the table does not say, or rows stand for too many minterms.
+/// Gives each row that allows several behaviours the one that the tree takes there, if it is allowed, and each part of a row in
+/// which it takes another a row of its own; `None` if the tree remembers, or asks what the table does not say, or there are too many.
 pub(super) fn as_tree((policy, table): Listed, root: &Node) -> Option<()> {
     if root.remembers() {
         return None;
     }
     let mut runner = Runner::new(root, &policy.atoms).ok()?;
-    let sets = match table.has_cubes() {
-        true => written_out(policy, table)?,
-        false => sets(policy, table),
-    };
+    if table.has_cubes() {
+        return divided(policy, table, root);
+    }
+    let sets = sets(policy, table);
     for (row, allowed) in policy.rows.iter_mut().zip(sets) {
         let selected = runner.select(row.minterm.words());
         if let Some(behavior) = selected.filter(|own| allowed.contains(own)) {
@@ -69,31 +69,30 @@ pub(super) fn as_both((old, before): Listed, (new, after): Listed) -> Option<()>
     Some(())
 }
 
-/// Gives each minterm that rows stand for a row of its own, with what it allows; `None` if there are too many.
-fn written_out(policy: &mut Policy, table: &Table) -> Option<Vec<Vec<Id<Behavior>>>> {
-    let minterms = |row: &Row| 1_usize.checked_shl(row.free_atoms() as u32);
-    let mut counts = policy
-        .rows
-        .iter()
-        .map(|row| minterms(row).unwrap_or(usize::MAX));
-    let all = counts.try_fold(0_usize, |all, more| all.checked_add(more))?;
-    if all > WRITTEN_OUT {
-        return None;
-    }
-    let mut rows = BTreeMap::new();
+/// Divides the rows where the tree does, each part with what it selects there, if that is allowed; `None` if there are too many, or
+/// atoms do not say what the tree selects.
+fn divided(policy: &mut Policy, table: &Table, root: &Node) -> Option<()> {
+    let reader = Reader::new(root).ok()?;
+    let atoms = policy.atoms.iter().enumerate();
+    let positions: FxHashMap<Atom, usize> = atoms.map(|(at, atom)| (*atom, at)).collect();
+    let mut left = PARTS;
+    let mut parts: Vec<Row> = Vec::new();
     for (row, allowed) in policy.rows.iter().zip(sets(policy, table)) {
-        for minterm in row.minterms() {
-            let row = Row {
-                minterm: minterm.clone(),
-                free: None,
+        let mut cube = Cube::new(&row.minterm, row.free.as_ref(), &positions, &[]);
+        let mut say = |part: &Cube, selected: Option<Id<Behavior>>| {
+            let own = selected.filter(|own| allowed.contains(own));
+            parts.push(Row {
+                minterm: part.minterm(),
+                free: part.free(),
+                behavior: own.unwrap_or(row.behavior),
                 ..row.clone()
-            };
-            rows.entry(minterm).or_insert((row, allowed.clone()));
-        }
+            });
+            true
+        };
+        reader.parts(&mut cube, &mut left, &mut say).ok()?;
     }
-    let (rows, sets) = rows.into_values().unzip();
-    policy.rows = rows;
-    Some(sets)
+    policy.rows = parts;
+    Some(())
 }
 
 /// What each row allows.

@@ -7,6 +7,7 @@ pub mod canonicalise;
 pub mod change;
 mod circuit;
 mod compiled;
+pub mod cube;
 pub mod decanonicalise;
 pub mod disagreement;
 pub mod drawing;

@@ -2,11 +2,11 @@
 
 mod refuted;
 mod rows;
-mod wide;
 
 pub use refuted::Refuted;
 
 use super::atoms::atoms;
+use super::cube::Cube;
 use super::equivalence::{Environment, Explored, Side, Verdict, compare};
 use super::reading::{After, Answers, May, Plan, Reading, plan, read};
 use crate::ir::Id;
@@ -16,7 +16,6 @@ use crate::logic::{Bits, Columns};
 use crate::policy::{Minterm, Policy, Row};
 use rows::RowSets;
 use rustc_hash::FxHashMap;
-use wide::{Fault, WideRow};
 
 /// What is known of a tree that was proved: in every care minterm it takes the policy's decision, with memory read from
 /// the history (P1); and so does the tree itself, memory fresh, on every path of the environment (P2).
@@ -188,13 +187,19 @@ impl<'a> Prover<'a> {
             let Some(row) = self.policy.rows.get(*i) else {
                 continue;
             };
-            let mut wide = WideRow::new(row, &self.positions);
-            match wide.selects(row.behavior, plan, by, &mut left) {
-                Ok(()) => {}
-                Err(Fault::Spent) => return Err(Refuted::Undecided),
-                Err(Fault::Decides(minterm, tree)) => {
-                    return Err(self.decides(*i, Some(minterm), tree));
+            let mut wrong = None;
+            let mut is_right = |part: &Cube, selected: Option<Id<Behavior>>| {
+                let right = selected == Some(row.behavior);
+                if !right {
+                    wrong = Some((part.minterm(), selected));
                 }
+                right
+            };
+            let mut cube = Cube::new(&row.minterm, row.free.as_ref(), &self.positions, &[]);
+            let parts = cube.parts((plan, by), &mut left, &mut is_right);
+            parts.map_err(|_| Refuted::Undecided)?;
+            if let Some((minterm, tree)) = wrong {
+                return Err(self.decides(*i, Some(minterm), tree));
             }
         }
         Ok(())

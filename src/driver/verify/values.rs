@@ -10,15 +10,21 @@ use crate::ir::law::Behavior;
 use crate::ir::program::Predicate;
 use crate::ir::tree::{Atom, Tree};
 use crate::ir::{Id, Name, Program};
+use crate::policy::Minterm;
 use crate::policy::table::AtomName;
-use crate::policy::valued::{Column, Columns, Holds, Kind, OPEN, Opens, Test, Valued};
+use crate::policy::valued::{Column, Columns, Holds, Kind, OPEN, Test, Valued};
 use crate::report::verdict::Answer;
 use crate::report::words::counted;
 use crate::source::Span;
 use crate::tree::atoms::atoms;
+use crate::tree::cube::{Cube, Reader};
 use crate::tree::tick::Runner;
+use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
 use std::ops::Range;
+
+/// The most parts of rows that leave inputs open which are looked at.
+const PARTS: usize = 1 << 24;
 
 /// The most rows to list that a tree decides otherwise.
 const LISTED: usize = 10;
@@ -50,7 +56,7 @@ pub fn table(
         let message = "a table of values is compared with trees without memory";
         return Err(sides.refused(values.header.clone(), Code::E0826, message, ""));
     };
-    sides.compared(runner, &tests)
+    sides.compared(runner, &asked, &tests)
 }
 
 /// A table of values has no transitions.
@@ -59,6 +65,17 @@ pub fn no_transitions(text: Text) -> Refused {
         let message = "a table of values is compared without transitions";
         vec![Diagnostic::new(Code::E0826, Span::new(file, 0, 0), message)]
     })
+}
+
+/// Whether a bit is set.
+fn has(words: &[u64], at: usize) -> bool {
+    let word = words.get(at / 64).copied().unwrap_or(0);
+    word >> (at % 64) & 1 == 1
+}
+
+/// A minterm of so many atoms.
+fn minterm(atoms: usize, holds: impl Fn(usize) -> bool) -> Minterm {
+    Minterm::new((0..atoms).map(holds))
 }
 
 /// A tree and the table that it is compared with.
@@ -70,22 +87,61 @@ struct Sides<'a> {
 }
 
 impl Sides<'_> {
-    fn compared(&self, mut runner: Runner, tests: &[Test]) -> Result<Proved, Refused> {
+    fn compared(
+        &self,
+        mut runner: Runner,
+        asked: &[Atom],
+        tests: &[Test],
+    ) -> Result<Proved, Refused> {
         let values = self.values;
         let names: Vec<&str> = values.behaviors().collect();
         let of = |behavior: Id<Behavior>| self.program.behaviors[behavior].name.bare();
         let mut wrong: Vec<(usize, Option<Id<Behavior>>)> = Vec::new();
-        let each = values.each(tests, Opens::Out, |row, words, _| {
-            let selected = runner.select(words);
-            let allowed = values.allowed(row).iter();
-            let mut allowed = allowed.filter_map(|number| names.get(*number as usize));
-            let right = selected.is_some_and(|id| allowed.any(|name| *name == of(id)));
-            let known = wrong.last().is_some_and(|(last, _)| *last == row);
-            if !right && !known {
-                wrong.push((row, selected));
+        let positions = asked.iter().enumerate().map(|(at, atom)| (*atom, at));
+        let positions: FxHashMap<Atom, usize> = positions.collect();
+        let reader = Reader::new(&self.tree.root);
+        let (mut left, mut stopped) = (PARTS, None);
+        let each = values.cubes(tests, |row, words, fields| {
+            let is_right = |selected: Option<Id<Behavior>>| {
+                let allowed = values.allowed(row).iter();
+                let mut allowed = allowed.filter_map(|number| names.get(*number as usize));
+                selected.is_some_and(|id| allowed.any(|name| *name == of(id)))
+            };
+            if fields.is_empty() {
+                let selected = runner.select(words);
+                if !is_right(selected) {
+                    wrong.push((row, selected));
+                }
+                return;
+            }
+            let reader = match &reader {
+                Ok(reader) if stopped.is_none() => reader,
+                Ok(_) => return,
+                Err(why) => {
+                    stopped = stopped.take().or_else(|| Some((row, why.to_string())));
+                    return;
+                }
+            };
+            let open = fields.iter().map(|field| field.atoms);
+            let free = minterm(asked.len(), |at| open.clone().any(|atoms| has(atoms, at)));
+            let held = minterm(asked.len(), |at| has(words, at));
+            let mut cube = Cube::new(&held, Some(&free), &positions, fields);
+            let mut say = |_: &Cube, selected: Option<Id<Behavior>>| {
+                let right = is_right(selected);
+                if !right {
+                    wrong.push((row, selected));
+                }
+                right
+            };
+            if reader.parts(&mut cube, &mut left, &mut say).is_err() {
+                stopped = Some((row, "there are too many cases to tell apart".to_owned()));
             }
         });
         each.map_err(|error| table::refused(self.text, &[error]))?;
+        if let (Some((row, why)), true) = (stopped, wrong.is_empty()) {
+            let message = "what the tree selects where this row leaves inputs open is not known";
+            return Err(self.refused(values.place(row), Code::E0826, message, &why));
+        }
         let (tree, table) = (&self.tree.name, self.text.name);
         let rows = counted(values.len(), "row");
         if wrong.is_empty() {

@@ -5,9 +5,6 @@ use super::{Asks, OPEN, Valued};
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
 
-/// The most rows that stand for those which leave inputs open.
-const WRITTEN_OUT: usize = 65_536;
-
 /// What the codes of each column say of the atoms.
 pub(super) struct Coded {
     pub(super) width: usize,
@@ -19,13 +16,13 @@ pub(super) struct Coded {
 pub(super) struct Masks {
     width: usize,
     /// All of them.
-    pub(super) atoms: Vec<u64>,
+    atoms: Vec<u64>,
     /// The stretch in which each code is: the same atoms hold for all codes of one.
     stretches: Vec<u32>,
     /// Those that hold, by stretch.
     holds: Vec<u64>,
     /// The different ones of these, in the order of the codes.
-    pub(super) different: Vec<Vec<u64>>,
+    different: Vec<Vec<u64>>,
 }
 
 impl Masks {
@@ -117,28 +114,32 @@ impl Coded {
         masks.is_some_and(|masks| masks.width > 0)
     }
 
-    /// Whether the rows that leave something open can be written out, up to what stays; else the row that is too much.
-    pub(super) fn written_out(
-        &self,
-        valued: &Valued,
-        stays: impl Fn(usize) -> bool,
-    ) -> Result<(), usize> {
-        let mut all = 0_usize;
-        for row in 0..valued.len() {
-            let mut here = 1_usize;
-            for (column, masks) in self.columns.iter().enumerate() {
-                if valued.code(column, row) == OPEN && self.asks(column) && !stays(column) {
-                    here = here.saturating_mul(masks.different.len());
-                }
-            }
-            if here > 1 {
-                all = all.saturating_add(here);
-            }
-            if all > WRITTEN_OUT {
-                return Err(row);
-            }
+    /// A row once for each value of these columns that their atoms tell from others.
+    pub(super) fn written_out(&self, words: &[u64], columns: &[usize]) -> Vec<Vec<u64>> {
+        let mut all = vec![words.to_vec()];
+        for column in columns {
+            let each = all.iter().flat_map(|words| {
+                self.different(*column).iter().map(|mask| {
+                    let mut words = words.clone();
+                    join(&mut words, mask);
+                    words
+                })
+            });
+            all = each.collect();
         }
-        Ok(())
+        all
+    }
+
+    /// The atoms that a column decides.
+    pub(super) fn atoms(&self, column: usize) -> &[u64] {
+        let masks = self.columns.get(column);
+        masks.map_or(&[], |masks| &masks.atoms)
+    }
+
+    /// Those of them that hold, for each value that they tell from others, where rows leave the column open.
+    pub(super) fn different(&self, column: usize) -> &[Vec<u64>] {
+        let masks = self.columns.get(column);
+        masks.map_or(&[], |masks| &masks.different)
     }
 }
 

@@ -7,13 +7,19 @@ use crate::policy::names::AtomName;
 use crate::policy::table::{Reading, Table};
 use std::ops::Range;
 
-/// What becomes of cells that leave something open.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Opens {
-    /// A truth value stays free, all else is written out.
-    Stay,
-    /// Every one is written out.
-    Out,
+/// The most rows that stand for those which leave inputs open.
+const WRITTEN_OUT: usize = 16_384;
+
+/// How many rows one that leaves inputs open may stand for, if those which stand for more are cubes.
+fn most_written_out(mut counts: Vec<usize>) -> usize {
+    counts.retain(|count| *count > 1);
+    counts.sort_unstable();
+    let mut all = 0_usize;
+    let fit = counts.into_iter().take_while(|count| {
+        all = all.saturating_add(*count);
+        all <= WRITTEN_OUT
+    });
+    fit.last().unwrap_or(1)
 }
 
 /// An atom, with how it follows from a row.
@@ -25,6 +31,15 @@ pub struct Test {
     pub place: Range<usize>,
     /// How it follows.
     pub of: Columns,
+}
+
+/// The atoms that a column decides which a row leaves open, and what they may be: they are free together.
+#[derive(Clone, Copy, Debug)]
+pub struct Field<'a> {
+    /// The atoms, as bits.
+    pub atoms: &'a [u64],
+    /// Those of them that hold, for each value that they tell from others.
+    pub values: &'a [Vec<u64>],
 }
 
 /// How an atom follows from the cells of a row.
@@ -70,10 +85,11 @@ impl Valued {
         })
     }
 
-    /// The rows over the atoms that are tested.
+    /// The rows over the atoms that are tested. A row that leaves inputs open stands for one with each of their values that a test
+    /// tells from others, or is a cube where these would be many.
     ///
     /// # Errors
-    /// Rows that contradict each other, or names that do not go together; rows that leave too much open.
+    /// Rows that contradict each other, or names that do not go together.
     pub fn table(&self, tests: &[Test]) -> Result<Table, Vec<TableError>> {
         let mut reading = Reading::over(
             tests
@@ -88,10 +104,37 @@ impl Valued {
                 reading.report(&column.place, kind);
             }
         }
-        let each = self.each(tests, Opens::Stay, |row, words, free| {
-            let behavior = self.decided.get(row).copied();
-            let visits = self.visits.get(row).copied().unwrap_or(0);
-            reading.row((words, free), behavior, visits, &self.place(row));
+        let coded = Coded::new(self, tests);
+        let is_truth = |column: &usize| {
+            let column = self.columns.get(*column);
+            matches!(column.map(|column| &column.kind), Some(Kind::Truth(_)))
+        };
+        let count = |open: &[usize]| {
+            let out = open.iter().filter(|column| !is_truth(column));
+            out.fold(1_usize, |all, column| {
+                all.saturating_mul(coded.different(*column).len())
+            })
+        };
+        let mut counts: Vec<usize> = Vec::new();
+        let each = self.each(&coded, tests, |_, _, open| counts.push(count(open)));
+        let most = most_written_out(counts);
+        let each = each.and_then(|()| {
+            self.each(&coded, tests, |row, words, open| {
+                let behavior = self.decided.get(row).copied();
+                let visits = self.visits.get(row).copied().unwrap_or(0);
+                let (mut stay, mut out): (Vec<usize>, Vec<usize>) =
+                    open.iter().partition(|column| is_truth(column));
+                if count(open) > most {
+                    stay.append(&mut out);
+                }
+                let mut free = vec![0; coded.width];
+                for column in stay {
+                    join(&mut free, coded.atoms(column));
+                }
+                for words in coded.written_out(words, &out) {
+                    reading.row((&words, &free), behavior, visits, &self.place(row));
+                }
+            })
         });
         match each {
             Ok(()) => reading.finish(&[]).map_err(|errors| {
@@ -102,18 +145,32 @@ impl Valued {
         }
     }
 
-    /// Goes through the rows: the number of each, the atoms that hold, and those that are free. A row that leaves inputs open
-    /// stands for one with each of their values that a test tells from others.
+    /// Goes through the rows: the number of each, the atoms that hold, and the atoms of each column that it leaves open.
     ///
     /// # Errors
-    /// The rows that are to be written out are too many, or a row leaves open what several columns decide.
-    pub fn each(
+    /// A row leaves open what several columns decide.
+    pub fn cubes(
         &self,
         tests: &[Test],
-        opens: Opens,
-        mut say: impl FnMut(usize, &[u64], &[u64]),
+        mut say: impl FnMut(usize, &[u64], &[Field]),
     ) -> Result<(), TableError> {
         let coded = Coded::new(self, tests);
+        self.each(&coded, tests, |row, words, open| {
+            let fields = open.iter().map(|column| Field {
+                atoms: coded.atoms(*column),
+                values: coded.different(*column),
+            });
+            say(row, words, &fields.collect::<Vec<Field>>());
+        })
+    }
+
+    /// Goes through the rows: the number of each, the atoms that hold, and the columns that it leaves open and a test asks.
+    fn each(
+        &self,
+        coded: &Coded,
+        tests: &[Test],
+        mut say: impl FnMut(usize, &[u64], &[usize]),
+    ) -> Result<(), TableError> {
         let several: Vec<(usize, &[usize], &[bool])> = tests
             .iter()
             .enumerate()
@@ -122,22 +179,8 @@ impl Valued {
                 Columns::One(..) => None,
             })
             .collect();
-        let stays = |column: usize| {
-            let truth = matches!(
-                self.columns.get(column).map(|column| &column.kind),
-                Some(Kind::Truth(_))
-            );
-            opens == Opens::Stay && truth
-        };
-        if let Err(row) = coded.written_out(self, stays) {
-            return Err(TableError {
-                span: self.place(row),
-                kind: TableErrorKind::Wide,
-            });
-        }
         for row in 0..self.len() {
             let mut words = vec![0; coded.width];
-            let mut free = vec![0; coded.width];
             let mut open: Vec<usize> = Vec::new();
             for (column, masks) in coded.columns.iter().enumerate() {
                 match self.code(column, row) {
@@ -157,27 +200,8 @@ impl Valued {
                     set(&mut words, *atom);
                 }
             }
-            let mut all = vec![words];
-            for column in open.into_iter().filter(|column| coded.asks(*column)) {
-                let Some(masks) = coded.columns.get(column) else {
-                    continue;
-                };
-                if stays(column) {
-                    join(&mut free, &masks.atoms);
-                    continue;
-                }
-                let each = all.iter().flat_map(|words| {
-                    masks.different.iter().map(|mask| {
-                        let mut words = words.clone();
-                        join(&mut words, mask);
-                        words
-                    })
-                });
-                all = each.collect();
-            }
-            for words in all {
-                say(row, &words, &free);
-            }
+            open.retain(|column| coded.asks(*column));
+            say(row, &words, &open);
         }
         Ok(())
     }

@@ -218,3 +218,26 @@ fn lists_of_boxes_are_found() {
         );
     }
 }
+
+/// Rows of 24 truth values of which most are open, that allow a choice: the tree that is made of them is held against them.
+#[test]
+fn open_rows_that_allow_a_choice_are_compared() {
+    let names: Vec<String> = (0..24).map(|atom| format!("p{atom}")).collect();
+    let mut source = format!("{},action\n", names.join(","));
+    for rule in 0..24_usize {
+        let cells = (0..24).map(|atom| match atom {
+            _ if atom < rule => "0",
+            _ if atom == rule => "1",
+            _ => "-",
+        });
+        let cells: Vec<&str> = cells.collect();
+        let behaviors = ["go|wait", "wait|turn", "turn", "go"][rule % 4];
+        source += &format!("{},{behaviors}\n", cells.join(","));
+    }
+    assert!(nodes(&source, 10) <= 24);
+    // One of the rows allows something else.
+    let table = text("allows.csv", source.as_bytes());
+    let tree = made(table, None, &USUAL).unwrap();
+    let other = source.replacen(",turn\n", ",dock\n", 1);
+    assert!(!compared(&tree, text("allows.csv", other.as_bytes())).holds());
+}

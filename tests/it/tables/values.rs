@@ -11,6 +11,7 @@ use btc::driver::verify;
 use btc::emit::form::TreeForm;
 use btc::ir::tree::{Atom, Status};
 use btc::policy::reader::Format;
+use btc::tree::Size;
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 
@@ -282,4 +283,46 @@ fn many_values_make_few_comparisons() {
     let proved = compared(&tree, table);
     assert!(proved.holds(), "{}", proved.text);
     assert_eq!(printed(&tree.text).len(), 5, "{}", tree.text);
+}
+
+/// A list of seven rules on as many numbers of ten values; all that a rule does not ask is left open.
+fn much_open(rows: usize, wrong: bool) -> String {
+    let mut text =
+        String::from("a:number,b:number,c:number,d:number,e:number,f:number,g:number,action\n");
+    let mut state = 7_u64;
+    let mut below = |n: u64| {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        (state >> 33) % n
+    };
+    for row in 0..rows {
+        let rule = row % 8;
+        let cells = (0..7).map(|column| match column {
+            _ if column < rule => (4 + below(6)).to_string(),
+            _ if column == rule => below(4).to_string(),
+            _ => "-".to_owned(),
+        });
+        let cells: Vec<String> = cells.collect();
+        let behavior = if wrong && row + 1 == rows { 0 } else { rule };
+        text += &format!("{},b{behavior}\n", cells.join(","));
+    }
+    text
+}
+
+/// Rows that leave much open stay cubes: they are not written out, and not refused.
+#[test]
+fn rows_that_leave_much_open_are_cubes() {
+    let source = much_open(80, false);
+    let table = text("t.csv", source.as_bytes());
+    let tree = made(table, None, &USUAL).unwrap_or_else(|r| panic!("{}", shown(&r)));
+    let nodes = Size::of(&tree.program.trees[tree.tree].root).nodes;
+    assert!(nodes <= 23, "{}", tree.text);
+    let proved = compared(&tree, table);
+    assert!(proved.holds(), "{}", proved.text);
+    let source = much_open(80, true);
+    let other = text("t.csv", source.as_bytes());
+    let refuted = compared(&tree, other);
+    assert!(!refuted.holds());
+    assert!(refuted.text.contains("t.csv:81: "), "{}", refuted.text);
 }
