@@ -36,10 +36,21 @@ pub struct Policy {
     pub history: History,
     /// The seen minterms, sorted.
     pub rows: Vec<Row>,
+    /// Atoms that are free together in cubes, no two of these with an atom in common.
+    pub fields: Vec<Field>,
     /// The minterms in which greedy episodes start, sorted; with how many did.
     pub starts: Vec<(Minterm, u64)>,
     /// What happened under the greedy policy, sorted.
     pub transitions: Vec<Transition>,
+}
+
+/// Atoms that a value decides which a row leaves open, and what they may be: they are free together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Field {
+    /// The atoms, as bits.
+    pub atoms: Vec<u64>,
+    /// Those of them that hold, for each value that they tell from others.
+    pub values: Vec<Vec<u64>>,
 }
 
 /// One seen minterm, or a cube of a table that leaves atoms free.

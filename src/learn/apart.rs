@@ -8,7 +8,7 @@ const FEWEST: usize = 40;
 /// chance of a world explains it.
 const FAR: f64 = 10.0;
 /// The least width of the middle half, as a part of the median.
-const WIDTH: f64 = 0.05;
+const WIDTH: f64 = 0.2;
 /// Where more than one in so many is that low, they are a part of how the tree does, and no exception.
 const RARE: usize = 50;
 
@@ -44,11 +44,10 @@ pub fn apart(totals: &[f64]) -> u64 {
     let mut sorted = totals.to_vec();
     sorted.sort_by(f64::total_cmp);
     let [low, median, high] = [0.25, 0.5, 0.75].map(|share| quantile(&sorted, share));
-    // Where nearly all returns are the same, they say nothing of what chance does.
-    if high <= low {
+    let width = (high - low).max(WIDTH * median.abs());
+    if width <= 0.0 {
         return 0;
     }
-    let width = (high - low).max(WIDTH * median.abs());
     let below = sorted.partition_point(|total| *total < low - FAR * width);
     if below * RARE > totals.len() {
         return 0;
@@ -79,11 +78,13 @@ mod tests {
     }
 
     #[test]
-    fn few_returns_say_nothing_and_nor_do_equal_ones() {
+    fn few_returns_say_nothing_and_nor_does_a_failure_beside_equal_ones() {
         assert_eq!(apart(&[1.0, 2.0, 3.0, -900.0]), 0);
         let mut equal = vec![500.0; 300];
-        equal.push(9.0);
+        equal.push(0.0);
         assert_eq!(apart(&equal), 0);
+        equal.push(-600.0);
+        assert_eq!(apart(&equal), 1);
         assert_eq!(Worst::of(&[]), None);
     }
 }

@@ -94,6 +94,7 @@ pub fn policy(
         .collect();
     transitions.sort();
     Policy {
+        fields: Vec::new(),
         atoms,
         behaviors: task.choose.clone(),
         history: task.history,

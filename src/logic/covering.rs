@@ -22,7 +22,7 @@ use super::account::Account;
 use super::bits::Bits;
 use super::columns::Columns;
 use super::cube::Cube;
-use super::minimise::random::Random;
+use super::random::Random;
 use pool::Pool;
 use table::Table;
 

@@ -14,7 +14,6 @@ mod exact;
 mod expand;
 mod improve;
 mod instance;
-pub(super) mod random;
 mod split;
 
 use super::account::Account;

@@ -17,6 +17,7 @@ pub mod minterm;
 pub mod packed;
 pub mod partition;
 pub mod pla;
+pub mod random;
 mod transpose;
 
 pub use account::Account;

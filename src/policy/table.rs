@@ -21,7 +21,7 @@ pub use super::names::AtomName;
 use super::error::{TableError, TableErrorKind};
 use super::reader::Format;
 use super::records::{self, Records};
-use super::{Policy, Row};
+use super::{Field, Policy, Row};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::task::History;
@@ -53,6 +53,8 @@ pub struct Table {
     /// The sets of several behaviours that rows allow.
     sets: Vec<Vec<u32>>,
     rows: Rows,
+    /// Atoms that are free together in its cubes.
+    pub(super) fields: Vec<Field>,
     /// The rows in the order of a policy.
     order: Vec<u32>,
 }
@@ -158,6 +160,7 @@ impl Table {
             atoms,
             behaviors,
             rows,
+            fields: self.fields.clone(),
             starts: Vec::new(),
             transitions: Vec::new(),
         }
@@ -362,6 +365,7 @@ impl Reading {
             chosen,
             values: self.values,
             rows: self.rows,
+            fields: Vec::new(),
             order,
         })
     }

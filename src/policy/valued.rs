@@ -17,7 +17,7 @@ mod rows;
 pub use builder::Builder;
 pub use cuts::{Asks, Comparison};
 pub use decimal::Decimal;
-pub use rows::{Columns, Field, Holds, Test};
+pub use rows::{Columns, Holds, Test};
 
 use super::names::AtomName;
 use super::table::Behaviors;

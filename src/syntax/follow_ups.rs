@@ -1,7 +1,8 @@
 //! Mistakes that follow from others: of those that one slip brings about, one is told.
 
 use super::ast::{File, Item, ItemKind};
-use crate::diagnostic::{self, Applicability, Code, Diagnostic};
+use super::words::ASPECTS;
+use crate::diagnostic::{self, Applicability, Code, Diagnostic, suggest};
 use crate::source::Span;
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
@@ -14,6 +15,7 @@ pub(super) fn left_out(text: &str, tree: &mut File, sorted: Vec<Diagnostic>) -> 
     // What is only warned of is no cause of a mistake.
     let (sorted, warnings): (Vec<Diagnostic>, Vec<Diagnostic>) =
         sorted.into_iter().partition(Diagnostic::is_error);
+    let sorted = under_their_heads(text, sorted);
     tree.lost.any = !sorted.is_empty();
     tree.lost.unnamed |= is_cut(text, &sorted);
     let mut places: Vec<Span> = tree
@@ -84,6 +86,54 @@ pub(super) fn left_out(text: &str, tree: &mut File, sorted: Vec<Diagnostic>) -> 
     told.extend(warnings.into_iter().filter(stands));
     diagnostic::sort(&mut told);
     told
+}
+
+/// One message for the lines below a word that was to begin an aspect of a task: `choosse`, and what is chosen below it.
+fn under_their_heads(text: &str, sorted: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    let is_unknown = |found: &Diagnostic| {
+        found.code == Code::E0123 && found.message.ends_with(NO_ASPECT) && found.fixes.is_empty()
+    };
+    let mut told: Vec<Diagnostic> = Vec::new();
+    // How far the lines reach that the last head has taken.
+    let mut taken: Option<usize> = None;
+    for found in sorted {
+        let line = lines(text, found.span()).range();
+        let follows = taken.is_some_and(|end| line.start <= end + 1);
+        if follows && is_unknown(&found) {
+            taken = Some(line.end);
+            continue;
+        }
+        let head = is_unknown(&found).then(|| head(text, &found, line.start));
+        let head = head.flatten();
+        taken = head.as_ref().map(|_| line.end);
+        told.push(head.unwrap_or(found));
+    }
+    told
+}
+
+/// How the message ends of a word that begins no aspect of a task.
+const NO_ASPECT: &str = " does not begin an aspect of a task";
+
+/// What is said of the line before that at `start` if it is a word alone that was to be an aspect of a task.
+fn head(text: &str, found: &Diagnostic, start: usize) -> Option<Diagnostic> {
+    let before = text.get(..start.checked_sub(1)?)?;
+    let from = before.rfind('\n').map_or(0, |at| at + 1);
+    let line = before.get(from..)?;
+    let word = line.trim();
+    let meant = suggest::nearest(word, ASPECTS.iter().copied())?;
+    let from = from + line.len() - line.trim_start().len();
+    let span = Span::new(found.span().file, from, from + word.len());
+    let message = format!("`{word}`{NO_ASPECT}");
+    Some(
+        Diagnostic::new(Code::E0123, span, message)
+            .label(format!("did you mean `{meant}`?"))
+            .fix(
+                format!("write `{meant}`"),
+                span,
+                meant,
+                Applicability::Unsafe,
+            ),
+    )
 }
 
 fn lacks_its_type(found: &Diagnostic) -> bool {

@@ -6,19 +6,24 @@ use super::reading::{After, Irreducible, May, Plan, Reading, Sets, plan, read};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::{Atom, Guard, Node};
-use crate::policy::Minterm;
-use crate::policy::valued::Field;
+use crate::logic::random::Random;
+use crate::policy::{Field, Minterm};
 use rustc_hash::FxHashMap;
 
 /// The values of atoms, and which of them are free.
 #[derive(Clone, Debug)]
 pub struct Cube<'a> {
     positions: &'a FxHashMap<Atom, usize>,
-    fields: &'a [Field<'a>],
+    fields: &'a [Field],
     values: Vec<bool>,
     free: Vec<bool>,
     /// What was found to be selected in it.
     selected: Option<Id<Behavior>>,
+}
+
+fn has(words: &[u64], at: usize) -> bool {
+    let word = words.get(at / 64).copied().unwrap_or(0);
+    word >> (at % 64) & 1 == 1
 }
 
 /// There were more parts of cubes to look at than allowed.
@@ -35,7 +40,7 @@ impl<'a> Cube<'a> {
         minterm: &Minterm,
         free: Option<&Minterm>,
         positions: &'a FxHashMap<Atom, usize>,
-        fields: &'a [Field<'a>],
+        fields: &'a [Field],
     ) -> Self {
         let values: Vec<bool> = minterm.values().collect();
         let is_free = |atom| free.is_some_and(|free| free.get(atom));
@@ -46,6 +51,27 @@ impl<'a> Cube<'a> {
             values,
             selected: None,
         }
+    }
+
+    /// A minterm of it, at random.
+    pub fn any(&self, random: &mut Random) -> Minterm {
+        let free = |atom: usize| self.free.get(atom) == Some(&true);
+        let mut values: Vec<bool> = self.values.clone();
+        for (atom, value) in values.iter_mut().enumerate() {
+            *value = if free(atom) {
+                random.below(2) == 1
+            } else {
+                *value
+            };
+        }
+        for field in self.fields {
+            let held = field.values.get(random.below(field.values.len()));
+            let own = values.iter_mut().enumerate();
+            for (atom, value) in own.filter(|(atom, _)| has(&field.atoms, *atom) && free(*atom)) {
+                *value = held.is_some_and(|held| has(held, atom));
+            }
+        }
+        Minterm::new(values)
     }
 
     /// The minterm in which no free atom holds.
@@ -75,11 +101,7 @@ impl<'a> Cube<'a> {
         let Err(atom) = read(plan, by, true, self) else {
             return Ok(say(self, self.selected));
         };
-        let has = |words: &[u64], at: usize| {
-            let word = words.get(at / 64).copied().unwrap_or(0);
-            word >> (at % 64) & 1 == 1
-        };
-        let together = self.fields.iter().find(|field| has(field.atoms, atom));
+        let together = self.fields.iter().find(|field| has(&field.atoms, atom));
         let Some(field) = together else {
             let goes_on = [false, true].into_iter().try_fold(true, |goes_on, value| {
                 self.set(atom, value, false);
@@ -88,7 +110,7 @@ impl<'a> Cube<'a> {
             self.set(atom, false, true);
             return goes_on;
         };
-        let atoms = (0..self.values.len()).filter(|at| has(field.atoms, *at));
+        let atoms = (0..self.values.len()).filter(|at| has(&field.atoms, *at));
         let atoms: Vec<usize> = atoms.collect();
         let goes_on = field.values.iter().try_fold(true, |goes_on, held| {
             atoms

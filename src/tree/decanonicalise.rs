@@ -17,6 +17,7 @@ mod parted;
 mod parts;
 mod problem;
 mod rules;
+mod samples;
 mod search;
 mod share;
 mod slack;
@@ -153,6 +154,10 @@ pub struct Failing {
 /// The policy has no rows, or the tree that was found is refuted: with the counterexample.
 pub fn decanonicalise(policy: &Policy, options: &Options) -> Result<Decanonicalised, Refuted> {
     let found = searched(policy, options)?;
+    let found = match options.method {
+        Method::Search if options.order == Order::Learned => by_samples(policy, options, found),
+        _ => found,
+    };
     // A greater effort begins elsewhere, and may end with more.
     let less = (options.effort / FEWER).max(Options::default().effort);
     if options.effort <= less || options.method == Method::Paper {
@@ -180,6 +185,23 @@ fn proved(policy: &Policy, root: Node) -> Result<Decanonicalised, Refuted> {
         root,
         proof,
     })
+}
+
+/// A smaller tree of a sample of the policy's minterms, if the policy has cubes and there is one; else this.
+fn by_samples(policy: &Policy, options: &Options, found: Decanonicalised) -> Decanonicalised {
+    if policy.rows.iter().all(|row| row.free.is_none()) || by_minterms(policy).is_some() {
+        return found;
+    }
+    let other = samples::tree(policy, options).filter(|other| other.size < found.size);
+    match other {
+        Some(other) => Decanonicalised {
+            paper_size: found.paper_size,
+            unfinished: found.unfinished,
+            failing: found.failing,
+            ..other
+        },
+        None => found,
+    }
 }
 
 fn searched(policy: &Policy, options: &Options) -> Result<Decanonicalised, Refuted> {

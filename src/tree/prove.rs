@@ -195,7 +195,12 @@ impl<'a> Prover<'a> {
                 }
                 right
             };
-            let mut cube = Cube::new(&row.minterm, row.free.as_ref(), &self.positions, &[]);
+            let mut cube = Cube::new(
+                &row.minterm,
+                row.free.as_ref(),
+                &self.positions,
+                &self.policy.fields,
+            );
             let parts = cube.parts((plan, by), &mut left, &mut is_right);
             parts.map_err(|_| Refuted::Undecided)?;
             if let Some((minterm, tree)) = wrong {

@@ -122,7 +122,7 @@ impl Sides<'_> {
                     return;
                 }
             };
-            let open = fields.iter().map(|field| field.atoms);
+            let open = fields.iter().map(|field| &field.atoms);
             let free = minterm(asked.len(), |at| open.clone().any(|atoms| has(atoms, at)));
             let held = minterm(asked.len(), |at| has(words, at));
             let mut cube = Cube::new(&held, Some(&free), &positions, fields);

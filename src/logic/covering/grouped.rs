@@ -11,7 +11,7 @@ use crate::logic::account::Account;
 use crate::logic::bits::Bits;
 use crate::logic::columns::Columns;
 use crate::logic::cube::{Cube, Literal};
-use crate::logic::minimise::random::Random;
+use crate::logic::random::Random;
 use std::collections::BTreeMap;
 
 /// A list some of whose parts are lists behind a cube.

@@ -5,7 +5,7 @@ use super::{Rule, Worth};
 use crate::logic::account::Account;
 use crate::logic::bits::Bits;
 use crate::logic::cube::Cube;
-use crate::logic::minimise::random::Random;
+use crate::logic::random::Random;
 use rustc_hash::FxHashSet;
 
 /// The most cubes.

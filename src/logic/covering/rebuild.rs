@@ -8,7 +8,7 @@ use crate::logic::account::Account;
 use crate::logic::bits::Bits;
 use crate::logic::columns::Columns;
 use crate::logic::cube::Cube;
-use crate::logic::minimise::random::Random;
+use crate::logic::random::Random;
 
 /// Lists that are made before one of them is built anew.
 const STARTS: usize = 6;

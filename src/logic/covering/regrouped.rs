@@ -10,7 +10,7 @@ use crate::logic::account::Account;
 use crate::logic::bits::Bits;
 use crate::logic::columns::Columns;
 use crate::logic::cube::Cube;
-use crate::logic::minimise::random::Random;
+use crate::logic::random::Random;
 
 /// Of a hundred attempts so many go into a group where there is one, and so many look for a flat list first.
 const DEEPER: usize = 60;

@@ -3,7 +3,7 @@
 use crate::logic::account::Account;
 use crate::logic::bits::Bits;
 use crate::logic::columns::Columns;
-use crate::logic::minimise::random::Random;
+use crate::logic::random::Random;
 
 pub(super) struct Table {
     pub(super) columns: Columns,

@@ -14,7 +14,7 @@ use crate::logic::account::Account;
 use crate::logic::bits::Bits;
 use crate::logic::columns::Columns;
 use crate::logic::cube::Cube;
-use crate::logic::minimise::random::{Random, sample};
+use crate::logic::random::{Random, sample};
 use cubes::cubes;
 use leaves::leaves;
 

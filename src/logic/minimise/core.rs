@@ -5,11 +5,11 @@
 //! is right on all rows is proved smallest for all rows.
 
 use super::instance::Instance;
-use super::random::{self, Random};
 use super::{Effort, Solution, solve};
 use crate::logic::account::Account;
 use crate::logic::bits::Bits;
 use crate::logic::columns::Columns;
+use crate::logic::random::{self, Random};
 
 /// The most rows of a problem that is its own core, and the ON and the OFF rows in the first core of a larger one.
 const WHOLE: usize = 512;

@@ -1,11 +1,11 @@
 //! EXPAND: from an ON row to a prime that holds on it; and covers built of such primes, the widest first.
 
 use super::instance::{Instance, Pool};
-use super::random::{Random, sample};
 use crate::logic::account::Account;
 use crate::logic::alive::Alive;
 use crate::logic::bits::Bits;
 use crate::logic::cube::{Cube, Literal};
+use crate::logic::random::{Random, sample};
 use rayon::prelude::*;
 
 /// Rows that are enough to weigh literals by.

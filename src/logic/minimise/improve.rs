@@ -7,10 +7,10 @@
 use super::Effort;
 use super::expand::{Scoring, sweep};
 use super::instance::{Instance, Pool, Prime};
-use super::random::Random;
 use crate::logic::account::Account;
 use crate::logic::bits::Bits;
 use crate::logic::cube::{Cube, Literal};
+use crate::logic::random::Random;
 use std::cmp::Reverse;
 
 /// The search for one short cube may read the whole problem this many times.

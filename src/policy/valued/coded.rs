@@ -2,6 +2,7 @@
 
 use super::rows::{Columns, Holds, Test};
 use super::{Asks, OPEN, Valued};
+use crate::policy::Field;
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
 
@@ -128,6 +129,15 @@ impl Coded {
             all = each.collect();
         }
         all
+    }
+
+    /// The atoms that these columns decide where rows leave them open.
+    pub(super) fn fields(&self, columns: &[usize]) -> Vec<Field> {
+        let fields = columns.iter().map(|column| Field {
+            atoms: self.atoms(*column).to_vec(),
+            values: self.different(*column).to_vec(),
+        });
+        fields.collect()
     }
 
     /// The atoms that a column decides.

@@ -2,9 +2,11 @@
 
 use super::coded::{Coded, join, set};
 use super::{Asks, Kind, OPEN, Valued};
+use crate::policy::Field;
 use crate::policy::error::{TableError, TableErrorKind};
 use crate::policy::names::AtomName;
 use crate::policy::table::{Reading, Table};
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// The most rows that stand for those which leave inputs open.
@@ -31,15 +33,6 @@ pub struct Test {
     pub place: Range<usize>,
     /// How it follows.
     pub of: Columns,
-}
-
-/// The atoms that a column decides which a row leaves open, and what they may be: they are free together.
-#[derive(Clone, Copy, Debug)]
-pub struct Field<'a> {
-    /// The atoms, as bits.
-    pub atoms: &'a [u64],
-    /// Those of them that hold, for each value that they tell from others.
-    pub values: &'a [Vec<u64>],
 }
 
 /// How an atom follows from the cells of a row.
@@ -118,6 +111,7 @@ impl Valued {
         let mut counts: Vec<usize> = Vec::new();
         let each = self.each(&coded, tests, |_, _, open| counts.push(count(open)));
         let most = most_written_out(counts);
+        let mut cubes: BTreeSet<usize> = BTreeSet::new();
         let each = each.and_then(|()| {
             self.each(&coded, tests, |row, words, open| {
                 let behavior = self.decided.get(row).copied();
@@ -125,6 +119,7 @@ impl Valued {
                 let (mut stay, mut out): (Vec<usize>, Vec<usize>) =
                     open.iter().partition(|column| is_truth(column));
                 if count(open) > most {
+                    cubes.extend(&out);
                     stay.append(&mut out);
                 }
                 let mut free = vec![0; coded.width];
@@ -136,13 +131,13 @@ impl Valued {
                 }
             })
         });
-        match each {
-            Ok(()) => reading.finish(&[]).map_err(|errors| {
-                let told = errors.into_iter().map(|error| self.told(error));
-                told.collect()
-            }),
-            Err(error) => Err(vec![error]),
-        }
+        each.map_err(|error| vec![error])?;
+        let mut table = reading.finish(&[]).map_err(|errors| {
+            let told = errors.into_iter().map(|error| self.told(error));
+            told.collect::<Vec<TableError>>()
+        })?;
+        table.fields = coded.fields(&cubes.into_iter().collect::<Vec<usize>>());
+        Ok(table)
     }
 
     /// Goes through the rows: the number of each, the atoms that hold, and the atoms of each column that it leaves open.
@@ -156,11 +151,7 @@ impl Valued {
     ) -> Result<(), TableError> {
         let coded = Coded::new(self, tests);
         self.each(&coded, tests, |row, words, open| {
-            let fields = open.iter().map(|column| Field {
-                atoms: coded.atoms(*column),
-                values: coded.different(*column),
-            });
-            say(row, words, &fields.collect::<Vec<Field>>());
+            say(row, words, &coded.fields(open));
         })
     }
 

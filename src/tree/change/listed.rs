@@ -208,6 +208,7 @@ mod tests {
             behaviors: (0..3).map(Id::new).collect(),
             history: History::default(),
             rows: rows.collect(),
+            fields: Vec::new(),
             starts: Vec::new(),
             transitions: Vec::new(),
         }

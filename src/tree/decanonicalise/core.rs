@@ -176,6 +176,7 @@ fn part(whole: &Policy, rows: &Bits) -> Policy {
         rows: rows
             .filter_map(|row| whole.rows.get(row).cloned())
             .collect(),
+        fields: whole.fields.clone(),
         ..Policy::default()
     }
 }

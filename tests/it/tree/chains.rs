@@ -96,6 +96,7 @@ fn walked(kind: Composite, links: usize, window: usize, seed: u64) -> Policy {
         choices.entry(here).or_insert(ticked.ticked[0].index());
     }
     Policy {
+        fields: Vec::new(),
         rows: choices
             .into_iter()
             .map(|(minterm, does)| Row {

@@ -126,6 +126,7 @@ pub(crate) fn policy(seed: u64) -> Policy {
         choices.insert(m, 0);
     }
     Policy {
+        fields: Vec::new(),
         rows: choices
             .into_iter()
             .map(|(minterm, does)| Row {

@@ -105,6 +105,7 @@ pub(crate) fn seen(root: &Node, history: History, random: &mut Random) -> Policy
         values: vec![None; behaviors.len()],
     };
     Policy {
+        fields: Vec::new(),
         rows: choices.into_iter().map(row).collect(),
         starts: starts.into_iter().collect(),
         transitions: counts.into_iter().map(transition).collect(),

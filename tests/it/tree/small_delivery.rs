@@ -68,6 +68,7 @@ pub(crate) fn policy() -> Policy {
     .collect();
     transitions.sort();
     Policy {
+        fields: Vec::new(),
         atoms,
         behaviors: (0..4).map(Id::new).collect(),
         history: History {

@@ -2,11 +2,11 @@
 
 /// The next of a sequence (splitmix64: Steele, Lea and Flood 2014).
 #[derive(Clone, Debug)]
-pub(in crate::logic) struct Random(u64);
+pub struct Random(u64);
 
 impl Random {
     /// The sequence of a seed.
-    pub(in crate::logic) fn new(seed: u64) -> Self {
+    pub fn new(seed: u64) -> Self {
         Self(seed)
     }
 
@@ -20,7 +20,7 @@ impl Random {
     }
 
     /// The next number below `bound`; 0 where nothing is.
-    pub(in crate::logic) fn below(&mut self, bound: usize) -> usize {
+    pub fn below(&mut self, bound: usize) -> usize {
         match bound {
             0 => 0,
             bound => (self.next() % bound as u64) as usize,
