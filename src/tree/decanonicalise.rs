@@ -5,6 +5,7 @@ mod alone;
 mod beam;
 mod beams;
 mod children;
+mod complements;
 mod core;
 mod list;
 mod memory;

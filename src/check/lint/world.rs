@@ -2,6 +2,8 @@
 
 use super::geometry::{clearance, is_free};
 use crate::check::Checker;
+use crate::check::builtin::Constant;
+use crate::check::expr::plain_ref;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{Point, Shape, minus};
 use crate::ir::Name;
@@ -9,9 +11,12 @@ use crate::ir::expr::{Binary, Expr, ExprId};
 use crate::ir::task::StartLine;
 use crate::ir::world::{Place, World};
 use crate::source::Span;
-use crate::syntax::ast::{self, Ident, Item, ItemKind, WorldEntryKind};
+use crate::syntax::ast::{self, AspectKind, Ident, Item, ItemKind, LearnEntry, WorldEntryKind};
 use rustc_hash::FxHashSet;
 use std::collections::{BTreeMap, BTreeSet};
+
+/// The part of the free arena from which on a start that may be shut in is told.
+const SHUT_IN: f64 = 0.002;
 
 /// The most cells of the grid on which ways are looked for, along each axis.
 const CELLS: usize = 120;
@@ -22,11 +27,13 @@ impl<'a> Checker<'a> {
         let Some(world) = self.program.world.clone() else {
             return;
         };
+        let items: Vec<&Item> = items.collect();
+        let anywhere: Vec<Span> = items.iter().flat_map(|item| anywhere(item)).collect();
         for item in items {
             if let ItemKind::World(declared) = &item.kind {
                 self.walls_outside(declared, &world);
                 self.places_alike(declared, &world);
-                self.places_apart(declared, &world);
+                self.places_apart(declared, &world, &anywhere);
                 self.places_too_small(declared, &world);
             }
         }
@@ -68,7 +75,7 @@ impl<'a> Checker<'a> {
     /// Places that the robot is sent to and no way leads to: from where it starts, or if that may be anywhere from the one of
     /// these places from which it gets furthest. The grid is generous: a robot a cell smaller than this one would not get
     /// there. Doors are open.
-    fn places_apart(&mut self, declared: &'a ast::World, world: &World) {
+    fn places_apart(&mut self, declared: &'a ast::World, world: &World, anywhere: &[Span]) {
         let sent = self.sent_to();
         let wanted: Vec<_> = places(declared, world)
             .filter(|(.., place)| sent.contains(&place.name.to_string()))
@@ -99,6 +106,16 @@ impl<'a> Checker<'a> {
         // A start in a wall is reported where it is said.
         if reached.is_empty() {
             return;
+        }
+        let shut = grid.shut_in(world, &free, &reached);
+        for at in anywhere.iter().filter(|_| shut >= SHUT_IN) {
+            let message = "an episode may start where walls shut the robot in";
+            self.warning(Code::W0310, *at, message)
+                .label(format!(
+                    "{:.0} % of the free arena: no way leads from there to where the robot is sent",
+                    (100.0 * shut).max(1.0)
+                ))
+                .help("leave a way out, fill that part with a wall, or start in a place: `pose = anywhere(PLACE)`");
         }
         for (name, span, place) in wanted {
             let near =
@@ -195,6 +212,36 @@ impl<'a> Checker<'a> {
     }
 }
 
+/// The lines of an item by which episodes start anywhere.
+fn anywhere(item: &Item) -> Vec<Span> {
+    let starts: Vec<&ast::Start> = match &item.kind {
+        ItemKind::Task(task) => {
+            let starts = task.aspects.iter().filter_map(|aspect| match &aspect.kind {
+                AspectKind::Start(start) => Some(start),
+                _ => None,
+            });
+            starts.collect()
+        }
+        ItemKind::Learn(learn) => {
+            let starts = learn.entries.iter().filter_map(|entry| match entry {
+                LearnEntry::Start(start) => Some(start),
+                _ => None,
+            });
+            starts.collect()
+        }
+        _ => Vec::new(),
+    };
+    let is_anywhere = |value: &&ast::Expr| {
+        let named = plain_ref(value);
+        named.is_some_and(|it| it.name.name == Constant::Anywhere.name() && it.args.is_none())
+    };
+    let lines = starts.into_iter().flat_map(|start| &start.lines);
+    let values = lines
+        .filter(|line| line.target.name.name == "pose" && line.target.args.is_none())
+        .map(|line| &line.value);
+    values.filter(is_anywhere).map(|value| value.span).collect()
+}
+
 /// The places of a world as they are declared, each with the place of its shape.
 fn places<'a, 'w>(
     declared: &'a ast::World,
@@ -260,6 +307,18 @@ impl Grid {
         cells
             .filter(|cell| is_free(world, self.center(*cell), radius))
             .collect()
+    }
+
+    /// The part of the arena in which the robot fits that is not among the cells which were reached.
+    fn shut_in(&self, world: &World, free: &Cells, reached: &Cells) -> f64 {
+        let fits = |cell: &&Cell| is_free(world, self.center(**cell), world.robot.radius);
+        let all = free.iter().filter(fits);
+        let (mut shut, mut count) = (0, 0);
+        for cell in all {
+            count += 1;
+            shut += usize::from(!reached.contains(cell));
+        }
+        shut as f64 / f64::max(count as f64, 1.0)
     }
 
     /// The free cells next to some points.

@@ -9,6 +9,9 @@ use crate::syntax::grammar::{self, Node, Parts, Rule};
 use crate::syntax::tokens::{Kind, is_blank};
 use std::ops::Range;
 
+/// The units of times.
+const UNITS: [&str; 4] = ["ms", "s", "min", "h"];
+
 /// How many tokens of a text that fails are enough in most cases.
 const TOKENS_SEEN: usize = 192;
 
@@ -264,7 +267,12 @@ impl<'i> Builder<'i> {
         let counted = matches!(word, "retry" | "repeat" | "timeout" | "parallel");
         if counted && same_line && next.kind == Kind::Number {
             let rest = self.text.get(next.start..)?.lines().next()?;
-            let amount = rest.split(['{', '}', ',', ')']).next()?.trim();
+            let rest = rest.split(['{', '}', ',', ')', '(']).next()?;
+            let mut words = rest.split_whitespace();
+            let (number, unit) = (words.next()?, words.next());
+            // A unit may stand apart from its number; what else follows is the child.
+            let unit = unit.filter(|unit| word == "timeout" && UNITS.contains(unit));
+            let amount = unit.map_or(number.to_owned(), |unit| format!("{number} {unit}"));
             return Some(format!("{word}({amount}) {{ … }}"));
         }
         if counted && same_line && next.kind == Kind::Word {

@@ -49,6 +49,11 @@ impl<'a> Problem<'a> {
         self.prover.columns()
     }
 
+    /// No rows.
+    pub(super) fn none(&self) -> Bits {
+        Bits::empty(self.columns().rows())
+    }
+
     /// All rows.
     pub(super) fn all(&self) -> Bits {
         Bits::full(self.columns().rows())

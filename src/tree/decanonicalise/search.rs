@@ -8,6 +8,7 @@
 
 use super::alone::{self, CLEAR};
 use super::beams;
+use super::complements::complemented;
 use super::core::Core;
 use super::memory::configurations;
 use super::minimiser::{LARGE, Minimiser};
@@ -235,7 +236,11 @@ fn smallest(problem: &Problem, found: Vec<(Size, Node)>) -> Option<(Node, Proof)
             false => once,
         }
     });
-    let mut found = sized(once.collect());
+    let mut once: Vec<Node> = once.collect();
+    let complemented = once.iter().filter_map(|node| complemented(problem, node));
+    let complemented: Vec<Node> = complemented.collect();
+    once.extend(complemented);
+    let mut found = sized(once);
     // Stable: of equal sizes the first found stands first.
     found.sort_by_key(|(size, _)| *size);
     found.dedup_by(|a, b| a.1 == b.1);
