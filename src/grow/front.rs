@@ -426,9 +426,10 @@ fn knee<W: World>(
                 gain.mean >= -chance.max(less)
             })
     };
-    let worth = |entrant: &Entrant| judge.gain(entrant, base, Terms::taking(price)).mean;
+    // What harm costs is a part of what the exact tree returns.
+    let gain = |entrant: &Entrant| judge.gain(entrant, exact, Terms::taking(price)).mean;
     let good = safe.iter().filter(|(_, entrant)| as_good(entrant));
-    let gains = good.map(|(at, entrant)| (*at, worth(entrant) - worth(exact)));
+    let gains = good.map(|(at, entrant)| (*at, gain(entrant)));
     let best = gains.reduce(|best, next| if next.1 > best.1 { next } else { best });
     let gives_way = best.filter(|(_, gain)| *gain > PROVED * price);
     gives_way.map_or(known.exact, |(at, _)| at)
