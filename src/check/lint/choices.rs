@@ -2,6 +2,7 @@
 
 use crate::check::Checker;
 use crate::check::expr::plain_ref;
+use crate::check::lint::mentions::Mentions;
 use crate::diagnostic::Code;
 use crate::source::Span;
 use crate::syntax::ast::{
@@ -20,6 +21,10 @@ impl<'a> Checker<'a> {
         let by_name: BTreeMap<&str, &'a Behavior> = behaviors()
             .map(|behavior| (behavior.name.name.as_str(), behavior))
             .collect();
+        let mut mentions = Mentions::default();
+        items.clone().for_each(|item| mentions.beside_choices(item));
+        // What only its name tells from another is another where something asks for that name.
+        let is_asked_for = |name: &str| mentions.read.contains(name);
         for item in items.clone() {
             let ItemKind::Task(task) = &item.kind else {
                 continue;
@@ -28,11 +33,14 @@ impl<'a> Checker<'a> {
                 AspectKind::Choose(list) => Some(list),
                 _ => None,
             });
-            let mut seen: BTreeMap<String, (Span, String)> = BTreeMap::new();
+            let mut seen: BTreeMap<String, (Span, String, &str)> = BTreeMap::new();
             for chosen in lists.flatten().filter_map(plain_ref) {
                 let name = call(chosen);
-                match seen.get(&does(&by_name, chosen)) {
-                    Some((first, other)) => {
+                let (does, own) = does(&by_name, chosen);
+                match seen.get(&does) {
+                    Some((_, _, other))
+                        if own != *other && (is_asked_for(own) || is_asked_for(other)) => {}
+                    Some((first, other, _)) => {
                         let (first, message) =
                             (*first, format!("`{name}` does the same as `{other}`"));
                         self.warning(Code::W0518, chosen.span, message)
@@ -40,7 +48,7 @@ impl<'a> Checker<'a> {
                             .also(first, "in the list already");
                     }
                     None => {
-                        seen.insert(does(&by_name, chosen), (chosen.span, name));
+                        seen.insert(does, (chosen.span, name, own));
                     }
                 }
             }
@@ -55,8 +63,9 @@ fn behavior(item: &Item) -> Option<&Behavior> {
     }
 }
 
-/// What a behaviour does, as text: what an alias stands for, or the clauses of a behaviour without parameters.
-fn does<'a>(by_name: &BTreeMap<&str, &'a Behavior>, mut chosen: &'a Ref) -> String {
+/// What a behaviour does, as text: what an alias stands for, or the clauses of a behaviour without parameters; with the name of
+/// what it stands for.
+fn does<'a>(by_name: &BTreeMap<&str, &'a Behavior>, mut chosen: &'a Ref) -> (String, &'a str) {
     for _ in 0..ALIASES {
         let plain = chosen.args.as_ref().is_none_or(Vec::is_empty);
         let named = by_name.get(chosen.name.name.as_str());
@@ -65,11 +74,11 @@ fn does<'a>(by_name: &BTreeMap<&str, &'a Behavior>, mut chosen: &'a Ref) -> Stri
         };
         match &behavior.body {
             BehaviorBody::Alias(of) => chosen = of,
-            BehaviorBody::Clauses(_) => return body(behavior),
+            BehaviorBody::Clauses(_) => return (body(behavior), &chosen.name.name),
             BehaviorBody::Declared => break,
         }
     }
-    call(chosen)
+    (call(chosen), &chosen.name.name)
 }
 
 /// A behaviour without its name.

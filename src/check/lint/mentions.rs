@@ -139,10 +139,28 @@ impl<'a> Mentions<'a> {
         }
     }
 
+    /// Takes in what an item mentions besides behaviours to choose from, in tasks and in trees.
+    pub fn beside_choices(&mut self, item: &'a Item) {
+        match &item.kind {
+            ItemKind::Task(task) => self.aspects(task),
+            ItemKind::Tree(_) | ItemKind::Claim(_) | ItemKind::Test(_) => {}
+            _ => self.item(item),
+        }
+    }
+
     fn task(&mut self, task: &'a Task) {
         for aspect in &task.aspects {
+            if let AspectKind::Observe(list) | AspectKind::Choose(list) = &aspect.kind {
+                self.exprs(list);
+            }
+        }
+        self.aspects(task);
+    }
+
+    fn aspects(&mut self, task: &'a Task) {
+        for aspect in &task.aspects {
             match &aspect.kind {
-                AspectKind::Observe(list) | AspectKind::Choose(list) => self.exprs(list),
+                AspectKind::Observe(_) | AspectKind::Choose(_) => {}
                 AspectKind::History { window: value, .. }
                 | AspectKind::Patience(value)
                 | AspectKind::EndOn(value)

@@ -104,3 +104,17 @@ fn episodes_in_which_a_tree_is_stuck_are_named() {
     let runs = ["fast", "slow"].map(|tree| program.run(tree, 1000, 3).unwrap().human());
     snapshot::check("stuck_at_times", &runs.join("\n"));
 }
+
+/// A policy that is idle does no harm: it does not rule out the trees that work and do no more of it than the one by hand.
+#[test]
+fn idleness_does_not_rule_out_what_works() {
+    let learned = learned_as(
+        "worth_the_risk",
+        Options {
+            shape: Shape::Grown,
+            effort: 3_000_000,
+            ..OPTIONS
+        },
+    );
+    assert!(returns("worth_the_risk", &learned) > 10.0, "{}", learned.text);
+}
