@@ -6,6 +6,7 @@ use crate::diagnostic::{self, Applicability, Code, Diagnostic, suggest};
 use crate::source::Span;
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 
 /// What is advised where a child of a tree stands behind the `}` of its tree.
 pub(super) const CLOSED_ABOVE: &str = "the `}` of its tree stands above: is there one too many?";
@@ -88,7 +89,8 @@ pub(super) fn left_out(text: &str, tree: &mut File, sorted: Vec<Diagnostic>) -> 
     told
 }
 
-/// One message for the lines below a word that was to begin an aspect of a task: `choosse`, and what is chosen below it.
+/// One message for lines that are entries of a list in a task: below a word that was to begin it, `choosse`, or below an entry that
+/// lacks its comma.
 fn under_their_heads(text: &str, sorted: Vec<Diagnostic>) -> Vec<Diagnostic> {
     let is_unknown = |found: &Diagnostic| {
         found.code == Code::E0123 && found.message.ends_with(NO_ASPECT) && found.fixes.is_empty()
@@ -103,7 +105,14 @@ fn under_their_heads(text: &str, sorted: Vec<Diagnostic>) -> Vec<Diagnostic> {
             taken = Some(line.end);
             continue;
         }
-        let head = is_unknown(&found).then(|| head(text, &found, line.start));
+        // A line above that is not understood itself is no entry.
+        let is_above = |last: &Diagnostic| lines(text, last.span()).range().end + 1 == line.start;
+        let follows = told.last().is_some_and(is_above);
+        let parted = || match follows {
+            true => None,
+            false => parted(text, &found, line.clone()),
+        };
+        let head = is_unknown(&found).then(|| head(text, &found, line.start).or_else(parted));
         let head = head.flatten();
         taken = head.as_ref().map(|_| line.end);
         told.push(head.unwrap_or(found));
@@ -133,6 +142,35 @@ fn head(text: &str, found: &Diagnostic, start: usize) -> Option<Diagnostic> {
                 meant,
                 Applicability::Unsafe,
             ),
+    )
+}
+
+/// What is said of a line that goes on with a list whose entry above it lacks its comma.
+fn parted(text: &str, found: &Diagnostic, line: Range<usize>) -> Option<Diagnostic> {
+    let before = text.get(..line.start.checked_sub(1)?)?;
+    let from = before.rfind('\n').map_or(0, |at| at + 1);
+    let above = before.get(from..)?;
+    let above = above.split("//").next().unwrap_or(above).trim_end();
+    let margin = |line: &str| line.len() - line.trim_start().len();
+    let first = above.split_whitespace().next()?;
+    // Below the beginning of an aspect its entries stand further in, and below one of these on the same margin.
+    let deep = margin(text.get(line)?);
+    let goes_on = match ASPECTS.contains(&first) {
+        true => deep > margin(above) && above.trim_start() != first,
+        false => deep == margin(above),
+    };
+    let ends = above.ends_with(|letter: char| letter.is_alphanumeric() || "_)`".contains(letter));
+    if !goes_on || !ends {
+        return None;
+    }
+    let comma = from + above.len();
+    let comma = Span::new(found.span().file, comma, comma);
+    let message = format!("a comma is missing before `{}`", slice(text, found));
+    Some(
+        Diagnostic::new(Code::E0112, found.span(), message)
+            .label("this begins another one")
+            .note("commas part the entries of a list")
+            .fix("put a comma", comma, ",", Applicability::Safe),
     )
 }
 

@@ -116,5 +116,9 @@ fn idleness_does_not_rule_out_what_works() {
             ..OPTIONS
         },
     );
-    assert!(returns("worth_the_risk", &learned) > 10.0, "{}", learned.text);
+    assert!(
+        returns("worth_the_risk", &learned) > 10.0,
+        "{}",
+        learned.text
+    );
 }
