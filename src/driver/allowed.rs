@@ -5,11 +5,11 @@ use super::text::Text;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
-use crate::ir::tree::{Atom, Node};
+use crate::ir::tree::Node;
 use crate::policy::table::Table;
 use crate::policy::{Minterm, Policy, Row};
 use crate::source::Span;
-use crate::tree::cube::{Cube, Reader};
+use crate::tree::cube::{Cube, Reader, positions};
 use crate::tree::tick::Runner;
 use rustc_hash::FxHashMap;
 use std::ops::Range;
@@ -73,8 +73,7 @@ pub(super) fn as_both((old, before): Listed, (new, after): Listed) -> Option<()>
 /// atoms do not say what the tree selects.
 fn divided(policy: &mut Policy, table: &Table, root: &Node) -> Option<()> {
     let reader = Reader::new(root).ok()?;
-    let atoms = policy.atoms.iter().enumerate();
-    let positions: FxHashMap<Atom, usize> = atoms.map(|(at, atom)| (*atom, at)).collect();
+    let positions = positions(&policy.atoms);
     let mut left = PARTS;
     let mut parts: Vec<Row> = Vec::new();
     for (row, allowed) in policy.rows.iter().zip(sets(policy, table)) {

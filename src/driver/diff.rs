@@ -69,7 +69,7 @@ pub fn diff(old: Side, new: Side, episodes: u64, seed: u64) -> Result<Difference
         });
     if let Some((text, header)) = several {
         settle(&mut before, &mut after).ok_or_else(|| {
-            let message = "rows that allow several behaviours are compared minterm by minterm, with trees without memory \
+            let message = "rows that allow several behaviours are compared with trees without memory, part by part, \
                            and with tables of the same predicates";
             allowed::refused(text, header, message)
         })?;

@@ -293,6 +293,7 @@ struct Known {
     harms: [u64; 2],
 }
 
+/// What the exact tree and those of the file do in so many episodes; `None` if there is no exact one.
 fn known<W: World>(
     judge: &Judge<'_, '_, W>,
     entrants: &[Entrant],
@@ -301,13 +302,7 @@ fn known<W: World>(
 ) -> Option<Known> {
     let base = entrants.get(exact)?;
     let harms = |entrant: &Entrant| judge.ground.harms(&entrant.contender, ended);
-    let mut known = Known {
-        exact,
-        best: exact,
-        ended,
-        harms: [harms(base); 2],
-    };
-    let (mut least, mut most) = (harms(base), 0.0);
+    let (mut least, mut best, mut most) = (harms(base), exact, 0.0);
     for (at, entrant) in entrants.iter().enumerate() {
         if !theirs.contains(&&entrant.root) || entrant.contender.episodes() < ended {
             continue;
@@ -318,12 +313,16 @@ fn known<W: World>(
         let gain = judge.gain(entrant, base, Terms::taking(0.0));
         let surely = gain.mean - error(&gain);
         if surely > most {
-            (most, known.best) = (surely, at);
+            (most, best) = (surely, at);
         }
     }
-    let best = entrants.get(known.best).map_or(least, harms);
-    known.harms = [least, best.max(least)];
-    Some(known)
+    let of_best = entrants.get(best).map_or(least, harms);
+    Some(Known {
+        exact,
+        best,
+        ended,
+        harms: [least, of_best.max(least)],
+    })
 }
 
 /// Lets the tree that was chosen play on and, where it then looks worse than the best that was known before, that one, too.
@@ -340,10 +339,7 @@ fn is_doubted<W: World>(
     let [Some(own), Some(other)] = [chosen, best].map(|at| entrants.get(at)) else {
         return false;
     };
-    let worth = |entrant: &Entrant| {
-        let harm = judge.one_harm(other, Terms::taking(0.0)) * other.contender.episodes() as f64;
-        entrant.contender.returns().mean - harm * judge.harm_rate(entrant)
-    };
+    let worth = |entrant: &Entrant| judge.worth(entrant, other.scale(), Terms::taking(0.0));
     let is_worse = worth(own) < worth(other);
     if is_worse {
         judge.plays_to(trials, entrants, best, episodes);

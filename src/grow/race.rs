@@ -230,8 +230,14 @@ impl<'g, 'w, W: World> Judge<'g, 'w, W> {
     }
 
     /// The harm of a tree in an episode, on average.
-    pub fn harm_rate(&self, entrant: &Entrant) -> f64 {
+    fn harm_rate(&self, entrant: &Entrant) -> f64 {
         self.harms(entrant) as f64 / entrant.contender.episodes().max(1) as f64
+    }
+
+    /// The mean return of a tree less what its nodes and its harm cost, where harm is a part of `scale`.
+    pub fn worth(&self, entrant: &Entrant, scale: f64, terms: Terms) -> f64 {
+        let harm = terms.harm * scale * self.harm_rate(entrant);
+        entrant.contender.returns().mean - harm - terms.price * entrant.nodes as f64
     }
 
     /// What one episode with harm costs beside a tree, on average over its episodes.
@@ -268,10 +274,7 @@ impl<'g, 'w, W: World> Judge<'g, 'w, W> {
             let episodes = self.scaled(episodes);
             self.play(&trials, &mut entrants, episodes, None);
             entrants.retain(|entrant| terms.allow(entrant));
-            let worth = |entrant: &Entrant| {
-                let harm = terms.harm * entrant.scale() * self.harm_rate(entrant);
-                entrant.contender.returns().mean - harm - terms.price * entrant.nodes as f64
-            };
+            let worth = |entrant: &Entrant| self.worth(entrant, entrant.scale(), terms);
             entrants.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
             entrants.truncate(stay);
         }

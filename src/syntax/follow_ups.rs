@@ -100,8 +100,7 @@ fn under_their_heads(text: &str, sorted: Vec<Diagnostic>) -> Vec<Diagnostic> {
     let mut taken: Option<usize> = None;
     for found in sorted {
         let line = lines(text, found.span()).range();
-        let follows = taken.is_some_and(|end| line.start <= end + 1);
-        if follows && is_unknown(&found) {
+        if taken.is_some_and(|end| line.start <= end + 1) && is_unknown(&found) {
             taken = Some(line.end);
             continue;
         }

@@ -33,6 +33,12 @@ pub struct Spent;
 /// Says whether to go on, of a part of a cube in which one behaviour is selected, or none.
 type Say<'s, 'a> = dyn FnMut(&Cube<'a>, Option<Id<Behavior>>) -> bool + 's;
 
+/// Where each of these atoms stands.
+pub fn positions(atoms: &[Atom]) -> FxHashMap<Atom, usize> {
+    let atoms = atoms.iter().enumerate();
+    atoms.map(|(at, atom)| (*atom, at)).collect()
+}
+
 impl<'a> Cube<'a> {
     /// The cube of a minterm in which these atoms are free; `positions` are those of the atoms. Atoms of a field are free
     /// together, each of the others for itself.
@@ -49,6 +55,23 @@ impl<'a> Cube<'a> {
             fields,
             free: (0..values.len()).map(is_free).collect(),
             values,
+            selected: None,
+        }
+    }
+
+    /// The cube of the atoms that hold in which those of the fields are free.
+    pub fn of_fields(
+        words: &[u64],
+        positions: &'a FxHashMap<Atom, usize>,
+        fields: &'a [Field],
+    ) -> Self {
+        let atoms = 0..positions.len();
+        let is_free = |atom: &usize| fields.iter().any(|field| has(&field.atoms, *atom));
+        Self {
+            positions,
+            fields,
+            free: atoms.clone().map(|atom| is_free(&atom)).collect(),
+            values: atoms.map(|atom| has(words, atom)).collect(),
             selected: None,
         }
     }

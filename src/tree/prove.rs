@@ -6,7 +6,7 @@ mod rows;
 pub use refuted::Refuted;
 
 use super::atoms::atoms;
-use super::cube::Cube;
+use super::cube::{Cube, positions};
 use super::equivalence::{Environment, Explored, Side, Verdict, compare};
 use super::reading::{After, Answers, May, Plan, Reading, plan, read};
 use crate::ir::Id;
@@ -62,7 +62,6 @@ impl<'a> Prover<'a> {
     /// Transposes the rows of a policy.
     pub fn new(policy: &'a Policy) -> Self {
         let words = |row: &'a Row| (row.minterm.words(), row.free.as_ref().map(Minterm::words));
-        let atoms = policy.atoms.iter().enumerate();
         let mut numbers: FxHashMap<Id<Behavior>, usize> = FxHashMap::default();
         let mut plain: Vec<(Id<Behavior>, Bits)> = Vec::new();
         let mut wide = Vec::new();
@@ -82,7 +81,7 @@ impl<'a> Prover<'a> {
         Self {
             policy,
             columns: Columns::with_free(policy.atoms.len(), policy.rows.iter().map(words)),
-            positions: atoms.map(|(i, atom)| (*atom, i)).collect(),
+            positions: positions(&policy.atoms),
             plain,
             wide,
         }

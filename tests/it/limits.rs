@@ -241,6 +241,36 @@ fn tables_of_values() {
 }
 
 #[test]
+fn parts_of_open_rows() {
+    // Each pair of predicates doubles the parts that have to be told apart.
+    let refused = |pairs: usize| {
+        let names: Vec<String> = (0..2 * pairs).map(|at| format!("p{at}")).collect();
+        let guards = names
+            .chunks(2)
+            .map(|pair| format!("({})", pair.join(" or ")));
+        let guards: Vec<String> = guards.collect();
+        let declared: String = names
+            .iter()
+            .map(|name| format!("predicate {name}\n"))
+            .collect();
+        let program = format!(
+            "{declared}behavior go\nbehavior wait\ntree t = selector {{ {} => go, wait }}\n",
+            guards.join(" and ")
+        );
+        let row = vec!["-"; 2 * pairs].join(",");
+        let table = format!("{},action\n{row},go|wait\n", names.join(","));
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("t.bt"), program).unwrap();
+        fs::write(folder.path().join("t.csv"), table).unwrap();
+        let output = btc(&["verify", "t.bt", "t", "t.csv"], folder.path(), b"");
+        let text = String::from_utf8(output.stderr).unwrap();
+        (output.status.code() == Some(1) && text.contains("E0823")).then_some(text)
+    };
+    assert_eq!(refused(8), None);
+    assert!(refused(22).is_some());
+}
+
+#[test]
 fn what_is_shown() {
     let mistakes = list((0..150).map(|n| format!("state a{n}: bool = b{n}")), "\n");
     let text = said(&["check", "-"], &mistakes);

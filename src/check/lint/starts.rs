@@ -21,6 +21,27 @@ const MOST: usize = 20_000;
 /// How many standard deviations of noise the speed of a robot is off, at most.
 const NOISE: f64 = 6.0;
 
+/// The starts that a task or a learner declares.
+pub(super) fn starts(item: &Item) -> Vec<&ast::Start> {
+    match &item.kind {
+        ItemKind::Task(task) => {
+            let starts = task.aspects.iter().filter_map(|aspect| match &aspect.kind {
+                AspectKind::Start(start) => Some(start),
+                _ => None,
+            });
+            starts.collect()
+        }
+        ItemKind::Learn(learn) => {
+            let starts = learn.entries.iter().filter_map(|entry| match entry {
+                LearnEntry::Start(start) => Some(start),
+                _ => None,
+            });
+            starts.collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
 impl<'a> Checker<'a> {
     /// Warns of ends that hold in the first tick of every episode, of a task or of training alone.
     pub fn ends_at_starts(&mut self, items: impl Iterator<Item = &'a Item>) {
@@ -91,24 +112,7 @@ impl<'a> Checker<'a> {
 
     /// Warns of lines of a `start` that read a state which a later line sets: they run in their order.
     pub fn read_before_set(&mut self, items: impl Iterator<Item = &'a Item>) {
-        let starts = items.flat_map(|item| match &item.kind {
-            ItemKind::Task(task) => {
-                let starts = task.aspects.iter().filter_map(|aspect| match &aspect.kind {
-                    AspectKind::Start(start) => Some(start),
-                    _ => None,
-                });
-                starts.collect::<Vec<_>>()
-            }
-            ItemKind::Learn(learn) => {
-                let starts = learn.entries.iter().filter_map(|entry| match entry {
-                    LearnEntry::Start(start) => Some(start),
-                    _ => None,
-                });
-                starts.collect()
-            }
-            _ => Vec::new(),
-        });
-        for start in starts {
+        for start in items.flat_map(starts) {
             let lines = start.lines.iter().enumerate();
             let set = lines.clone().map(|(at, line)| {
                 let name = &line.target.name;

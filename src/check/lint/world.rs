@@ -1,6 +1,7 @@
 //! Parts of a world that do nothing: walls outside the arena, places that coincide, places that no way leads to.
 
 use super::geometry::{clearance, is_free};
+use super::starts::starts;
 use crate::check::Checker;
 use crate::check::builtin::Constant;
 use crate::check::expr::plain_ref;
@@ -11,7 +12,7 @@ use crate::ir::expr::{Binary, Expr, ExprId};
 use crate::ir::task::StartLine;
 use crate::ir::world::{Place, World};
 use crate::source::Span;
-use crate::syntax::ast::{self, AspectKind, Ident, Item, ItemKind, LearnEntry, WorldEntryKind};
+use crate::syntax::ast::{self, Ident, Item, ItemKind, WorldEntryKind};
 use rustc_hash::FxHashSet;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -107,24 +108,31 @@ impl<'a> Checker<'a> {
         if reached.is_empty() {
             return;
         }
-        let shut = grid.shut_in(world, &free, &reached);
-        for at in anywhere.iter().filter(|_| shut >= SHUT_IN) {
-            let message = "an episode may start where walls shut the robot in";
-            self.warning(Code::W0310, *at, message)
-                .label(format!(
-                    "{:.0} % of the free arena: no way leads from there to where the robot is sent",
-                    (100.0 * shut).max(1.0)
-                ))
-                .help("leave a way out, fill that part with a wall, or start in a place: `pose = anywhere(PLACE)`");
-        }
-        for (name, span, place) in wanted {
+        let is_reached = |place: &Place| {
             let near =
                 |at: Point| place.shape.contains(at) || clearance(&place.shape, at) <= grid.step;
-            if !reached.iter().any(|cell| near(grid.center(*cell))) {
-                let message = format!("no way leads{from} to the place `{}`", name.name);
-                self.warning(Code::W0401, span, message)
-                    .label("the robot does not fit through to it");
-            }
+            reached.iter().any(|cell| near(grid.center(*cell)))
+        };
+        let apart = wanted.iter().filter(|(.., place)| !is_reached(place));
+        let apart: Vec<_> = apart.collect();
+        for (name, span, _) in &apart {
+            let message = format!("no way leads{from} to the place `{}`", name.name);
+            self.warning(Code::W0401, *span, message)
+                .label("the robot does not fit through to it");
+        }
+        // Where a place is apart, that is why a start may be.
+        let shut = match apart.is_empty() {
+            true => grid.shut_in(world, &free, &reached),
+            false => 0.0,
+        };
+        for at in anywhere.iter().filter(|_| shut >= SHUT_IN) {
+            let message = "an episode may start where walls shut the robot in";
+            let part = 100.0 * shut;
+            self.warning(Code::W0310, *at, message)
+                .label(format!(
+                    "about {part:.1} % of the free arena: no way leads from there to where the robot is sent"
+                ))
+                .help("leave a way out, fill that part with a wall, or start in a place: `pose = anywhere(PLACE)`");
         }
     }
 
@@ -214,28 +222,11 @@ impl<'a> Checker<'a> {
 
 /// The lines of an item by which episodes start anywhere.
 fn anywhere(item: &Item) -> Vec<Span> {
-    let starts: Vec<&ast::Start> = match &item.kind {
-        ItemKind::Task(task) => {
-            let starts = task.aspects.iter().filter_map(|aspect| match &aspect.kind {
-                AspectKind::Start(start) => Some(start),
-                _ => None,
-            });
-            starts.collect()
-        }
-        ItemKind::Learn(learn) => {
-            let starts = learn.entries.iter().filter_map(|entry| match entry {
-                LearnEntry::Start(start) => Some(start),
-                _ => None,
-            });
-            starts.collect()
-        }
-        _ => Vec::new(),
-    };
     let is_anywhere = |value: &&ast::Expr| {
         let named = plain_ref(value);
         named.is_some_and(|it| it.name.name == Constant::Anywhere.name() && it.args.is_none())
     };
-    let lines = starts.into_iter().flat_map(|start| &start.lines);
+    let lines = starts(item).into_iter().flat_map(|start| &start.lines);
     let values = lines
         .filter(|line| line.target.name.name == "pose" && line.target.args.is_none())
         .map(|line| &line.value);

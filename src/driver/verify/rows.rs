@@ -88,7 +88,7 @@ fn against(
             None => allowed::as_tree((&mut policy, &read), root),
         };
         if taken.is_none() {
-            let message = "rows that allow several behaviours are compared with trees without memory, minterm by minterm";
+            let message = "rows that allow several behaviours are compared with trees without memory, which may divide them into a million parts";
             return Err(allowed::refused(text, read.header.clone(), message));
         }
     }

@@ -10,21 +10,19 @@ use crate::ir::law::Behavior;
 use crate::ir::program::Predicate;
 use crate::ir::tree::{Atom, Tree};
 use crate::ir::{Id, Name, Program};
-use crate::policy::Minterm;
 use crate::policy::table::AtomName;
 use crate::policy::valued::{Column, Columns, Holds, Kind, OPEN, Test, Valued};
 use crate::report::verdict::Answer;
 use crate::report::words::counted;
 use crate::source::Span;
 use crate::tree::atoms::atoms;
-use crate::tree::cube::{Cube, Reader};
+use crate::tree::cube::{Cube, Reader, positions};
 use crate::tree::tick::Runner;
-use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// The most parts of rows that leave inputs open which are looked at.
-const PARTS: usize = 1 << 24;
+const PARTS: usize = 1 << 20;
 
 /// The most rows to list that a tree decides otherwise.
 const LISTED: usize = 10;
@@ -67,17 +65,6 @@ pub fn no_transitions(text: Text) -> Refused {
     })
 }
 
-/// Whether a bit is set.
-fn has(words: &[u64], at: usize) -> bool {
-    let word = words.get(at / 64).copied().unwrap_or(0);
-    word >> (at % 64) & 1 == 1
-}
-
-/// A minterm of so many atoms.
-fn minterm(atoms: usize, holds: impl Fn(usize) -> bool) -> Minterm {
-    Minterm::new((0..atoms).map(holds))
-}
-
 /// A tree and the table that it is compared with.
 struct Sides<'a> {
     program: &'a Program,
@@ -97,8 +84,7 @@ impl Sides<'_> {
         let names: Vec<&str> = values.behaviors().collect();
         let of = |behavior: Id<Behavior>| self.program.behaviors[behavior].name.bare();
         let mut wrong: Vec<(usize, Option<Id<Behavior>>)> = Vec::new();
-        let positions = asked.iter().enumerate().map(|(at, atom)| (*atom, at));
-        let positions: FxHashMap<Atom, usize> = positions.collect();
+        let positions = positions(asked);
         let reader = Reader::new(&self.tree.root);
         let (mut left, mut stopped) = (PARTS, None);
         let each = values.cubes(tests, |row, words, fields| {
@@ -122,10 +108,7 @@ impl Sides<'_> {
                     return;
                 }
             };
-            let open = fields.iter().map(|field| &field.atoms);
-            let free = minterm(asked.len(), |at| open.clone().any(|atoms| has(atoms, at)));
-            let held = minterm(asked.len(), |at| has(words, at));
-            let mut cube = Cube::new(&held, Some(&free), &positions, fields);
+            let mut cube = Cube::of_fields(words, &positions, fields);
             let mut say = |_: &Cube, selected: Option<Id<Behavior>>| {
                 let right = is_right(selected);
                 if !right {

@@ -17,11 +17,16 @@ fn most_written_out(mut counts: Vec<usize>) -> usize {
     counts.retain(|count| *count > 1);
     counts.sort_unstable();
     let mut all = 0_usize;
-    let fit = counts.into_iter().take_while(|count| {
-        all = all.saturating_add(*count);
+    // Those that stand for as many are written out together, or none of them is.
+    let alike = counts.chunk_by(|a, b| a == b).filter_map(|alike| {
+        let count = *alike.first()?;
+        Some((count, count.saturating_mul(alike.len())))
+    });
+    let fit = alike.take_while(|(_, together)| {
+        all = all.saturating_add(*together);
         all <= WRITTEN_OUT
     });
-    fit.last().unwrap_or(1)
+    fit.last().map_or(1, |(count, _)| count)
 }
 
 /// An atom, with how it follows from a row.
@@ -242,5 +247,26 @@ impl Valued {
             let [a, b] = same;
             (a == b && one != other).then(|| [one.to_string(), other.to_string()])
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{WRITTEN_OUT, most_written_out};
+    use proptest::prelude::*;
+
+    proptest! {
+        /// However many rows stand for as many, all that are written out keep the limit.
+        #[test]
+        fn what_is_written_out_keeps_its_limit(counts in prop::collection::vec(prop_oneof![1_usize..40, 1_usize..9000], 0..600)) {
+            let most = most_written_out(counts.clone());
+            let out = counts.iter().filter(|count| **count > 1 && **count <= most);
+            prop_assert!(out.sum::<usize>() <= WRITTEN_OUT);
+            // One more kind of row would not.
+            if let Some(next) = counts.iter().filter(|count| **count > most).min() {
+                let out = counts.iter().filter(|count| **count > 1 && *count <= next);
+                prop_assert!(out.sum::<usize>() > WRITTEN_OUT);
+            }
+        }
     }
 }

@@ -7,9 +7,8 @@
 use super::{Decanonicalised, Options, searched};
 use crate::logic::random::Random;
 use crate::policy::{Minterm, Policy, Row};
-use crate::tree::cube::{Cube, Reader, Spent};
+use crate::tree::cube::{Cube, Reader, Spent, positions};
 use crate::tree::prove::Prover;
-use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
 
 /// The minterms that stand for the cubes at first.
@@ -27,8 +26,7 @@ pub(super) fn tree(policy: &Policy, options: &Options) -> Option<Decanonicalised
     if !policy.transitions.is_empty() {
         return None;
     }
-    let positions = policy.atoms.iter().enumerate();
-    let positions: FxHashMap<_, _> = positions.map(|(at, atom)| (*atom, at)).collect();
+    let positions = positions(&policy.atoms);
     let cube = |row: &Row| {
         let free = row.free.as_ref();
         Cube::new(&row.minterm, free, &positions, &policy.fields)
