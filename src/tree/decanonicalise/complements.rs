@@ -81,8 +81,8 @@ fn rest(problem: &Problem, atoms: &[Atom]) -> Option<(Vec<Atom>, Vec<Atom>)> {
     }
     // Those of one input stand together.
     let known = &problem.policy.atoms;
-    let place = |atom: &Atom| known.iter().position(|known| known == atom);
-    let near = group.first().and_then(place)?;
+    let place = |atom: &&Atom| known.iter().position(|known| known == *atom);
+    let near = group.first().and_then(|atom| place(&atom))?;
     let mut others: Vec<(usize, &Atom)> = known.iter().enumerate().collect();
     others.sort_by_key(|(at, _)| at.abs_diff(near));
     let whole = problem.all();
@@ -90,12 +90,15 @@ fn rest(problem: &Problem, atoms: &[Atom]) -> Option<(Vec<Atom>, Vec<Atom>)> {
         let rows = problem.column(*atom)?;
         if !group.contains(atom) && !rows.is_empty() && union.is_disjoint(rows) {
             union.unite(rows);
-            rest.push(*atom);
+            rest.push(atom);
         }
         if rest.len() >= group.len() {
             return None;
         }
         if union == whole {
+            // Named in the order in which they are declared.
+            rest.sort_by_key(place);
+            let rest: Vec<Atom> = rest.into_iter().copied().collect();
             return (!rest.is_empty()).then_some((group, rest));
         }
     }
