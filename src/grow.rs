@@ -23,6 +23,7 @@ pub mod propose;
 pub mod race;
 pub mod reader;
 mod step;
+mod survey;
 mod tested;
 
 use crate::checkpoint::{Keeper, Part};

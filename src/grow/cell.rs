@@ -143,6 +143,29 @@ impl Cell {
         }
     }
 
+    /// Whether a decision was rewarded, or ended the episode without harm, which may have been its aim.
+    pub(super) fn is_good(&self) -> bool {
+        self.reward > self.losses || self.ends > self.harms
+    }
+
+    /// The mean reward.
+    pub(super) fn reward(&self) -> f64 {
+        self.reward / self.count.max(1.0)
+    }
+
+    /// What follows a decision, whatever it is worth.
+    pub(super) fn leads(&self, sight: Sight) -> Outlook {
+        let n = self.count.max(1.0);
+        let next = self.next.iter();
+        Outlook {
+            reward: 0.0,
+            ticks: self.ticks(),
+            next: next
+                .map(|(row, _, factors)| (*row, sight.of(factors) / n))
+                .collect(),
+        }
+    }
+
     /// The variance of what one decision is worth.
     pub(super) fn variance(&self, sight: Sight, value: impl Fn(usize) -> f64) -> f64 {
         let n = self.count;

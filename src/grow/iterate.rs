@@ -10,6 +10,7 @@ mod plan;
 
 use super::evidence::{Cell, Evidence, Sight, Visits};
 use super::ground::{Ground, does_more_harm};
+use super::survey::survey;
 use crate::checkpoint::Part;
 use crate::ir::Id;
 use crate::ir::law::Behavior;
@@ -190,6 +191,7 @@ impl<W: World> Iteration<'_, '_, W> {
             }
             if round == 1 {
                 ticks += self.know_others(&mut evidence);
+                ticks += survey(self.ground, &mut evidence, self.effort);
                 ticks += self.act(&mut evidence, &mut base);
             }
             base.played.clear();

@@ -41,7 +41,10 @@ pub(super) fn warnings(loaded: &Loaded, results: &Results) -> Vec<Diagnostic> {
     let Some(run) = results.run() else {
         return Vec::new();
     };
-    if !run.record.rewarded {
+    // What training never met may be met since.
+    let total = &results.printed().summary.total;
+    let pays = total.mean != 0.0 || total.ci95 != [0.0, 0.0];
+    if !run.record.rewarded && !pays {
         return vec![warner.worthless()];
     }
     let mut found = warner.never_succeeded();

@@ -78,6 +78,23 @@ fn the_figures_of_an_exact_tree_are_its_own() {
     );
 }
 
+/// A reward that takes many behaviours in a row is found, however seldom random ones get there.
+#[test]
+fn a_far_reward_is_found() {
+    let options = Options {
+        shape: Shape::Grown,
+        effort: 10_000_000,
+        ..OPTIONS
+    };
+    let learned = learned_as("far_reward", options);
+    assert!(returns("far_reward", &learned) > 9.0, "{}", learned.text);
+    assert!(
+        (learned.warnings.iter()).all(|found| found.code != Code::W0505),
+        "{:?}",
+        learned.warnings
+    );
+}
+
 /// A policy that waits where a behaviour fails is not given up for one that acts and earns less.
 #[test]
 fn waiting_is_not_given_up_unseen() {
