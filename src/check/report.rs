@@ -99,6 +99,14 @@ impl<'d> Draft<'d> {
         }
     }
 
+    /// Points at another place, too, if there is one.
+    pub fn also_if(self, place: Option<Span>, message: &str) -> Self {
+        match place {
+            Some(place) => self.also(place, message),
+            None => self,
+        }
+    }
+
     /// Offers to replace the text of a span, if there is anything to offer: the title, the span and the new text.
     pub fn fix_if(self, fix: Option<(String, Span, String)>) -> Self {
         match fix {
@@ -280,5 +288,9 @@ pub fn listed(names: &[&str], word: &str) -> String {
 
 /// A number to three places: a length to the millimetre.
 pub fn short(number: f64) -> f64 {
-    (number * 1000.0).round() / 1000.0
+    let digits = match number.abs() {
+        small if small > 0.0 && small < 0.01 => 1e6,
+        _ => 1e3,
+    };
+    (number * digits).round() / digits
 }

@@ -73,6 +73,7 @@ codes! {
     E0131 "a letter that a name cannot have",
     E0132 "too much text",
     E0133 "a field that nothing has",
+    E0134 "a conflict of a merge",
 
     E0201 "declared twice",
     E0202 "not declared",
@@ -161,6 +162,7 @@ codes! {
 
     W0101 "a character that is not seen",
     W0102 "a sign that is not what it looks like",
+    W0103 "a guard with its node on the next line",
 
     W0201 "a name that nothing reads",
     W0202 "a state that is set and never read",

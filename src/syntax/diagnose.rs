@@ -19,6 +19,7 @@ use ends::OPEN_ENDS;
 pub(super) use ends::{ends_after, unfinished};
 pub(super) use foreign::{dashed, other_comment};
 pub(super) use units::{no_such_unit, one_unit, units_note};
+pub(super) use words::end_is_missing;
 
 use super::brackets::{innermost_open, unclosed};
 use super::expected;
@@ -73,6 +74,9 @@ pub(super) fn failure(
     if let Some(diagnostic) = place.comment() {
         return (failure.at, diagnostic);
     }
+    if let Some(diagnostic) = place.look_alike() {
+        return (failure.at, diagnostic);
+    }
     if let Some((last, diagnostic)) = place.cut_before() {
         return (last.end, diagnostic);
     }
@@ -90,8 +94,7 @@ pub(super) fn failure(
         };
     }
     let diagnostic = place
-        .look_alike()
-        .or_else(|| place.letters())
+        .letters()
         .or_else(|| place.outcome())
         .or_else(|| place.unclosed())
         .or_else(|| place.text())

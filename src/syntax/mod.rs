@@ -4,6 +4,7 @@ pub mod ast;
 mod brackets;
 mod build;
 mod comments;
+mod conflicts;
 mod diagnose;
 mod expected;
 mod follow_ups;

@@ -2,6 +2,7 @@
 
 use super::ast::{File, Item, ItemKind, Lost};
 use super::comments::comments;
+use super::conflicts::{Conflict, conflicts};
 use super::diagnose::{dashed, other_comment};
 use super::follow_ups;
 use super::nesting;
@@ -41,6 +42,10 @@ fn parse_after(
     file: FileId,
     text: &str,
 ) -> ((File, Vec<Diagnostic>), Option<Read>) {
+    let conflicts = conflicts(text);
+    if !conflicts.is_empty() {
+        return with_one_side(before, file, text, &conflicts);
+    }
     let dashed = dashed(text);
     if !dashed.is_empty() {
         return without_dashes(before, file, text, &dashed);
@@ -105,6 +110,31 @@ fn without_dashes(
     let ((tree, mut found), read) = parse_after(before, file, &meant);
     let marks = dashed.iter().map(|at| Span::new(file, *at, at + 2));
     found.extend(marks.map(|mark| other_comment(mark, "--")));
+    diagnostic::sort(&mut found);
+    ((tree, found), read)
+}
+
+/// The tree of a text with conflicts of a merge, of each of which the first side is read.
+fn with_one_side(
+    before: Option<&Read>,
+    file: FileId,
+    text: &str,
+    conflicts: &[Conflict],
+) -> ((File, Vec<Diagnostic>), Option<Read>) {
+    let mut meant = String::with_capacity(text.len());
+    let mut end = 0;
+    for left_out in conflicts.iter().flat_map(Conflict::left_out) {
+        meant += text.get(end..left_out.start).unwrap_or_default();
+        let blanked = text.get(left_out.clone()).unwrap_or_default();
+        meant.extend(blanked.bytes().map(|byte| match byte {
+            b'\n' => '\n',
+            _ => ' ',
+        }));
+        end = left_out.end;
+    }
+    meant += text.get(end..).unwrap_or_default();
+    let ((tree, mut found), read) = parse_after(before, file, &meant);
+    found.extend(conflicts.iter().map(|conflict| conflict.told(file)));
     diagnostic::sort(&mut found);
     ((tree, found), read)
 }

@@ -78,7 +78,10 @@ impl<'a> Checker<'a> {
                     span,
                     format!("the event `{name}` cannot be asked in {}", region.name()),
                 )
-                .label("events are known to events, effects and rewards only")
+                .label(match region {
+                    Region::EachTick => "what happens in a tick is found out later in it",
+                    _ => "events are known to events, effects and rewards only",
+                })
                 .help("remember it in a state: `on EVENT { seen = true }`")
                 .none();
         }

@@ -24,11 +24,21 @@ impl<'a> Checker<'a> {
             C::Visits => return Some(self.leaf(Expr::Visits, Type::NUMBER, span)),
             C::Progress => return Some(self.leaf(Expr::Progress, Type::NUMBER, span)),
             C::Elapsed if !region.in_behavior() && region != Region::Let => {
-                let message = format!("`{name}` cannot be asked in {}", region.name());
+                // An end is read as a reward is.
+                let (place, limit) = match region {
+                    Region::Reward => (
+                        "here",
+                        Some("an episode ends after a time by `end after 10 min`"),
+                    ),
+                    region => (region.name(), None),
+                };
+                let within = if limit.is_some() { "" } else { "in " };
+                let message = format!("`{name}` cannot be asked {within}{place}");
                 return self
                     .error(Code::E0307, span, message)
                     .label("how long a behaviour runs, known to it alone")
                     .help("time is counted in a state: `each tick { waited += tick }`")
+                    .help_if(limit.map(str::to_owned))
                     .none();
             }
             _ => {}

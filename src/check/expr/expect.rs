@@ -11,7 +11,7 @@ use crate::diagnostic::{Applicability, Code, suggest};
 use crate::ir::expr::ExprId;
 use crate::source::Span;
 use crate::spelling::spelled;
-use crate::syntax::ast::{ArgKind, BinaryOp, Expr, ExprKind, LetBody, Ref};
+use crate::syntax::ast::{ArgKind, BinaryOp, Choice, Expr, ExprKind, LetBody, Otherwise, Ref};
 use crate::syntax::print;
 
 impl<'a> Checker<'a> {
@@ -219,7 +219,7 @@ impl<'a> Checker<'a> {
     }
 
     /// The number that a name stands for, if it is written as one.
-    fn plain_constant(&self, expr: &Expr) -> Option<&'a Expr> {
+    pub(super) fn plain_constant(&self, expr: &Expr) -> Option<&'a Expr> {
         let reference = plain_ref(expr).filter(|reference| reference.args.is_none())?;
         let name = reference.name.name.as_str();
         if self.context.lookup(name).is_some() {
@@ -231,6 +231,14 @@ impl<'a> Checker<'a> {
                 LetBody::Yield(_) => None,
             },
             _ => None,
+        }
+    }
+
+    fn plain_ratios_of(&mut self, choice: &Choice, wanted: &Type) {
+        self.warn_plain_ratio(&choice.then.value, wanted);
+        match &choice.otherwise {
+            Otherwise::If(choice, _) => self.plain_ratios_of(choice, wanted),
+            Otherwise::Yield(value) => self.warn_plain_ratio(&value.value, wanted),
         }
     }
 
@@ -263,6 +271,17 @@ impl<'a> Checker<'a> {
                     ArgKind::Named(..) | ArgKind::Binder { .. } => {}
                 }
             }
+        }
+        match &expr.kind {
+            ExprKind::Paren(inner) => self.warn_plain_ratio(inner, wanted),
+            ExprKind::If(choice) => self.plain_ratios_of(choice, wanted),
+            ExprKind::Binary { op, left, right }
+                if matches!(op.node, BinaryOp::Add | BinaryOp::Sub) =>
+            {
+                self.warn_plain_ratio(left, wanted);
+                self.warn_plain_ratio(right, wanted);
+            }
+            _ => {}
         }
         if let Some(named) = self.plain_constant(expr) {
             self.plain_ratios.insert(named.span, named);

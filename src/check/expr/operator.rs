@@ -466,15 +466,19 @@ impl<'a> Checker<'a> {
         };
         let message = format!("{one} cannot be {verb} {other}");
         // The side without a unit is the likely mistake.
-        let (wrong, expr, fine, dim) = if x == Dim::NONE && is_literal(left) {
-            (&a, left, &b, y)
-        } else {
-            (&b, right, &a, x)
+        let declared = [left, right].map(|side| self.plain_constant(side));
+        let (wrong, expr, fine, dim) = match declared {
+            [Some(number), _] if x == Dim::NONE => (&a, number, &b, y),
+            [None, _] if x == Dim::NONE && is_literal(left) => (&a, left, &b, y),
+            [_, Some(number)] if y == Dim::NONE => (&b, number, &a, x),
+            _ => (&b, right, &a, x),
         };
         let at = wrong.span;
+        let elsewhere = (expr.span != left.span && expr.span != right.span).then_some(expr.span);
         self.error(Code::E0301, at, message)
             .this_is(&wrong.ty)
             .also(fine.span, format!("this is {}", fine.ty))
+            .also_if(elsewhere, "declared without a unit")
             .unit_for(expr, Some(dim))
             .minutes(expr, Some(dim))
             .emit();

@@ -51,6 +51,8 @@ pub enum About {
     At(Pose),
     /// Whether a behaviour has ended in this tick, and how.
     Ended(Id<Behavior>),
+    /// What the only entry of the history is, by the bits of [`entry`].
+    Last,
 }
 
 /// What a literal says.
@@ -250,8 +252,30 @@ pub fn of_guard(program: &Program, guard: &Guard, wanted: bool) -> Cases {
             let view = View::of(program, &program.predicates[*id].name);
             of_expr(view, when, wanted)
         }
-        Guard::Atom(atom) => Cases::one(About::Atom(*atom), Says::Is(wanted)),
+        Guard::Atom(atom) => match entry(program, *atom) {
+            Some(bit) => {
+                let among = if wanted { bit } else { !bit };
+                Cases::one(About::Last, Says::Among(among))
+            }
+            None => Cases::one(About::Atom(*atom), Says::Is(wanted)),
+        },
     }
+}
+
+/// The bit of what the history says by `done(b)` or `failed(b)`, where all histories of the program have one entry: no two
+/// of these hold at once. The last bit is left for a history in which nothing stands yet.
+pub fn entry(program: &Program, atom: Atom) -> Option<u64> {
+    let (behavior, failed) = match atom {
+        Atom::Predicate(_) => return None,
+        Atom::Done(behavior) => (behavior, false),
+        Atom::Failed(behavior) => (behavior, true),
+    };
+    let at = 2 * behavior.index() + usize::from(failed);
+    let single = program
+        .tasks
+        .iter()
+        .all(|(_, task)| task.history.window <= 1);
+    (program.world.is_some() && single && at + 1 < u64::BITS as usize).then(|| 1 << at)
 }
 
 /// Reads conditions.
@@ -426,7 +450,7 @@ fn truth(pool: &Pool, id: ExprId) -> Option<bool> {
 }
 
 /// A comparison with a constant: what is compared, and in which intervals it has to be.
-fn comparison(
+pub(super) fn comparison(
     pool: &Pool,
     op: Binary,
     a: ExprId,

@@ -4,17 +4,20 @@ use crate::check::Checker;
 use crate::check::tree::written;
 use crate::diagnostic::Code;
 use crate::ir::Id;
-use crate::ir::task::{ClaimKind, Occurrence, Task, TreeRef};
+use crate::ir::task::{self, ClaimKind, Occurrence, Task, TreeRef};
 use crate::ir::tree::Atom;
+use crate::source::Span;
 use crate::syntax::ast::{Claim, ClaimWhat, Ident, Item, ItemKind};
 
 impl<'a> Checker<'a> {
     /// Warns of claims that speak of more time than there is, or cannot hold.
     pub fn claims_in_vain(&mut self, items: impl Iterator<Item = &'a Item>) {
+        let mut earlier: Vec<(Span, task::Claim)> = Vec::new();
         for item in items {
             let ItemKind::Claim(claim) = &item.kind else {
                 continue;
             };
+            let at = claim.tree.span.to(item.span);
             let text = written(claim);
             let checked = self.program.claims.iter().find(|found| found.text == text);
             let Some(checked) = checked.cloned() else {
@@ -30,6 +33,19 @@ impl<'a> Checker<'a> {
                 ClaimKind::Never(occurrence) | ClaimKind::Reaches(occurrence) => {
                     self.beyond_episodes(claim, checked.tree, occurrence);
                 }
+            }
+            match earlier.iter().find(|(_, it)| contradict(it, &checked)) {
+                Some((first, _)) => {
+                    let first = *first;
+                    self.warning(
+                        Code::W0526,
+                        at,
+                        "no tree satisfies this claim and another one",
+                    )
+                    .label("this contradicts what is claimed above")
+                    .also(first, "the other claim");
+                }
+                None => earlier.push((at, checked)),
             }
         }
     }
@@ -92,4 +108,23 @@ impl<'a> Checker<'a> {
         let only = || program.tasks.ids().next();
         own.or_else(|| only().filter(|_| program.tasks.len() == 1))
     }
+}
+
+/// Whether two claims on one tree cannot both hold: more of its episodes would have to be with an event and without it than
+/// there are.
+fn contradict(one: &task::Claim, other: &task::Claim) -> bool {
+    let (never, reaches) = match (&one.kind, &other.kind) {
+        (ClaimKind::Never(never), ClaimKind::Reaches(reaches))
+        | (ClaimKind::Reaches(reaches), ClaimKind::Never(never)) => (never, reaches),
+        _ => return false,
+    };
+    let no_longer = match (never.within, reaches.within) {
+        (None, _) => true,
+        (Some(_), None) => false,
+        (Some(never), Some(reaches)) => reaches <= never,
+    };
+    one.tree == other.tree
+        && never.event == reaches.event
+        && no_longer
+        && never.probability + reaches.probability > 1.0
 }

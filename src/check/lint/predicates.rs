@@ -11,9 +11,9 @@ use crate::ir::expr::ExprId;
 use crate::ir::program::Predicate;
 use crate::ir::world::Robot;
 use crate::ir::{Id, Name, Program};
-use crate::source::Span;
 use crate::spelling::spelled;
 use crate::syntax::ast::{AspectKind, BehaviorBody, ClauseKind, Expr, Item, ItemKind, Ref, Task};
+use crate::syntax::print;
 use std::collections::{BTreeMap, BTreeSet};
 
 impl<'a> Checker<'a> {
@@ -218,12 +218,14 @@ impl<'a> Checker<'a> {
                 };
                 if let Some(part) = self.unread_part(task, test, &told) {
                     let message = format!(
-                        "the task `{}` observes nothing of what `{}` requires",
-                        task.name.name, chosen.name.name
+                        "the task `{}` observes nothing of `{}`, which `{}` requires",
+                        task.name.name,
+                        print::expr(part),
+                        chosen.name.name
                     );
                     self.warning(Code::W0514, chosen.span, message)
                         .label("where it does not hold, this fails, and the policy cannot tell why")
-                        .also(part, "required here");
+                        .also(part.span, "required here");
                     continue;
                 }
                 for reference in test.conjuncts().into_iter().filter_map(plain_ref) {
@@ -248,7 +250,7 @@ impl<'a> Checker<'a> {
 
     /// The part of a requirement that names no predicate, and reads states or places that are not among those of which the task is
     /// told. Where the robot has been, its history tells.
-    fn unread_part(&self, task: &Task, test: &'a Expr, told: &BTreeSet<&str>) -> Option<Span> {
+    fn unread_part(&self, task: &Task, test: &'a Expr, told: &BTreeSet<&str>) -> Option<&'a Expr> {
         let id = self.program.tasks.named(&Name::word(&task.name.name))?;
         let remembers = self.program.tasks[id].history.window > 0;
         let unread = |part: &&'a Expr| {
@@ -262,8 +264,7 @@ impl<'a> Checker<'a> {
             });
             !named && !read.is_empty() && tells && read.is_disjoint(told)
         };
-        let part = test.conjuncts().into_iter().find(unread);
-        part.map(|part| part.span)
+        test.conjuncts().into_iter().find(unread)
     }
 
     /// Whether another predicate of the list says what the one of this name does.

@@ -75,6 +75,10 @@ impl Starting {
     }
 }
 
+/// What is so in the tick in which a behaviour starts.
+const AS_IT_STARTS: &str =
+    "as it starts, `elapsed` is 0, and each local has the value of its declaration";
+
 impl<'a> Checker<'a> {
     /// Notes where a program calls a behaviour of the library.
     pub fn calls_library(
@@ -237,9 +241,17 @@ impl<'a> Checker<'a> {
         };
         let succeeds_as_it_starts = as_it_starts(|law| law.succeed);
         let fails_as_it_starts = as_it_starts(|law| law.fail);
+        let refused_as_it_starts = every(&|view, law| {
+            let starts = starting.case(view, law);
+            starts.and(&of_expr(view, law.requires, true)).is_never()
+        });
         if let (true, Some(at)) = (requires_never, requires) {
             self.warning(Code::W0302, at, "this behaviour never runs")
                 .label("what it requires never holds, so it fails at once");
+        } else if let (true, Some(at)) = (refused_as_it_starts, requires) {
+            self.warning(Code::W0302, at, "this behaviour never runs")
+                .label("what it requires does not hold as it starts, so it fails at once")
+                .note(AS_IT_STARTS);
         } else if let (true, Some(at), Some(control)) = (at_once, succeed, drives) {
             self.warning(Code::W0302, control, "this control law never runs")
                 .label("never reached")
@@ -311,7 +323,7 @@ impl<'a> Checker<'a> {
             format!("this behaviour {ends} as soon as it starts"),
         )
         .label("this holds from the start")
-        .note("as it starts, `elapsed` is 0, and each local has the value of its declaration")
+        .note(AS_IT_STARTS)
         .help("what is waited for holds later only, such as `elapsed >= 2 s`");
     }
 

@@ -1,7 +1,7 @@
 //! Rewards that are never paid, ends that count for nothing, and times that never pass.
 
 use super::cases::{About, Case, Cases, Says, of_expr};
-use super::repaid;
+use super::repaid::{self, Setters};
 use super::tree::as_it_succeeds;
 use crate::check::Checker;
 use crate::check::expr::plain_ref;
@@ -24,18 +24,24 @@ impl<'a> Checker<'a> {
     /// Warns of what a task says about rewards, ends and times without any effect.
     pub fn rewards_without_effect(&mut self, items: impl Iterator<Item = &'a Item>) {
         let happen = self.families_that_happen();
+        let setters = Setters::of(&self.program);
         for item in items {
             let ItemKind::Task(task) = &item.kind else {
                 continue;
             };
             let name = Name::word(&task.name.name);
             if let Some(id) = self.program.tasks.named(&name) {
-                self.rewards_of(task, id, &happen);
+                self.rewards_of(task, id, (&happen, &setters));
             }
         }
     }
 
-    fn rewards_of(&mut self, task: &'a ast::Task, id: Id<Task>, happen: &BTreeSet<String>) {
+    fn rewards_of(
+        &mut self,
+        task: &'a ast::Task,
+        id: Id<Task>,
+        (happen, setters): (&BTreeSet<String>, &Setters),
+    ) {
         let checked = self.program.tasks[id].clone();
         let mut ends = 0;
         let paid = self.cases_of(checked.reward.iter().map(|line| &line.event));
@@ -43,7 +49,7 @@ impl<'a> Checker<'a> {
         for aspect in &task.aspects {
             match &aspect.kind {
                 AspectKind::Reward { lines, otherwise } => {
-                    self.lines_without_effect(lines, id, &checked, happen);
+                    self.lines_without_effect(lines, (id, &checked), happen, setters);
                     self.prices_twice(lines);
                     let values = checked.reward.iter().map(|line| line.value);
                     let prices = checked.prices.iter().map(|price| price.per_second);
@@ -83,9 +89,9 @@ impl<'a> Checker<'a> {
     fn lines_without_effect(
         &mut self,
         lines: &'a [RewardLine],
-        id: Id<Task>,
-        checked: &Task,
+        (id, checked): (Id<Task>, &Task),
         happen: &BTreeSet<String>,
+        setters: &Setters,
     ) {
         let mut before: Vec<(Span, Cases)> = Vec::new();
         let ends: Vec<Cases> = self.cases_of(&checked.end_on);
@@ -135,8 +141,12 @@ impl<'a> Checker<'a> {
             if let Paid::On(condition) = &line.paid
                 && !ends
             {
+                let known = self.diagnostics.len();
                 self.pays_again_and_again(condition);
-                self.pays_for_standing(condition.span, checked, place);
+                if self.diagnostics.len() == known {
+                    self.pays_for_standing(condition.span, (checked, place), setters);
+                    self.pays_for_lasting(condition.span, (checked, place), setters);
+                }
             }
             if let Some(run) = &run {
                 self.pays_for_others(here, run, &cases);

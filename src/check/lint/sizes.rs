@@ -6,10 +6,14 @@ use crate::diagnostic::Code;
 use crate::geometry::{Shape, minus};
 use crate::ir::Name;
 use crate::ir::world::{Robot, SensorKind, World};
+use crate::source::Span;
 use crate::syntax::ast::{self, Item, ItemKind, RobotEntryKind, WorldEntryKind};
 
 /// A robot hardly moves that does not get so part of the way through the arena.
 const NEAR: f64 = 5.0;
+
+/// A tick of so many seconds is likely a mistake.
+const LONG_TICK: f64 = 1.0;
 
 impl<'a> Checker<'a> {
     /// Warns of robots that cross the arena in a tick, of sensors that see no wall, and of places that are everywhere.
@@ -23,6 +27,9 @@ impl<'a> Checker<'a> {
             };
             for entry in &declared.entries {
                 match &entry.kind {
+                    WorldEntryKind::Field(field) if field.name.name == "tick" => {
+                        self.tick_out_of_proportion(&world, field.value.span);
+                    }
                     WorldEntryKind::Robot { name, entries, .. } => {
                         let named = |robot: &&Robot| robot.name.is(&name.name);
                         if let Some(robot) = world.robots().find(named) {
@@ -56,6 +63,19 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// A tick of seconds, in which a robot crosses the arena, is the mistake.
+    fn tick_out_of_proportion(&mut self, world: &World, at: Span) {
+        let (low, high) = world.arena.bounds();
+        let [width, height] = minus(high, low);
+        let speeds = world.robots().map(|robot| robot.drive.max_speed);
+        let step = speeds.fold(0.0, f64::max) * world.tick;
+        if step >= width.min(height) && world.tick >= LONG_TICK {
+            self.warning(Code::W0402, at, "a robot may cross the arena in one tick")
+                .label(format!("it may go {} m in this time", short(step)))
+                .help("most ticks are some milliseconds long, such as `100 ms`");
+        }
+    }
+
     fn sizes_of(&mut self, world: &World, robot: &Robot, entries: &'a [ast::RobotEntry]) {
         let (low, high) = world.arena.bounds();
         let [width, height] = minus(high, low);
@@ -63,7 +83,7 @@ impl<'a> Checker<'a> {
             match &entry.kind {
                 RobotEntryKind::Field(field) if field.name.name == "drive" => {
                     let step = robot.drive.max_speed * world.tick;
-                    if step >= width.min(height) {
+                    if step >= width.min(height) && world.tick < LONG_TICK {
                         let message = "the robot may cross the arena in one tick";
                         let label = format!("{} m in a tick of {} s", short(step), world.tick);
                         self.warning(Code::W0402, field.value.span, message)

@@ -3,7 +3,7 @@
 //! Within a tick predicates do not change: a node is reached where all that stands before it gives way. What drives and
 //! fails gives way, too, so only what can never fail shuts off what follows it in a selector.
 
-use super::cases::{About, Cases, Says, conjuncts, of_expr, of_guard};
+use super::cases::{About, Cases, Says, conjuncts, entry, of_expr, of_guard};
 use super::idle::is_switch;
 use super::mentions::Mentions;
 use super::repaid::lasts;
@@ -217,9 +217,16 @@ impl<'a> Checker<'a> {
             let asked = self.asked_by(guard);
             let cause = self.cause(&asked, &|program| never(program, wanted));
             if !self.has_told(cause, written.span) {
+                let mut ends = 0;
+                guard.visit_atoms(&mut |atom| {
+                    ends += usize::from(entry(&self.program, atom).is_some())
+                });
+                let of_one_end = ends > 1 && says == "never";
+                let one_end = "`history last 1` keeps a single end: no two of these hold at once";
                 let message = format!("this guard {says} holds");
                 self.warning(Code::W0601, written.span, message)
-                    .label("it asks nothing");
+                    .label("it asks nothing")
+                    .help_if(of_one_end.then(|| one_end.to_owned()));
                 self.tells(cause);
             }
         }
@@ -361,7 +368,7 @@ fn where_it_succeeds(program: &Program, id: Id<Behavior>) -> Cases {
         case.retain(|about, _| match about {
             About::At(_) => true,
             About::Truth(id) | About::Number(id) => lasts(program, *id),
-            About::Atom(_) | About::Ended(_) => false,
+            About::Atom(_) | About::Ended(_) | About::Last => false,
         });
     }
     Cases::Some(cases)

@@ -10,7 +10,7 @@ use crate::ir::law::Behavior;
 use crate::ir::task::Task;
 use crate::ir::{Id, Name};
 use crate::spelling::spelled;
-use crate::syntax::ast::{self, Expr, ExprKind, Ident, Ref};
+use crate::syntax::ast::{self, BinaryOp, Expr, ExprKind, Ident, Ref};
 use crate::syntax::words::{DRIVING, SHARED};
 
 impl<'a> Checker<'a> {
@@ -284,6 +284,24 @@ impl<'a> Checker<'a> {
 
     /// Reports an expression where a name is needed; `declaration` gives it one.
     pub fn not_named(&mut self, expr: &Expr, wanted: &str, declaration: &str) {
+        let joined = match &expr.kind {
+            ExprKind::Binary { op, left, right } => {
+                let word = match op.node {
+                    BinaryOp::And => "and",
+                    _ => "or",
+                };
+                let joins = matches!(op.node, BinaryOp::And | BinaryOp::Or);
+                let named =
+                    |side: &Expr| matches!(side.kind, ExprKind::Ref(_) | ExprKind::Binary { .. });
+                (joins && named(left) && named(right)).then_some((word, op.span))
+            }
+            _ => None,
+        };
+        if let Some((word, at)) = joined.filter(|_| wanted == "a behaviour") {
+            let message = format!("behaviours are parted by commas, not by `{word}`");
+            self.error(Code::E0203, at, message).label("write `,`");
+            return;
+        }
         if !matches!(expr.kind, ExprKind::Error) {
             self.error(Code::E0203, expr.span, format!("{wanted} is needed here"))
                 .label("this is an expression without a name")
@@ -408,6 +426,15 @@ fn hint(name: &str, what: &str) -> Option<String> {
         }
         "step" | "decision" => {
             "decisions are counted by `per decision`, time by `per 1 s`".to_owned()
+        }
+        "success" | "failure" | "running" if what.starts_with("behaviour") => {
+            "what succeeds at once is `true`; what a node answers is changed by `succeed { … }`, `fail { … }`".to_owned()
+        }
+        "drive" if what.starts_with("behaviour") => {
+            "`drive` is a statement of a behaviour: `behavior NAME { control { drive(…) } }`".to_owned()
+        }
+        "timeout" if what == "predicate" || what == "event" => {
+            "a limit of time is said by `end after 10 min`".to_owned()
         }
         "timeout" | "retry" | "repeat" | "parallel" => {
             format!("the children of a node stand in braces: `{name}(…) {{ … }}`")

@@ -96,6 +96,17 @@ impl<'i> Builder<'i> {
     /// The message for what is set at `target` to what begins at `value`, without `=`.
     fn expected_equals(&mut self, target: Span, value: Span) -> Diagnostic {
         let (name, found) = (self.slice(target), self.slice(value));
+        let rest = self.text.get(value.range().start..).unwrap_or_default();
+        let look_alike = LOOK_ALIKES.iter().find(|(look, _)| rest.starts_with(look));
+        if let Some((look, right)) = look_alike {
+            let message = format!("`{look}` stands where `{right}` should");
+            let end = value.range().start + look.len();
+            return Diagnostic::new(Code::E0121, value, message).write(
+                Span::new(self.file, value.range().start, end),
+                *right,
+                Applicability::Safe,
+            );
+        }
         let message = format!("expected `=` after `{name}`, found `{found}`");
         let diagnostic = Diagnostic::new(Code::E0101, value, message).label("expected `=`");
         let plain = name.split('(').next().unwrap_or(name);
@@ -444,6 +455,9 @@ impl<'i> Builder<'i> {
         self.report(diagnostic);
     }
 }
+
+/// What looks like a sign that changes a value.
+const LOOK_ALIKES: [(&str, &str); 4] = [("−=", "-="), ("–=", "-="), ("×=", "*="), ("÷=", "/=")];
 
 /// The word that begins a statement, where one is nearly written so, and what follows it has the form of that statement.
 fn misspelt(name: &str, rest: &str) -> Option<&'static str> {

@@ -189,7 +189,10 @@ impl<'i> Builder<'i> {
         let Some(word) = self.token_at(self.starts(node)) else {
             return false;
         };
-        let is_to = word.of(self.text) == "to";
+        let rest = self.text.get(word.end..).unwrap_or_default();
+        let rest = rest.trim_start_matches(is_blank);
+        let is_named = rest.starts_with('=') && !rest.starts_with("==");
+        let is_to = word.of(self.text) == "to" && !is_named;
         let span = Span::new(self.file, word.start, word.end);
         if is_to && owner == "uniform" {
             let gap = self.text.get(..word.start).unwrap_or_default();

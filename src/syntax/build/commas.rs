@@ -4,7 +4,7 @@ use super::Builder;
 use crate::diagnostic::{Applicability, Code, Diagnostic, suggest};
 use crate::source::Span;
 use crate::spelling::RESERVED;
-use crate::syntax::diagnose::{no_such_unit, one_unit};
+use crate::syntax::diagnose::{end_is_missing, no_such_unit, one_unit};
 use crate::syntax::grammar::Node;
 use crate::syntax::tokens::is_blank;
 use crate::syntax::words::{CALLED, DRIVING, NODES, UNITS};
@@ -16,7 +16,7 @@ pub(super) const HISTORY: &str = "the ends of a history";
 const LEAVES: [&str; 2] = ["behavior", "tree"];
 
 /// What other notations put before the nodes of a tree.
-const BEFORE_NODES: [&str; 19] = [
+const BEFORE_NODES: [&str; 28] = [
     "is",
     "reactive",
     "async",
@@ -36,6 +36,15 @@ const BEFORE_NODES: [&str; 19] = [
     "check",
     "call",
     "node",
+    "return",
+    "await",
+    "yield",
+    "perform",
+    "go",
+    "try",
+    "always",
+    "exec",
+    "start",
 ];
 
 /// What to write for a word behind a node that other languages have there.
@@ -136,6 +145,27 @@ impl<'i> Builder<'i> {
             self.report(diagnostic);
             return;
         }
+        // `goto(any bed)`
+        if let Some((name @ ("any" | "all" | "every" | "each"), before)) = last
+            && what == "arguments"
+            && self.on_one_line(before, place)
+        {
+            let kind = self.slice(place);
+            let diagnostic = Diagnostic::new(
+                Code::E0127,
+                before,
+                format!("all of a kind are meant by `in`, not by `{name}`"),
+            )
+            .label(format!("write `x in {kind}`"))
+            .fix("write `x in`", before, "x in", Applicability::Unsafe);
+            self.report(diagnostic);
+            return;
+        }
+        // `after 10 min` below an end.
+        if self.slice(place) == "after" && what == "the entries of a list" {
+            self.report(end_is_missing(place));
+            return;
+        }
         // `given(w of ward)`
         if let Some((name, _)) = last
             && what == "arguments"
@@ -191,10 +221,27 @@ impl<'i> Builder<'i> {
             let value = self.slice(*before);
             what == "arguments" && !value.contains('=') && self.on_one_line(*before, place)
         });
-        // What stands on one line may lack more than a comma, unless it is a node.
-        let unsure = what == "the children of a node"
-            && !self.names_leaf(self.slice(place))
-            && before.is_some_and(|before| self.on_one_line(before, place));
+        // What stands on one line may lack more than a comma, unless both are nodes, or the second one is an argument with its
+        // name.
+        let rest = self.text.get(place.range().end..).unwrap_or_default();
+        let rest = rest.trim_start_matches(is_blank);
+        let is_named = rest.starts_with('=') && !rest.starts_with("==") && !rest.starts_with("=>");
+        let is_named = is_named && !UNITS.contains(&self.slice(place));
+        let is_known = |word: &str| {
+            let head = word.split(['(', '{']).next().unwrap_or_default();
+            word.ends_with([')', '}'])
+                || self.names_leaf(head)
+                || self.glance().declares_by(&["predicate"], head)
+        };
+        let sure = match what {
+            "the children of a node" => {
+                self.names_leaf(self.slice(place)) && last.is_none_or(|(word, _)| is_known(word))
+            }
+            "arguments" | "parameters" => is_named,
+            "variants" => false,
+            _ => true,
+        };
+        let unsure = !sure && before.is_some_and(|before| self.on_one_line(before, place));
         let applicability = match product.is_some() || unsure {
             true => Applicability::Unsafe,
             false => Applicability::Safe,
@@ -430,6 +477,18 @@ impl<'i> Builder<'i> {
             Diagnostic::new(Code::E0101, next, message)
                 .label("expected `{`")
                 .help(format!("its form is `{form}`"))
+        } else if name == "unless" && what == "the children of a node" {
+            let rest = self.text.get(next.range().end..).unwrap_or_default();
+            let guards = rest.trim_start_matches(' ').starts_with("=>");
+            let diagnostic =
+                Diagnostic::new(Code::E0101, before, "a node does not begin with `unless`")
+                    .label("this is not said here");
+            match guards {
+                true => diagnostic.fix("write `not`", before, "not", Applicability::Unsafe),
+                false => {
+                    diagnostic.help("what is done unless something holds: `not CONDITION => NODE`")
+                }
+            }
         } else if (BEFORE_NODES.contains(&name) || suggest::is_near(name, "while"))
             && what == "the children of a node"
         {
@@ -493,7 +552,8 @@ impl<'i> Builder<'i> {
         if !self.on_one_line(before, place) {
             return false;
         }
-        if matches!(name, "then" | "xor") {
+        let begins_a_node = name == "then" && self.slice(before).ends_with("=> then");
+        if matches!(name, "then" | "xor") && !begins_a_node {
             return true;
         }
         let head = name.split('(').next().unwrap_or_default();
@@ -536,6 +596,10 @@ impl<'i> Builder<'i> {
                     && !letters.starts_with("=>")
                     && !letters.starts_with("==");
                 let number = next.starts_with(|c: char| c.is_ascii_digit());
+                // Behind a unit a comma is missing.
+                if named && UNITS.contains(&name) {
+                    return false;
+                }
                 if !is_word || !(named || number) || rest.contains(['(', ')', '{', '>']) {
                     return false;
                 }

@@ -65,8 +65,17 @@ impl<'i> Builder<'i> {
         } else if sign.as_str() == "=>" {
             self.respell(Code::E0110, place, "`=>` is written `>=`".into(), ">=");
         } else {
-            let message = "`=` gives a value; two values are compared with `==`".to_owned();
-            self.respell(Code::E0109, place, message, "==");
+            let rest = self.text.get(place.range().end..).unwrap_or_default();
+            match rest.strip_prefix('!') {
+                Some(rest) if !rest.starts_with('=') => {
+                    let mark = Span::new(self.file, place.range().start, place.range().end + 1);
+                    self.respell(Code::E0110, mark, "`=!` is written `!=`".into(), "!=");
+                }
+                _ => {
+                    let message = "`=` gives a value; two values are compared with `==`";
+                    self.respell(Code::E0109, place, message.to_owned(), "==");
+                }
+            }
         }
         let right = self.take_expr(parts);
         self.error_expr(left.span.to(right.span))
@@ -266,14 +275,20 @@ impl<'i> Builder<'i> {
                         Applicability::Unsafe,
                     ),
             );
-        } else if written == "!" {
+        } else if written == "!" && self.follows_lone_equals(&sign) {
+            // `=!` is told as a whole.
+        } else if matches!(written, "!" | "¬") {
             let place = self.span(&sign);
             let right = if operand.span.start == place.end {
                 "not "
             } else {
                 "not"
             };
-            self.respell(Code::E0110, place, "`!` is written `not`".into(), right);
+            let code = match written {
+                "!" => Code::E0110,
+                _ => Code::E0121,
+            };
+            self.respell(code, place, format!("`{written}` is written `not`"), right);
         } else {
             self.operator(&sign, written, right);
         }
@@ -284,6 +299,12 @@ impl<'i> Builder<'i> {
             },
             span,
         }
+    }
+
+    fn follows_lone_equals(&self, sign: &Node<'i>) -> bool {
+        let before = self.text.get(..self.span(sign).range().start);
+        let rest = before.and_then(|before| before.strip_suffix('='));
+        rest.is_some_and(|rest| !rest.ends_with(['=', '!', '<', '>', ':', '+', '-', '*', '/']))
     }
 
     /// Whether an expression is a behaviour or a subtree, as far as the text shows.

@@ -71,8 +71,12 @@ impl<'i> Builder<'i> {
             return self.error_expr(span);
         }
         let diagnostic =
-            Diagnostic::new(Code::E0133, place, format!("nothing has a field `{name}`"))
-                .label(format!("`{mark}` reads only `x` and `y` of a point"));
+            Diagnostic::new(Code::E0133, place, format!("nothing has a field `{name}`")).label(
+                match mark {
+                    "::" => "there are no paths: a name stands alone".to_owned(),
+                    _ => format!("`{mark}` reads only `x` and `y` of a point"),
+                },
+            );
         let is_name = matches!(&of.kind, ExprKind::Ref(reference) if reference.args.is_none());
         let args = args.map(|args| self.slice(self.span(&args)));
         let rest = self.text.get(span.range().end..).unwrap_or_default();
@@ -124,6 +128,9 @@ impl<'i> Builder<'i> {
             return Ok(format!("{name}{args} {{ {owner} }}"));
         }
         let of_another_language = ["Math", "math", "np", "numpy", "std", "random"];
+        if let Some(args) = args.filter(|_| owner == "std" && !FUNCTIONS.contains(&name)) {
+            return Ok(format!("{name}{args}"));
+        }
         if let Some(args) = args.filter(|_| of_another_language.contains(&owner)) {
             return match FUNCTIONS.contains(&name) {
                 true => Ok(format!("{name}{args}")),

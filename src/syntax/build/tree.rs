@@ -4,7 +4,7 @@ use super::Builder;
 use crate::diagnostic::{Applicability, Code, Diagnostic, suggest};
 use crate::source::Span;
 use crate::syntax::ast::{
-    self, Arg, ArgKind, Claim, ClaimWhat, Expr, ExprKind, NodeKind, Ref, Spanned, Tree, Word,
+    self, Arg, ArgKind, Claim, ClaimWhat, Expr, ExprKind, Ident, NodeKind, Ref, Spanned, Tree, Word,
 };
 use crate::syntax::grammar::{Node, Parts, Rule};
 use crate::syntax::words::{DRIVING, FOREIGN_NODES, NODES};
@@ -77,7 +77,7 @@ impl<'i> Builder<'i> {
         let expr = self.compared(expr, &mut parts, Rule::wrong_guard_equals);
         self.in_tree = outer;
         let Some(arrow) = parts.maybe(Rule::guards) else {
-            return NodeKind::Leaf(expr);
+            return self.decorator_call(&expr).unwrap_or(NodeKind::Leaf(expr));
         };
         if arrow.as_str() != "=>" && self.is_behavior(&expr) {
             let span = self.span(&arrow);
@@ -93,9 +93,34 @@ impl<'i> Builder<'i> {
             return NodeKind::Error;
         }
         self.guards(&arrow, "a guard is followed");
+        let node = self.take_node(&mut parts);
+        self.below_its_guard(&expr, self.span(&arrow), &node);
         NodeKind::Guarded {
             guard: expr,
-            node: Box::new(self.take_node(&mut parts)),
+            node: Box::new(node),
+        }
+    }
+
+    /// Warns of a guard whose node begins the next line as a child of its own would.
+    fn below_its_guard(&mut self, guard: &Expr, arrow: Span, node: &ast::Node) {
+        let indent = |at: usize| {
+            let line = self.text.get(..at)?.rsplit('\n').next()?;
+            line.trim_start().is_empty().then_some(line)
+        };
+        let (first, below) = (guard.span.range().start, node.span.range().start);
+        let aligned = indent(first).is_some() && indent(first) == indent(below);
+        if aligned && !matches!(node.kind, NodeKind::Error) {
+            let message = "this guard has nothing behind it on its line";
+            let first_line = self.slice(node.span).lines().next().unwrap_or_default();
+            let label = format!(
+                "it guards `{}` below",
+                first_line.trim_end_matches([' ', '{'])
+            );
+            self.report(
+                Diagnostic::new(Code::W0103, arrow, message)
+                    .label(label)
+                    .help("write what it is to run, or what it guards on the same line"),
+            );
         }
     }
 
@@ -278,6 +303,86 @@ impl<'i> Builder<'i> {
             args: None,
             children: children.collect(),
         }
+    }
+
+    /// `timeout(goto(B), 30 s)`: a decorator with its child among its arguments, which is reported.
+    fn decorator_call(&mut self, expr: &Expr) -> Option<NodeKind> {
+        let ExprKind::Ref(Ref { name, args, .. }) = &expr.kind else {
+            return None;
+        };
+        let (_, word) = NODES.iter().find(|(spelling, _)| *spelling == name.name)?;
+        if self.is_behavior(expr) || self.glance().declares_by(&["predicate"], &name.name) {
+            return None;
+        }
+        let counted = matches!(word, Word::Timeout | Word::Retry | Word::Repeat);
+        if !counted && *word != Word::Parallel {
+            return self.children_of_call(name, args.as_deref()?, *word);
+        }
+        let value = |arg: &Arg| match &arg.kind {
+            ArgKind::Positional(value) | ArgKind::Named(_, value) => Some(value.clone()),
+            _ => None,
+        };
+        let is_child = |arg: &&Arg| value(arg).is_some_and(|value| self.is_behavior(&value));
+        let (children, amounts): (Vec<&Arg>, Vec<&Arg>) = args.iter().flatten().partition(is_child);
+        let [child] = children.as_slice() else {
+            return None;
+        };
+        let child_value = value(child)?;
+        let inner = self.slice(child_value.span).to_owned();
+        let amount = match amounts.as_slice() {
+            [] => None,
+            [amount] => Some(value(amount)?),
+            _ => return None,
+        };
+        let amount = amount.map_or("…", |amount| self.slice(amount.span));
+        let spelling = word.spelling();
+        let right = format!("{spelling}({amount}) {{ {inner} }}");
+        let message = format!("the child of a `{spelling}` stands in braces");
+        let diagnostic = Diagnostic::new(Code::E0101, child.span, message);
+        let diagnostic = match amounts.is_empty() {
+            true => diagnostic
+                .label("not among the arguments")
+                .help(format!("write `{right}`")),
+            false => diagnostic.label("not among the arguments").fix(
+                format!("write `{right}`"),
+                expr.span,
+                right,
+                Applicability::Unsafe,
+            ),
+        };
+        self.report(diagnostic);
+        Some(NodeKind::Error)
+    }
+
+    /// `selector(a, b)`: a node with its children in parentheses, which is reported.
+    fn children_of_call(&mut self, name: &Ident, args: &[Arg], word: Word) -> Option<NodeKind> {
+        let (first, last) = (args.first()?, args.last()?);
+        let whole = first.span.to(last.span);
+        let is_value = |arg: &Arg| matches!(arg.kind, ArgKind::Positional(_));
+        if !args.iter().all(is_value) {
+            return None;
+        }
+        let spelling = word.spelling();
+        let children = match word {
+            Word::Selector | Word::Sequence => "…, …",
+            _ => "…",
+        };
+        let message =
+            format!("the children of a node stand in braces: `{spelling} {{ {children} }}`");
+        let rest = self.text.get(whole.range().end..).unwrap_or_default();
+        let gap = rest.len() - rest.trim_start_matches([' ', '\n', '\r', '\t']).len();
+        let closes = rest.get(gap..).is_some_and(|rest| rest.starts_with(')'));
+        let end = whole.range().end + gap + usize::from(closes);
+        let diagnostic = Diagnostic::new(Code::E0101, name.span, message)
+            .label("its children stand in parentheses")
+            .fix(
+                "write braces",
+                Span::new(self.file, name.span.range().end, end),
+                format!(" {{ {} }}", self.slice(whole)),
+                Applicability::Unsafe,
+            );
+        self.report(diagnostic);
+        Some(NodeKind::Error)
     }
 
     /// Reports `memory` where it does not stand before its node.

@@ -2,6 +2,7 @@
 
 use super::Builder;
 use crate::diagnostic::{Applicability, Code, Diagnostic};
+use crate::source::Span;
 use crate::syntax::ast::{
     Expr, Field, Ident, RobotEntry, RobotEntryKind, World, WorldEntry, WorldEntryKind,
 };
@@ -123,15 +124,46 @@ impl<'i> Builder<'i> {
                     format!("`{}` is followed by its name", name.name),
                 )
                 .label("no mark stands here")
-                .fix("drop the mark", self.span(&mark), "", Applicability::Safe);
+                .fix("drop the mark", self.span(&mark), "", Applicability::Unsafe);
                 self.report(diagnostic);
             }
-            Some(mark) => self.wrong_is(&mark),
+            Some(mark) => {
+                let value = self.take_expr(&mut parts);
+                let rest = self.text.get(value.span.range().end..).unwrap_or_default();
+                let rest = rest.trim_start_matches(' ');
+                let of_kind = rest.starts_with('=') && !rest.starts_with("==");
+                match of_kind {
+                    true => self.lacks_its_word(&name, self.span(&mark)),
+                    false => self.wrong_is(&mark),
+                }
+                return Field { name, value };
+            }
             None => {
                 self.take_is(&mut parts);
             }
         }
         let value = self.take_expr(&mut parts);
         Field { name, value }
+    }
+
+    /// Reports `tomatoes: bed = disc(…)`, which lacks `place`.
+    fn lacks_its_word(&mut self, name: &Ident, mark: Span) {
+        let line = self.text.get(mark.range().end..).unwrap_or_default();
+        let line = line.lines().next().unwrap_or_default();
+        let shape = line.split('=').nth(1).unwrap_or_default().trim_start();
+        let word = match shape.split('(').next() {
+            Some("line" | "polyline" | "path" | "wall") => "wall",
+            _ => "place",
+        };
+        let message = format!("`{}` is given a kind, and is no setting", name.name);
+        let diagnostic = Diagnostic::new(Code::E0101, name.span, message)
+            .label(format!("did you mean `{word} {}`?", name.name))
+            .fix(
+                format!("put `{word}` before it"),
+                name.span.before(),
+                format!("{word} "),
+                Applicability::Unsafe,
+            );
+        self.report(diagnostic);
     }
 }

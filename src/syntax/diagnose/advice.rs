@@ -62,13 +62,16 @@ impl Place<'_> {
                 "what an end is worth is said among the rewards: `reward { on EVENT: NUMBER }`",
             );
         }
+        if found == ":" && self.before() == "on" && self.failure.strict == Rule::strict_reward {
+            return diagnostic.help("what is waited for stands between: `on EVENT: NUMBER`");
+        }
         if is_mark && wants_value {
             let before = self.before();
             return diagnostic.fix(
                 format!("no `{found}` follows `{before}`: drop it"),
                 self.span(),
                 "",
-                Applicability::Safe,
+                Applicability::Unsafe,
             );
         }
         if let Some((title, right)) = self.respelled() {

@@ -8,7 +8,7 @@ use crate::syntax::grammar::Rule;
 use crate::syntax::tokens::{Kind, Token, is_blank};
 
 /// Characters that look like those of the language, and the ones that they look like.
-const LOOK_ALIKES: [(char, &str); 20] = [
+const LOOK_ALIKES: [(char, &str); 34] = [
     ('–', "-"),
     ('—', "-"),
     ('−', "-"),
@@ -28,7 +28,21 @@ const LOOK_ALIKES: [(char, &str); 20] = [
     ('，', ","),
     ('；', ";"),
     ('：', ":"),
+    ('（', "("),
+    ('）', ")"),
+    ('｛', "{"),
+    ('｝', "}"),
+    ('＝', "="),
+    ('…', ".."),
+    ('·', "*"),
+    ('⋅', "*"),
+    ('∗', "*"),
     ('\u{A0}', " "),
+    ('\u{202F}', " "),
+    ('∧', "and"),
+    ('∨', "or"),
+    ('¬', "not"),
+    ('∈', "in"),
 ];
 
 impl Place<'_> {
@@ -47,16 +61,43 @@ impl Place<'_> {
             " " => ("a non-breaking blank".to_owned(), "a blank".to_owned()),
             right => (format!("`{letter}`"), format!("`{right}`")),
         };
-        Some(
-            Diagnostic::new(
-                Code::E0121,
-                span,
-                format!("{shown} stands where {meant} should"),
-            )
-            .label(format!("write {meant}"))
-            .note("editors for prose put such characters in")
-            .fix(format!("write {meant}"), span, *right, Applicability::Safe),
-        )
+        let is_word = right.starts_with(char::is_alphabetic);
+        let message = format!("{shown} stands where {meant} should");
+        let diagnostic =
+            Diagnostic::new(Code::E0121, span, message).label(format!("write {meant}"));
+        let (diagnostic, written) = match is_word {
+            false => (
+                diagnostic.note("editors for prose put such characters in"),
+                (*right).to_owned(),
+            ),
+            true => (
+                diagnostic.note("operators are written with the characters of a keyboard"),
+                self.set_apart(span, right),
+            ),
+        };
+        let title = format!("write {meant}");
+        Some(diagnostic.fix(title, span, written, Applicability::Safe))
+    }
+
+    /// A word in place of a mark, with blanks where it touches what stands around it.
+    fn set_apart(&self, mark: Span, word: &str) -> String {
+        let before = self.text.get(..mark.range().start).unwrap_or_default();
+        let after = self.text.get(mark.range().end..).unwrap_or_default();
+        let touches = |letter: Option<char>| {
+            letter
+                .is_some_and(|letter| letter.is_alphanumeric() || matches!(letter, '_' | '%' | '`'))
+        };
+        let left = if touches(before.chars().next_back()) {
+            " "
+        } else {
+            ""
+        };
+        let right = if touches(after.chars().next()) {
+            " "
+        } else {
+            ""
+        };
+        format!("{left}{word}{right}")
     }
 
     /// `'low'`: a text in the quotation marks of other languages.

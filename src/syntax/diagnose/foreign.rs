@@ -6,6 +6,7 @@ use super::words::of_kind;
 use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::source::Span;
 use crate::spelling::quoted;
+use crate::syntax::follow_ups::CLOSED_ABOVE;
 use crate::syntax::grammar::Rule;
 use crate::syntax::tokens::{Kind, is_blank};
 use crate::syntax::words::{KINDS, home};
@@ -90,6 +91,22 @@ impl Place<'_> {
                     .label("did you mean `use`?")
                     .fix("write `use`", span, "use", Applicability::Unsafe)
                     .note("a program uses `std`, its library, and files: `use \"other.bt\"`"),
+            );
+        }
+        if let Some(defined) = rest.strip_prefix("#define ") {
+            let span = Span::new(self.file, at, at + "#define".len());
+            let defined = defined.lines().next().unwrap_or_default().trim();
+            let help = match defined.split_once(' ') {
+                Some((name, value)) => {
+                    format!("a value under a name: `let {name} = {}`", value.trim())
+                }
+                None => "a value under a name: `let NAME = VALUE`".to_owned(),
+            };
+            let message = "`#define` does not begin an item";
+            return Some(
+                Diagnostic::new(Code::E0105, span, message)
+                    .label("not known here")
+                    .help(help),
             );
         }
         Some(other_comment(
@@ -218,6 +235,10 @@ impl Place<'_> {
             );
         }
         let (whole, example) = home(word)?;
+        let closed = whole == "a tree" && self.before() == ",";
+        if closed {
+            return Some(diagnostic.label("this stands in a tree").help(CLOSED_ABOVE));
+        }
         Some(
             diagnostic
                 .label(format!("this stands in {whole}"))

@@ -200,6 +200,9 @@ impl Place<'_> {
         }
         let lacks_its_word = self.failure.strict == Rule::strict_aspect && word == "last";
         let foreign = foreign.or(lacks_its_word.then_some("history last"));
+        if self.failure.strict == Rule::strict_aspect && word == "after" {
+            return Some(end_is_missing(self.span()));
+        }
         let near = foreign.or_else(|| suggest::nearest(word, candidates.iter().copied()));
         let in_reward = self.failure.strict == Rule::strict_reward && near.is_none();
         if in_reward && matches!(after, "+=" | "-=" | "*=") {
@@ -383,4 +386,20 @@ pub(super) fn either(words: &[String]) -> String {
 /// Whether a token is a word.
 pub(super) fn is_word(token: Token) -> bool {
     token.kind == Kind::Word
+}
+
+/// What is said of `after 10 min`, which lacks `end`.
+pub(in crate::syntax) fn end_is_missing(after: Span) -> Diagnostic {
+    Diagnostic::new(
+        Code::E0123,
+        after,
+        "`after` does not begin an aspect of a task",
+    )
+    .label("did you mean `end after`?")
+    .fix(
+        "put `end` before it",
+        after.before(),
+        "end ",
+        Applicability::Unsafe,
+    )
 }
