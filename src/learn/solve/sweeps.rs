@@ -1,6 +1,6 @@
 //! Values of a policy by sweeps over the states, each from the newest values of the others.
 
-use super::{Problem, largest, rest};
+use super::{Outlook, Problem, largest, rest};
 
 /// The most sweeps, and the change below which they end.
 pub(super) const SWEEPS: usize = 20_000;
@@ -20,10 +20,12 @@ const NEAR: f64 = 1e-5;
 /// Where a state leads back to itself more surely than this, its stays are not summed up: without a discount the sum has no end.
 const STAYS: f64 = 1.0 - 1e-9;
 
-/// A state under a policy.
+/// A state in which something is chosen.
 #[derive(Clone, Copy, Debug)]
 struct State {
-    /// The expected reward.
+    /// Its number in the problem.
+    at: usize,
+    /// The expected reward, with what follows in states without a choice.
     reward: f64,
     /// The part that leads back to the state, where it is kept by itself.
     back: f64,
@@ -31,11 +33,11 @@ struct State {
     end: usize,
 }
 
-/// What follows what under one policy, in the order in which sweeps read it.
+/// What follows what under one policy, in the order in which sweeps read it. States without a choice have no part in it.
 #[derive(Debug)]
 struct Chain {
-    /// `None` where nothing is chosen.
-    states: Vec<Option<State>>,
+    states: Vec<State>,
+    /// The states that follow, by their places in `states`.
     next: Vec<u32>,
     weights: Vec<f64>,
 }
@@ -43,60 +45,84 @@ struct Chain {
 /// What a sweep brings up to date.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Swept {
-    /// Values, where states without a choice are worth so much.
-    Values(f64),
+    /// Values.
+    Values,
     /// A change of the values: the same without rewards.
     Change,
 }
 
 impl Chain {
-    /// A problem under a policy. Where `summed`, a choice that leads back to its own state is taken there again.
-    fn new(problem: &Problem, taken: impl Fn(usize) -> Option<usize>, summed: bool) -> Self {
+    /// A problem under a policy, where states without a choice are worth `unknown`. Where `summed`, a choice that leads back to
+    /// its own state is taken there again.
+    fn new(
+        problem: &Problem,
+        taken: impl Fn(usize) -> Option<usize>,
+        unknown: f64,
+        summed: bool,
+    ) -> Self {
+        let outlook = |state: usize| problem.outlook(state, taken(state));
+        let order = last_first(problem.states.len(), &outlook);
+        let mut places = vec![None; problem.states.len()];
+        for (place, state) in (0..).zip(&order) {
+            if let Some(own) = places.get_mut(*state) {
+                *own = Some(place);
+            }
+        }
         let mut chain = Self {
-            states: Vec::with_capacity(problem.states.len()),
+            states: Vec::with_capacity(order.len()),
             next: Vec::new(),
             weights: Vec::new(),
         };
-        for state in 0..problem.states.len() {
-            let Some(outlook) = problem.outlook(state, taken(state)) else {
-                chain.states.push(None);
+        for at in order {
+            let Some(outlook) = outlook(at) else {
                 continue;
             };
-            let mut back = 0.0;
+            let (mut back, mut reward) = (0.0, outlook.reward);
             for &(to, weight) in &outlook.next {
-                if summed && to == state {
-                    back += weight;
-                    continue;
+                match places.get(to).copied().flatten() {
+                    _ if summed && to == at => back += weight,
+                    Some(place) => {
+                        chain.next.push(place);
+                        chain.weights.push(weight);
+                    }
+                    None => reward += weight * unknown,
                 }
-                chain.next.push(u32::try_from(to).unwrap_or(u32::MAX));
-                chain.weights.push(weight);
             }
-            chain.states.push(Some(State {
-                reward: outlook.reward,
+            let end = chain.next.len();
+            chain.states.push(State {
+                at,
+                reward,
                 back,
-                end: chain.next.len(),
-            }));
+                end,
+            });
         }
         chain
     }
 
-    /// One sweep over all states; the greatest change.
+    /// Those of all values that belong to its states.
+    fn own(&self, all: &[f64]) -> Vec<f64> {
+        let own = self.states.iter();
+        own.map(|state| all.get(state.at).copied().unwrap_or(0.0))
+            .collect()
+    }
+
+    /// The values of all states, where those without a choice are worth `unknown`.
+    fn all(&self, own: &[f64], count: usize, unknown: f64) -> Vec<f64> {
+        let mut all = vec![unknown; count];
+        for (state, own) in self.states.iter().zip(own) {
+            if let Some(value) = all.get_mut(state.at) {
+                *value = *own;
+            }
+        }
+        all
+    }
+
+    /// One sweep over its states; the greatest change.
     fn sweep(&self, values: &mut [f64], swept: Swept) -> f64 {
         let mut change: f64 = 0.0;
         let mut begin = 0;
-        let unknown = match swept {
-            Swept::Values(unknown) => unknown,
-            Swept::Change => 0.0,
-        };
-        for (at, state) in self.states.iter().enumerate() {
-            let Some(state) = state else {
-                if let Some(value) = values.get_mut(at) {
-                    change = change.max((unknown - *value).abs());
-                    *value = unknown;
-                }
-                continue;
-            };
-            let value = |to: usize| values.get(to).copied().unwrap_or(unknown);
+        for (place, state) in self.states.iter().enumerate() {
+            let value = |to: usize| values.get(to).copied().unwrap_or(0.0);
             let follow = begin..state.end;
             begin = state.end;
             let next = self.next.get(follow.clone()).unwrap_or_default().iter();
@@ -105,15 +131,15 @@ impl Chain {
                 .zip(weights)
                 .map(|(to, weight)| weight * value(*to as usize));
             let reward = match swept {
-                Swept::Values(_) => state.reward,
+                Swept::Values => state.reward,
                 Swept::Change => 0.0,
             };
             let leaves = reward + follow.sum::<f64>();
             let worth = match state.back < STAYS {
                 true => leaves / (1.0 - state.back),
-                false => leaves + state.back * value(at),
+                false => leaves + state.back * value(place),
             };
-            if let Some(value) = values.get_mut(at) {
+            if let Some(value) = values.get_mut(place) {
                 change = change.max((worth - *value).abs());
                 *value = worth;
             }
@@ -122,19 +148,43 @@ impl Chain {
     }
 
     /// Values by sweeps from these: at most so many, until the greatest change is small.
-    fn sweeps(
-        &self,
-        mut values: Vec<f64>,
-        unknown: f64,
-        (most, settled): (usize, f64),
-    ) -> Vec<f64> {
+    fn sweeps(&self, mut values: Vec<f64>, (most, settled): (usize, f64)) -> Vec<f64> {
         for _ in 0..most {
-            if self.sweep(&mut values, Swept::Values(unknown)) < settled {
+            if self.sweep(&mut values, Swept::Values) < settled {
                 break;
             }
         }
         values
     }
+}
+
+/// The states in which something is chosen, each behind those that follow it as far as there are no circles: then a sweep brings
+/// what is at the end of a way to its beginning at once.
+fn last_first<'p>(count: usize, outlook: &impl Fn(usize) -> Option<&'p Outlook>) -> Vec<usize> {
+    let follows = |state: usize| Some((state, outlook(state)?.next.iter()));
+    let mut order = Vec::new();
+    let mut met = vec![false; count];
+    let mut meet = |state: usize| match met.get_mut(state) {
+        Some(met) => !std::mem::replace(met, true),
+        None => false,
+    };
+    for state in 0..count {
+        let mut way = Vec::new();
+        if meet(state) {
+            way.extend(follows(state));
+        }
+        while let Some((state, next)) = way.last_mut() {
+            match next.next() {
+                Some((to, _)) if meet(*to) => way.extend(follows(*to)),
+                Some(_) => {}
+                None => {
+                    order.push(*state);
+                    way.pop();
+                }
+            }
+        }
+    }
+    order
 }
 
 impl Problem {
@@ -148,8 +198,9 @@ impl Problem {
     ) -> Vec<f64> {
         let near = NEAR * largest(&values);
         let taken = |state| policy.get(state).copied().flatten();
-        let chain = Chain::new(self, taken, self.is_large());
-        chain.sweeps(values, unknown, (NEAR_SWEEPS, near))
+        let chain = Chain::new(self, taken, unknown, self.is_large());
+        let own = chain.sweeps(chain.own(&values), (NEAR_SWEEPS, near));
+        chain.all(&own, values.len(), unknown)
     }
 
     /// Values by sweeps as they are, at most [`SWEEPS`] of them.
@@ -158,8 +209,9 @@ impl Problem {
         taken: impl Fn(usize) -> Option<usize>,
         values: Vec<f64>,
     ) -> Vec<f64> {
-        let chain = Chain::new(self, taken, false);
-        chain.sweeps(values, self.unknown, (SWEEPS, SETTLED))
+        let chain = Chain::new(self, taken, self.unknown, false);
+        let own = chain.sweeps(chain.own(&values), (SWEEPS, SETTLED));
+        chain.all(&own, values.len(), self.unknown)
     }
 
     /// Values by sweeps until nothing changes, or less than this part of the greatest value.
@@ -169,22 +221,24 @@ impl Problem {
         values: Vec<f64>,
         settled: f64,
     ) -> Vec<f64> {
-        let chain = Chain::new(self, taken, true);
+        let chain = Chain::new(self, taken, self.unknown, true);
         let sweep = |values: &mut [f64]| {
-            chain.sweep(values, Swept::Values(self.unknown));
+            chain.sweep(values, Swept::Values);
         };
         let change = |change: &mut [f64]| {
             chain.sweep(change, Swept::Change);
         };
         let least = |values: &[f64]| SETTLED.max(settled.max(ROUNDING) * largest(values));
         let times = if settled > 0.0 { ROUGHLY } else { EXACTLY };
-        rest::found(values, sweep, change, least, times)
+        let own = rest::found(chain.own(&values), sweep, change, least, times);
+        chain.all(&own, values.len(), self.unknown)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::{Outlook, Problem, largest};
+    use super::Chain;
 
     /// States on a ring, each of which leads on, stays or leaps; little is lost on the way.
     fn ring(kept: f64) -> Problem {
@@ -220,6 +274,36 @@ mod tests {
                 assert!(apart < 1e-7, "{kept}: {settled} for {exact}");
             }
         }
+    }
+
+    /// A way from the first state to the last, and one into it from behind: one sweep knows all values.
+    #[test]
+    fn one_sweep_goes_a_whole_way() {
+        const STATES: usize = 700;
+        let state = |at: usize| {
+            let next = match at {
+                0 => vec![(STATES - 1, 1.0)],
+                _ if at == STATES / 2 => Vec::new(),
+                _ if at < STATES / 2 => vec![(at + 1, 1.0)],
+                _ => vec![(at - 1, 1.0)],
+            };
+            Outlook {
+                reward: 1.0,
+                ticks: 1.0,
+                next,
+            }
+        };
+        let problem = Problem {
+            states: (0..STATES).map(|at| vec![(0, state(at))]).collect(),
+            unknown: 0.0,
+        };
+        let policy = problem.first();
+        let taken = |state: usize| policy.get(state).copied().flatten();
+        let chain = Chain::new(&problem, taken, 0.0, true);
+        let own = chain.sweeps(vec![0.0; STATES], (1, 0.0));
+        let values = chain.all(&own, STATES, 0.0);
+        assert_eq!(values, problem.evaluate(&policy));
+        assert_eq!(values[1], (STATES / 2) as f64);
     }
 
     #[test]
