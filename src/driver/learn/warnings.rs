@@ -162,20 +162,38 @@ impl Warner<'_> {
 
     /// Events that would be rewarded, happened in training, and do not happen under the tree.
     fn given_up(&self) -> Vec<Diagnostic> {
-        let given_up = self.paying().filter_map(|(at, _, event)| {
-            let [trained, under] = self.happened(event);
-            (trained > 0 && under == 0).then_some((at, event, trained))
-        });
-        let episodes = self.results.printed().summary.episodes;
-        let warning = |(at, event, trained): (usize, Id<Event>, u64)| {
-            let name = &self.program.events[event].name;
+        let paying: Vec<(usize, Id<Event>, [u64; 2])> = self
+            .paying()
+            .map(|(at, _, event)| (at, event, self.happened(event)))
+            .collect();
+        let given_up = paying
+            .iter()
+            .filter(|(.., [trained, under])| *trained > 0 && *under == 0);
+        let summary = &self.results.printed().summary;
+        let warning = |(at, event, [trained, _]): &(usize, Id<Event>, [u64; 2])| {
+            let name = &self.program.events[*event].name;
             let message = format!(
-                "`{name}` happened {trained} times in training and never in {episodes} episodes of the tree"
+                "`{name}` happened {trained} times in training and never in {} episodes of the tree",
+                summary.episodes
             );
-            Diagnostic::new(Code::W0504, self.places.reward(at), message)
-                .label("the tree gives this reward up")
+            Diagnostic::new(Code::W0504, self.places.reward(*at), message)
         };
-        given_up.map(warning).collect()
+        let given_up = given_up.map(warning);
+        let earns = summary.total.mean > 0.0 || paying.iter().any(|(.., [_, under])| *under > 0);
+        if earns {
+            let label = |it: Diagnostic| it.label("the tree gives this reward up");
+            return given_up.map(label).collect();
+        }
+        // Where it is given up as a whole, that is one thing to know.
+        let mut given_up = given_up;
+        let Some(first) = given_up.next() else {
+            return Vec::new();
+        };
+        let others = given_up.map(|it| it.message);
+        let first = first.label("the tree earns nothing");
+        let all = others.fold(first, Diagnostic::note);
+        let help = "learning begins with the trees of the file, too: a simple one by hand that earns something shows it a way";
+        vec![all.help(help)]
     }
 
     /// Ends that are far more frequent than they were in training.
