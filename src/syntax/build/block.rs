@@ -108,6 +108,16 @@ impl<'i> Builder<'i> {
             );
         }
         let message = format!("expected `=` after `{name}`, found `{found}`");
+        if let Some(mark) = ARROWS.into_iter().find(|mark| rest.starts_with(mark)) {
+            let end = value.range().start + mark.len();
+            let span = Span::new(self.file, value.range().start, end);
+            let message = format!("expected `=` after `{name}`, found `{mark}`");
+            return Diagnostic::new(Code::E0101, span, message).write(
+                span,
+                "=",
+                Applicability::Unsafe,
+            );
+        }
         let diagnostic = Diagnostic::new(Code::E0101, value, message).label("expected `=`");
         let plain = name.split('(').next().unwrap_or(name);
         let begins =
@@ -365,8 +375,17 @@ impl<'i> Builder<'i> {
         if same_line && goes_on && matches!(found, "+" | "-" | "*" | "/") {
             let message = format!("`{name} {found} …` changes nothing");
             let right = format!("{found}=");
-            self.report(Diagnostic::new(Code::E0101, at, message).write(
-                at,
+            // `+ =`: one operator in two pieces.
+            let apart = after.len() - after.trim_start_matches([' ', '\t']).len();
+            let is_apart = after.trim_start().starts_with('=');
+            let end = at.range().end + if is_apart { apart + 1 } else { 0 };
+            let whole = Span::new(self.file, at.range().start, end);
+            let message = match is_apart {
+                true => format!("`{right}` is written in one piece"),
+                false => message,
+            };
+            self.report(Diagnostic::new(Code::E0101, whole, message).write(
+                whole,
                 right,
                 Applicability::Unsafe,
             ));
@@ -457,6 +476,9 @@ impl<'i> Builder<'i> {
 }
 
 /// What looks like a sign that changes a value.
+/// What may stand where a statement sets something, for `=`.
+const ARROWS: [&str; 3] = ["->", "<-", "=>"];
+
 const LOOK_ALIKES: [(&str, &str); 4] = [("−=", "-="), ("–=", "-="), ("×=", "*="), ("÷=", "/=")];
 
 /// The word that begins a statement, where one is nearly written so, and what follows it has the form of that statement.

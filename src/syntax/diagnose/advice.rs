@@ -242,6 +242,9 @@ impl Place<'_> {
             (Rule::strict_reward, "-=" | "+=" | "*=") => {
                 "a line of `reward` says a number, which is added: `on EVENT: -5`"
             }
+            (_, "[") if wants_value && self.begins_with("history") => {
+                "a history of nothing is `history = none`"
+            }
             (_, "[") if wants_value && self.failure.strict != Rule::strict_aspect => {
                 "there are no lists: a point is written `(1 m, 2 m)`"
             }

@@ -89,11 +89,32 @@ impl Place<'_> {
         let span = self.span_of(number).to(self.span_of(next));
         let first = self.text.get(number.start..unit.end)?;
         let second = self.text.get(self.found.start..next.end)?;
+        if self.is_point(number.start, next.end) {
+            return Some(
+                Diagnostic::new(Code::E0101, span, "a comma stands between two coordinates")
+                    .label("a point begins here")
+                    .fix(
+                        "put a `,`",
+                        self.span_of(unit).after(),
+                        ",",
+                        Applicability::Unsafe,
+                    ),
+            );
+        }
         self.told(
             span,
             "a quantity has one unit",
             format!("({first} + {second})"),
         )
+    }
+
+    /// Whether what stands between two places is all that stands in parentheses that belong to no call.
+    fn is_point(&self, start: usize, end: usize) -> bool {
+        let before = self.text.get(..start).unwrap_or_default().trim_end();
+        let after = self.text.get(end..).unwrap_or_default().trim_start();
+        let named = |c: char| c.is_alphanumeric() || matches!(c, '_' | '`');
+        let opens = before.strip_suffix('(');
+        opens.is_some_and(|before| !before.ends_with(named)) && after.starts_with(')')
     }
 
     /// `uniform(-90, 90) deg`: a unit behind what is no number.
@@ -103,11 +124,17 @@ impl Place<'_> {
             return None;
         }
         let message = "a unit follows a number";
+        let close = self.before?.start;
+        let open = self.text.get(..close)?.rfind('(')?;
+        let (what, right) = match self.is_point(open + 1, close) {
+            true => ("this follows a point", ""),
+            false => ("this follows a call", "uniform"),
+        };
         Some(
             Diagnostic::new(Code::E0114, self.span(), message)
-                .label("this follows a call")
+                .label(what)
                 .help(format!(
-                    "each number has its own: `uniform(1 {0}, 2 {0})`",
+                    "each number has its own: `{right}(1 {0}, 2 {0})`",
                     self.found()
                 )),
         )

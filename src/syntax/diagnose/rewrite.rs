@@ -151,23 +151,26 @@ impl Place<'_> {
             .flatten()
     }
 
-    /// `predicate low: bool = …`
+    /// `predicate low: bool = …`, `event empty: bool = …`
     fn typed_predicate(&self) -> Option<Diagnostic> {
         let (word, name) = (self.second_before?, self.before?);
         let ty = self.next()?;
-        let typed = word.of(self.text) == "predicate" && self.found() == ":" && is_word(ty);
+        let (what, label) = match word.of(self.text) {
+            "predicate" => ("a predicate has no type", "it holds or does not"),
+            "event" => ("an event has no type", "it happens or does not"),
+            _ => return None,
+        };
+        let typed = self.found() == ":" && is_word(ty);
         let rest = self.text.get(ty.end..)?.trim_start();
         let whole = rest.starts_with('=') && !rest.starts_with("==");
         (typed && whole).then(|| {
             let span = self.span().to(self.span_of(ty));
-            Diagnostic::new(Code::E0101, span, "a predicate has no type")
-                .label("it holds or does not")
-                .fix(
-                    format!("drop `{}`", self.text.get(span.range()).unwrap_or_default()),
-                    self.span_of(name).after().to(span),
-                    "",
-                    Applicability::Unsafe,
-                )
+            Diagnostic::new(Code::E0101, span, what).label(label).fix(
+                format!("drop `{}`", self.text.get(span.range()).unwrap_or_default()),
+                self.span_of(name).after().to(span),
+                "",
+                Applicability::Unsafe,
+            )
         })
     }
 
@@ -261,7 +264,7 @@ impl Place<'_> {
     }
 
     /// The rest of the line from byte `at` on, without a comment.
-    fn rest_of_line(&self, at: usize) -> &str {
+    pub(super) fn rest_of_line(&self, at: usize) -> &str {
         let rest = self.text.get(at..).unwrap_or_default();
         let line = rest.lines().next().unwrap_or_default();
         line.split("//").next().unwrap_or_default().trim_end()

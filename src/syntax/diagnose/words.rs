@@ -8,7 +8,7 @@ use crate::syntax::expected;
 use crate::syntax::follow_ups::CLOSED_ABOVE;
 use crate::syntax::grammar::Rule;
 use crate::syntax::tokens::{Kind, Token};
-use crate::syntax::words::{FOREIGN, ITEMS};
+use crate::syntax::words::{FOREIGN, ITEMS, NODES, SHAPES};
 
 /// How an entry of a list goes for all members of a kind.
 pub(super) const FOR_ALL: &str =
@@ -294,9 +294,9 @@ impl Place<'_> {
             None if self.failure.strict == Rule::strict_item
                 && matches!(self.after_found(), "=" | ":=") =>
             {
-                diagnostic.label("not known here").help(format!(
-                    "what stays is `let {word} = …`, what changes `state {word} = …`"
-                ))
+                diagnostic
+                    .label("not known here")
+                    .help(self.item_of_value(word))
             }
             None if self.failure.strict == Rule::strict_item && self.after_found() == ":" => {
                 diagnostic.label("not known here").fix(
@@ -318,6 +318,32 @@ impl Place<'_> {
             None => diagnostic,
         };
         Some(diagnostic.note(format!("{begins} begins with {}", either(&listed))))
+    }
+}
+
+impl Place<'_> {
+    /// The item that `word = …` seems to be, whose first word is missing: as the value says.
+    fn item_of_value(&self, word: &str) -> String {
+        let value = self.rest_of_line(self.found.end);
+        let value = value.trim_start_matches([' ', ':', '=']);
+        let first = value
+            .split(|c: char| !c.is_alphanumeric() && c != '_')
+            .next();
+        let first = first.unwrap_or_default();
+        let is_node = first == "memory" || NODES.iter().any(|(node, _)| *node == first);
+        let asks = ["not", "any", "all", "visible", "inside", "success"].contains(&first);
+        let compares = ["==", "!=", "<", ">", " and ", " or "];
+        if is_node && value.contains('{') {
+            format!("a tree is `tree {word} = …`")
+        } else if SHAPES.contains(&first) {
+            format!("a place is `place {word} = …`, a wall `wall {word} = …`, both in a world")
+        } else if asks || compares.iter().any(|it| value.contains(it)) {
+            format!(
+                "what is true or false is `predicate {word} = …`, what happens `event {word} = …`"
+            )
+        } else {
+            format!("what stays is `let {word} = …`, what changes `state {word} = …`")
+        }
     }
 }
 
