@@ -1,6 +1,5 @@
 //! Learning a model: the transitions that were seen are counted, and the semi-Markov decision problem of their
-//! frequencies is solved (certainty equivalence: Kumar and Varaiya 1986): exactly where there are few minterms, else far more
-//! exactly than frequencies are.
+//! frequencies is solved exactly (certainty equivalence: Kumar and Varaiya 1986).
 //!
 //! A minterm stands for many states of the world, so what follows it depends on the way there. Counts are therefore
 //! collected under the policy of the round before, with exploration, and older ones fade: the model describes the process
@@ -158,7 +157,7 @@ impl Method for Model {
             problem = problem.at_cost(gain);
             solution
         } else {
-            problem.estimate_near(before)
+            problem.solve_near(before)
         };
         for (row, choices) in problem.states.iter().enumerate() {
             for (choice, outlook) in choices {

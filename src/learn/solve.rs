@@ -171,14 +171,6 @@ impl Problem {
         }
     }
 
-    /// The same for a problem of counts.
-    pub fn estimate_near(&self, near: Solution) -> Solution {
-        match self.is_large() {
-            true => self.estimate_from(near),
-            false => self.solve(),
-        }
-    }
-
     /// The same from the solution of a problem with the same states and choices.
     pub fn solve_from(&self, near: Solution) -> Solution {
         self.solve_until(near, 0.0)

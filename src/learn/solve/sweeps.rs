@@ -61,9 +61,9 @@ impl Chain {
         summed: bool,
     ) -> Self {
         let outlook = |state: usize| problem.outlook(state, taken(state));
-        let order = last_first(problem.states.len(), &outlook);
+        let order = last_first(problem.states.len(), outlook);
         let mut places = vec![None; problem.states.len()];
-        for (place, state) in (0..).zip(&order) {
+        for (place, (state, _)) in (0..).zip(&order) {
             if let Some(own) = places.get_mut(*state) {
                 *own = Some(place);
             }
@@ -73,10 +73,7 @@ impl Chain {
             next: Vec::new(),
             weights: Vec::new(),
         };
-        for at in order {
-            let Some(outlook) = outlook(at) else {
-                continue;
-            };
+        for (at, outlook) in order {
             let (mut back, mut reward) = (0.0, outlook.reward);
             for &(to, weight) in &outlook.next {
                 match places.get(to).copied().flatten() {
@@ -158,27 +155,28 @@ impl Chain {
     }
 }
 
-/// The states in which something is chosen, each behind those that follow it as far as there are no circles: then a sweep brings
-/// what is at the end of a way to its beginning at once.
-fn last_first<'p>(count: usize, outlook: &impl Fn(usize) -> Option<&'p Outlook>) -> Vec<usize> {
-    let follows = |state: usize| Some((state, outlook(state)?.next.iter()));
+/// The states in which something is chosen, with what is to be expected there, each behind those that follow it as far as there
+/// are no circles: then a sweep brings what is at the end of a way to its beginning at once.
+fn last_first<'p>(
+    count: usize,
+    outlook: impl Fn(usize) -> Option<&'p Outlook>,
+) -> Vec<(usize, &'p Outlook)> {
     let mut order = Vec::new();
     let mut met = vec![false; count];
-    let mut meet = |state: usize| match met.get_mut(state) {
-        Some(met) => !std::mem::replace(met, true),
-        None => false,
+    let mut enter = |state: usize| {
+        let is_new = met
+            .get_mut(state)
+            .is_some_and(|met| !std::mem::replace(met, true));
+        let outlook = is_new.then(|| outlook(state)).flatten()?;
+        Some((state, outlook, outlook.next.iter()))
     };
-    for state in 0..count {
-        let mut way = Vec::new();
-        if meet(state) {
-            way.extend(follows(state));
-        }
-        while let Some((state, next)) = way.last_mut() {
+    for first in 0..count {
+        let mut way = Vec::from_iter(enter(first));
+        while let Some((state, outlook, next)) = way.last_mut() {
             match next.next() {
-                Some((to, _)) if meet(*to) => way.extend(follows(*to)),
-                Some(_) => {}
+                Some((to, _)) => way.extend(enter(*to)),
                 None => {
-                    order.push(*state);
+                    order.push((*state, *outlook));
                     way.pop();
                 }
             }
