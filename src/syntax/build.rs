@@ -9,6 +9,7 @@ mod entries;
 mod expr;
 mod field;
 mod item;
+mod joints;
 mod layout;
 mod learn;
 mod lost;

@@ -308,7 +308,7 @@ pub const UNITS: [&str; 14] = [
 pub const TIMES: [&str; 6] = ["s", "ms", "min", "h", "tick", "ticks"];
 
 /// The shapes of places and walls.
-pub(super) const SHAPES: [&str; 5] = ["disc", "rect", "polygon", "line", "polyline"];
+pub const SHAPES: [&str; 5] = ["disc", "rect", "polygon", "line", "polyline"];
 
 /// The words of composites and decorators.
 pub const NODES: [(&str, Word); 9] = [

@@ -6,7 +6,7 @@ use crate::check::types::Type;
 use crate::diagnostic::{Code, suggest};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, Field, Ref};
-use crate::syntax::words::home;
+use crate::syntax::words::{SHAPES, home};
 
 /// The values of settings, each with its place.
 type Values<const N: usize> = [(f64, Span); N];
@@ -102,7 +102,7 @@ impl<'a> Checker<'a> {
                         (_, "scanner" | "range_finder" | "beacon") => {
                             Some(format!("a sensor is declared by `sensor {called} = …`"))
                         }
-                        (_, "disc" | "rect" | "polygon" | "line" | "polyline") => Some(format!(
+                        (_, shape) if SHAPES.contains(&shape) => Some(format!(
                             "a place is declared by `place {called} = …`, a wall by `wall {called} = …`"
                         )),
                         _ => None,

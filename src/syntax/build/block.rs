@@ -107,17 +107,17 @@ impl<'i> Builder<'i> {
                 Applicability::Safe,
             );
         }
-        let message = format!("expected `=` after `{name}`, found `{found}`");
-        if let Some(mark) = ARROWS.into_iter().find(|mark| rest.starts_with(mark)) {
-            let end = value.range().start + mark.len();
+        let expected = |found: &str| format!("expected `=` after `{name}`, found `{found}`");
+        if let Some(arrow) = ARROWS.into_iter().find(|arrow| rest.starts_with(arrow)) {
+            let end = value.range().start + arrow.len();
             let span = Span::new(self.file, value.range().start, end);
-            let message = format!("expected `=` after `{name}`, found `{mark}`");
-            return Diagnostic::new(Code::E0101, span, message).write(
+            return Diagnostic::new(Code::E0101, span, expected(arrow)).write(
                 span,
                 "=",
                 Applicability::Unsafe,
             );
         }
+        let message = expected(found);
         let diagnostic = Diagnostic::new(Code::E0101, value, message).label("expected `=`");
         let plain = name.split('(').next().unwrap_or(name);
         let begins =
@@ -373,17 +373,17 @@ impl<'i> Builder<'i> {
         let after = self.text.get(at.range().end..).unwrap_or_default();
         let goes_on = after.starts_with([' ', '\t']) && !after.trim_start().starts_with('\n');
         if same_line && goes_on && matches!(found, "+" | "-" | "*" | "/") {
-            let message = format!("`{name} {found} …` changes nothing");
             let right = format!("{found}=");
             // `+ =`: one operator in two pieces.
-            let apart = after.len() - after.trim_start_matches([' ', '\t']).len();
-            let is_apart = after.trim_start().starts_with('=');
-            let end = at.range().end + if is_apart { apart + 1 } else { 0 };
-            let whole = Span::new(self.file, at.range().start, end);
-            let message = match is_apart {
-                true => format!("`{right}` is written in one piece"),
-                false => message,
+            let second = after.trim_start().strip_prefix('=');
+            let (message, length) = match second {
+                Some(rest) => (
+                    format!("`{right}` is written in one piece"),
+                    after.len() - rest.len(),
+                ),
+                None => (format!("`{name} {found} …` changes nothing"), 0),
             };
+            let whole = Span::new(self.file, at.range().start, at.range().end + length);
             self.report(Diagnostic::new(Code::E0101, whole, message).write(
                 whole,
                 right,
@@ -475,10 +475,10 @@ impl<'i> Builder<'i> {
     }
 }
 
-/// What looks like a sign that changes a value.
 /// What may stand where a statement sets something, for `=`.
 const ARROWS: [&str; 3] = ["->", "<-", "=>"];
 
+/// What looks like a sign that changes a value.
 const LOOK_ALIKES: [(&str, &str); 4] = [("−=", "-="), ("–=", "-="), ("×=", "*="), ("÷=", "/=")];
 
 /// The word that begins a statement, where one is nearly written so, and what follows it has the form of that statement.

@@ -36,7 +36,7 @@ impl Place<'_> {
             .or_else(|| self.ended_by_time())
             .or_else(|| self.other_probability())
             .or_else(|| self.bare_point())
-            .or_else(|| self.typed_predicate())
+            .or_else(|| self.typed_item())
             .or_else(|| self.listed_condition())
             .or_else(|| self.reactive())
             .or_else(|| self.spare())
@@ -152,7 +152,7 @@ impl Place<'_> {
     }
 
     /// `predicate low: bool = …`, `event empty: bool = …`
-    fn typed_predicate(&self) -> Option<Diagnostic> {
+    fn typed_item(&self) -> Option<Diagnostic> {
         let (word, name) = (self.second_before?, self.before?);
         let ty = self.next()?;
         let (what, label) = match word.of(self.text) {
