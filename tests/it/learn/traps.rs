@@ -139,3 +139,21 @@ fn idleness_does_not_rule_out_what_works() {
         learned.text
     );
 }
+
+/// A tree that earns nothing is told as one thing, with each event that it does not meet.
+#[test]
+fn doing_nothing_is_told_once() {
+    let learned = learned_as(
+        "farm",
+        Options {
+            shape: Shape::Grown,
+            effort: 3_000_000,
+            ..OPTIONS
+        },
+    );
+    let unmet: Vec<_> = (learned.warnings.iter())
+        .filter(|found| found.code == Code::W0504)
+        .collect();
+    assert_eq!(unmet.len(), 1, "{unmet:?}");
+    assert_eq!(unmet[0].notes.len(), 2, "{unmet:?}");
+}
