@@ -5,6 +5,7 @@
 //! seeds say which are ([`race`]). A tree replaces another if it does less harm, or else if it returns more for its nodes.
 //! What it does alike with fewer nodes costs no simulation at all. Effort is counted in ticks, not in time.
 
+mod alone;
 pub mod bodies;
 mod cell;
 pub mod chart;

@@ -1,5 +1,6 @@
 //! The trees that none beats in both nodes and return, and the one of them that is taken.
 
+use super::alone::plainest;
 use super::ground::does_more_harm;
 use super::grower::{Grower, Visited};
 use super::race::{Entrant, Judge, Terms};
@@ -141,11 +142,18 @@ pub(super) fn choose<W: World>(
         entrant.nodes = Size::of(&entrant.root).nodes;
     }
     let harms = |entrant: &Entrant| judge.harms(entrant);
-    let front = points(&entrants, chosen, &harms);
+    let mut front = points(&entrants, chosen, &harms);
     let root = entrants
         .get(chosen)
         .map_or_else(|| starts.exact.clone(), |entrant| entrant.root.clone());
     drop(entrants);
+    let root = match root == starts.exact {
+        true => root,
+        false => plainest(judge, &trials, root),
+    };
+    for point in front.iter_mut().filter(|point| point.taken) {
+        point.root = root.clone();
+    }
     let episodes = [COMPARED, FRESH].map(|episodes| judge.scaled(of(episodes)));
     let tested = tested::test(judge, starts, &root, episodes)?;
     Ok(Grown {

@@ -157,3 +157,25 @@ fn doing_nothing_is_told_once() {
     assert_eq!(unmet.len(), 1, "{unmet:?}");
     assert_eq!(unmet[0].notes.len(), 2, "{unmet:?}");
 }
+
+/// A tree that does nothing is not named after a behaviour that always fails.
+#[test]
+fn doing_nothing_has_a_plain_name() {
+    for seed in [2, 3] {
+        let learned = learned_as(
+            "farm",
+            Options {
+                shape: Shape::Grown,
+                effort: 3_000_000,
+                seed: Some(seed),
+                ..OPTIONS
+            },
+        );
+        let tree = learned.text.lines().find(|line| !line.starts_with("//"));
+        let tree = tree.unwrap_or_default();
+        assert!(
+            tree.ends_with("= goto(barn)") || tree.ends_with("= idle"),
+            "{tree}"
+        );
+    }
+}
