@@ -11,12 +11,14 @@ use crate::trial::paired::Trials;
 const NAMED: usize = 24;
 const DOES: f64 = 0.5;
 
-/// A behaviour alone that hardly ever does anything by a plainer name: of those that return the same in each episode, the one that
-/// fails least. Where doing nothing is best, one that always fails would be read as if it did something.
+/// A behaviour alone that hardly ever does anything by a plainer name: of those that return the same in each of a few episodes, the
+/// one that fails least, if it returns the same in `episodes`, too. Where doing nothing is best, one that always fails would be read
+/// as if it did something.
 pub(super) fn plainest<W: World>(
     judge: &mut Judge<'_, '_, W>,
     trials: &Trials<'_, W>,
     root: Node,
+    episodes: usize,
 ) -> Node {
     let Node::Behavior(own) = root else {
         return root;
@@ -30,18 +32,31 @@ pub(super) fn plainest<W: World>(
     if entrants.len() < alone.len() {
         return root;
     }
-    let (first, others) = entrants.split_at_mut(1);
-    let episodes = judge.scaled(NAMED);
-    judge.play(trials, first, episodes, None);
     let does = |choice, entrant: &Entrant| entrant.contender.driven(choice);
     let totals = |entrant: &Entrant| entrant.contender.each(|episode| episode.total);
-    let Some(same) = first.first().filter(|it| does(own, it) < DOES).map(totals) else {
+    let shown = judge.scaled(NAMED);
+    let Some((first, others)) = entrants.split_first_mut() else {
         return root;
     };
-    judge.play(trials, others, episodes, None);
-    let alike = alone.into_iter().zip(&entrants);
+    judge.play(trials, std::slice::from_mut(first), shown, None);
+    if does(own, first) >= DOES {
+        return root;
+    }
+    judge.play(trials, others, shown, None);
+    let same = totals(first);
+    let alike = alone.into_iter().skip(1).zip(others);
     let alike = alike.filter(|(_, entrant)| totals(entrant) == same);
-    let driven = alike.map(|(choice, entrant)| (choice, does(choice, entrant)));
-    let best = driven.reduce(|best, next| if next.1 > best.1 { next } else { best });
-    best.map_or(root, |(choice, _)| Node::Behavior(choice))
+    let driven = alike.map(|(choice, entrant)| (does(choice, entrant), choice, entrant));
+    let best = driven.reduce(|best, next| if next.0 > best.0 { next } else { best });
+    let Some((_, choice, plain)) = best.filter(|(part, ..)| *part >= DOES) else {
+        return root;
+    };
+    // What is lost seldom shows late.
+    for entrant in [&mut *first, &mut *plain] {
+        judge.play(trials, std::slice::from_mut(entrant), episodes, None);
+    }
+    match totals(plain) == totals(first) {
+        true => Node::Behavior(choice),
+        false => root,
+    }
 }

@@ -149,7 +149,7 @@ pub(super) fn choose<W: World>(
     drop(entrants);
     let root = match root == starts.exact {
         true => root,
-        false => plainest(judge, &trials, root),
+        false => plainest(judge, &trials, root, judge.scaled(of(FRESH))),
     };
     for point in front.iter_mut().filter(|point| point.taken) {
         point.root = root.clone();

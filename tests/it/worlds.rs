@@ -44,7 +44,6 @@ fn traps_can_be_learned_from() {
     for path in files("tests/worlds/traps") {
         let options = LearnOptions {
             episodes: Some(40),
-            effort: 1_000_000,
             roll_outs: 10,
             ..LearnOptions::default()
         };
