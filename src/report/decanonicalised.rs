@@ -140,7 +140,10 @@ impl Report<'_> {
             None => {}
         }
         for failing in &self.exact.failing {
-            line("fails", words::failing(program, policy, failing));
+            line(
+                "fails",
+                words::failing(program, policy, failing, "the tree"),
+            );
         }
         lines
     }

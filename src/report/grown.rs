@@ -39,12 +39,12 @@ pub fn doc(grown: &Grown, program: &Program, task: &Task) -> String {
     let [alike, all] = grown.alike;
     format!(
         "That is the exact tree, of {}. This one, of {}, was grown and selects the same as the exact one in {alike} of \
-         {all} minterms. It is tested, not proved: a return of {:.2} for {:.2} on {} fresh episodes, {}{ended}.",
+         {all} minterms. It is tested, not proved: on {} fresh episodes it returns {:.2}, the exact tree {:.2}, {}{ended}.",
         numbered(before.size.nodes as u64, "node"),
         after.size.nodes,
+        after.summary.episodes,
         after.summary.total.mean,
         before.summary.total.mean,
-        after.summary.episodes,
         verdict(grown),
     )
 }
@@ -110,43 +110,47 @@ pub fn beside(grown: &Grown, program: &Program, task: &Task) -> Option<String> {
 /// Lines for a person.
 pub fn lines(grown: &Grown, program: &Program, task: &Task) -> Vec<String> {
     let (before, after) = (&grown.before, &grown.after);
+    let found = match grown.kept {
+        true => "no tree, the exact one is kept".to_owned(),
+        false => format!(
+            "{}, the exact tree has {}; {}, the exact tree has {}; tested, not proved",
+            numbered(after.size.nodes as u64, "node"),
+            before.size.nodes,
+            numbered(after.size.literals as u64, "literal"),
+            before.size.literals,
+        ),
+    };
+    let returns = format!(
+        "{:.3}, the exact tree {:.3}, {}, in {} fresh episodes",
+        after.summary.total.mean,
+        before.summary.total.mean,
+        verdict(grown),
+        after.summary.episodes
+    );
     let mut lines = vec![
         line(
             "grown",
-            &format!(
-                "{} for {}, {} for {}; tested, not proved; {} ticks of search",
-                numbered(after.size.nodes as u64, "node"),
-                before.size.nodes,
-                numbered(after.size.literals as u64, "literal"),
-                before.size.literals,
-                grown.ticks
-            ),
+            &format!("{found}; {} ticks of search", grown.ticks),
         ),
-        line(
-            "return",
-            &format!(
-                "{:.3} for {:.3}, {}, in {} fresh episodes",
-                after.summary.total.mean,
-                before.summary.total.mean,
-                verdict(grown),
-                after.summary.episodes
-            ),
-        ),
+        line("return", &returns),
     ];
     let rates = before.summary.events.iter().zip(&after.summary.events);
     for (event, (was, is)) in program.events.values().zip(rates) {
-        let text = format!("{:.3} for {:.3} in 1000 ticks", is.per_1000, was.per_1000);
+        let text = format!(
+            "{:.3} in 1000 ticks, the exact tree {:.3}",
+            is.per_1000, was.per_1000
+        );
         lines.push(line(&event.name.to_string(), &text));
     }
     let (was, is) = (ended(program, task, before), ended(program, task, after));
     for (was, is) in was.iter().zip(is) {
         let text = format!(
-            "{} for {} of {} by {}, {}",
+            "{} of {} by {}, {}, the exact tree {}",
             is.count,
-            was.count,
             is.episodes,
             is.name,
-            is.bound()
+            is.bound(),
+            was.count
         );
         lines.push(line("ended", &text));
     }

@@ -52,10 +52,7 @@ pub fn lines<W>(results: &Results<W>) -> Vec<String> {
         first.push_str(&beside);
     }
     let tree = format!("{}; {}", words::size(&printed.size), printed.evidence);
-    let mut value = Value::of(results).text();
-    if results.grown.as_ref().is_some_and(|grown| !grown.kept) {
-        value.push_str("; of the policy, not of the tree");
-    }
+    let value = Value::of(results).text();
     vec![
         line("return", &first),
         line("events", &events),

@@ -283,7 +283,11 @@ impl<W> Report<'_, W> {
         let program = self.results.experiment.program;
         let all = &self.results.trees.chosen().failing;
         for failing in all.iter().take(LISTED) {
-            let text = words::failing(program, &self.results.policy, failing);
+            let tree = match self.results.is_grown() {
+                true => "the exact tree",
+                false => "the tree",
+            };
+            let text = words::failing(program, &self.results.policy, failing, tree);
             self.line("fails", text);
         }
         if let Some(more @ 1..) = all.len().checked_sub(LISTED) {

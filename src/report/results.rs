@@ -100,6 +100,11 @@ impl<W> Results<'_, W> {
         }
     }
 
+    /// Whether the tree that is printed is another than the exact one.
+    pub fn is_grown(&self) -> bool {
+        self.grown.as_ref().is_some_and(|grown| !grown.kept)
+    }
+
     /// The root of the tree that is printed.
     pub fn root(&self) -> &Node {
         match &self.grown {

@@ -18,6 +18,8 @@ pub struct Value {
     pub on_policy: f64,
     /// What the episodes came to.
     pub simulated: Mean,
+    /// Whether the tree that is printed is not that of the policy.
+    pub is_other: bool,
     /// Why what is predicted and what is simulated differ, where they do.
     pub why: Vec<String>,
 }
@@ -38,14 +40,19 @@ impl Value {
             Objective::Average(span) => average(results, &own, span),
         };
         value.why = value.reasons(results);
+        value.is_other = results.is_grown();
         value
     }
 
     /// The values in a line.
     pub fn text(&self) -> String {
         let [low, high] = self.simulated.ci95;
+        let whose = match self.is_other {
+            true => "; of the policy, not of the tree",
+            false => "",
+        };
         format!(
-            "{:.3} simulated, 95 % [{low:.3}, {high:.3}]; predicted {:.3} on-policy, {:.3} by the learner; {}",
+            "{:.3} simulated, 95 % [{low:.3}, {high:.3}]; predicted {:.3} on-policy, {:.3} by the learner; {}{whose}",
             self.simulated.mean, self.on_policy, self.learner, self.objective
         )
     }
@@ -117,6 +124,7 @@ fn discounted<W>(results: &Results<W>, own: &OnPolicy) -> Value {
         on_policy: mean(worth.iter().map(|worth| own.value(worth.start)).collect()).mean,
         simulated: mean(simulated.collect()),
         why: Vec::new(),
+        is_other: false,
     }
 }
 
@@ -133,5 +141,6 @@ fn average<W>(results: &Results<W>, own: &OnPolicy, span: f64) -> Value {
             ci95: simulated.ci95.map(|end| scale * end),
         },
         why: Vec::new(),
+        is_other: false,
     }
 }

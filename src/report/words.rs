@@ -86,17 +86,17 @@ pub fn rows(policy: &Policy) -> String {
     }
 }
 
-/// Where a policy was seen to fail outright, and what its tree does then.
-pub fn failing(program: &Program, policy: &Policy, failing: &Failing) -> String {
+/// Where a policy was seen to fail outright, and what its tree does then, which is called so.
+pub fn failing(program: &Program, policy: &Policy, failing: &Failing, tree: &str) -> String {
     let then = failing.then.iter().map(|next| match next {
-        Some(id) => program.behaviors[*id].name.to_string(),
-        None => "nothing".to_owned(),
+        Some(id) => format!("goes on to {}", program.behaviors[*id].name),
+        None => "selects nothing".to_owned(),
     });
     let then: Vec<String> = then.collect();
     // No path of the tree may come here with this failure.
     let then = match then.is_empty() {
         true => String::new(),
-        false => format!("; the tree goes on to {}", then.join(" or ")),
+        false => format!("; {tree} {}", then.join(" or ")),
     };
     format!(
         "{} failed outright {} times ({} with no change) in {}{then}",
