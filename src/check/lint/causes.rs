@@ -55,8 +55,8 @@ impl Checker<'_> {
         None
     }
 
-    /// Whether a warning of this cause has been told; it then shows this place, too.
-    pub fn has_told(&mut self, cause: Option<Cause>, at: Span) -> bool {
+    /// Whether a warning of this cause has been told; it then shows this place, too, which `says` something such as "never holds".
+    pub fn has_told(&mut self, cause: Option<Cause>, at: Span, says: &str) -> bool {
         let Some((told, shown)) = cause.and_then(|cause| self.causes.get_mut(&cause)) else {
             return false;
         };
@@ -64,7 +64,8 @@ impl Checker<'_> {
         if *shown <= SHOWN
             && let Some(told) = self.diagnostics.get_mut(*told)
         {
-            *told = told.clone().also(at, "this is so for the same reason");
+            let label = format!("this {says}, for the same reason");
+            *told = told.clone().also(at, label);
         }
         true
     }

@@ -217,7 +217,7 @@ impl<'a> Checker<'a> {
             };
             let asked: Vec<ExprId> = conditions.iter().map(|it| it.asks).collect();
             let cause = self.cause(&asked, &|program| never(program, wanted));
-            if self.has_told(cause, at) {
+            if self.has_told(cause, at, &format!("{says} holds")) {
                 continue;
             }
             let why = conditions

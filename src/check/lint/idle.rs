@@ -19,6 +19,9 @@ impl<'a> Checker<'a> {
         let why = match kind {
             Decorator::Retry(1) | Decorator::Repeat(1) => "its child is ticked once anyway",
             Decorator::Invert if !fails && !succeeds => "its child never ends",
+            Decorator::Invert if is_inverted(child) => {
+                "its child is inverted already, and twice is not at all"
+            }
             Decorator::Retry(_) | Decorator::Succeed if !fails => "its child never fails",
             Decorator::Repeat(_) | Decorator::Fail if !succeeds => "its child never succeeds",
             Decorator::Timeout(_) if is_instant(child) => "its child answers at once",
@@ -163,4 +166,14 @@ fn is_instant(node: &Node) -> bool {
 /// Whether a node is written as a mere `true` or `false`: whoever writes that has switched something off on purpose.
 pub fn is_switch(node: &ast::Node) -> bool {
     matches!(&node.kind, NodeKind::Leaf(leaf) if matches!(leaf.kind, ExprKind::Bool(_)))
+}
+
+fn is_inverted(node: &Node) -> bool {
+    matches!(
+        node,
+        Node::Decorator {
+            kind: Decorator::Invert,
+            ..
+        }
+    )
 }

@@ -72,7 +72,7 @@ impl<'a> Checker<'a> {
         };
         let asked: Vec<ExprId> = read.iter().map(|(_, when)| *when).collect();
         let cause = self.cause(&asked, &|program| never(program, wanted));
-        if self.has_told(cause, value.span) {
+        if self.has_told(cause, value.span, &format!("{says} holds")) {
             return;
         }
         let message = format!("the predicate `{name}` {says} holds");

@@ -366,7 +366,7 @@ impl<'a> Checker<'a> {
             let mut asked = asked.iter();
             asked.all(|id| of_expr(program, *id, true).is_never())
         });
-        if !self.has_told(cause, at) {
+        if !self.has_told(cause, at, "never happens") {
             self.warning(Code::W0509, at, message)
                 .label("this never happens");
             self.tells(cause);

@@ -85,16 +85,19 @@ impl<'a> Checker<'a> {
         for state in all.keys() {
             self.program.states[*state].stays = Stays::ANY;
         }
-        for state in all.keys() {
-            let settings = set.get(state).map_or(&[][..], Vec::as_slice);
-            let stays = match self.program.states[*state].kind {
-                ValueKind::Quantity => self.numbers_of(*state, settings),
-                ValueKind::Bool | ValueKind::Enum(_) => {
-                    let initial = (World::acting(), self.program.states[*state].initial);
-                    self.one_of_these(*state, &[settings, &[initial]].concat())
-                }
-            };
-            self.program.states[*state].stays = stays;
+        // What a state is set to may read one that comes after it.
+        for _ in 0..PASSES {
+            for state in all.keys() {
+                let settings = set.get(state).map_or(&[][..], Vec::as_slice);
+                let stays = match self.program.states[*state].kind {
+                    ValueKind::Quantity => self.numbers_of(*state, settings),
+                    ValueKind::Bool | ValueKind::Enum(_) => {
+                        let initial = (World::acting(), self.program.states[*state].initial);
+                        self.one_of_these(*state, &[settings, &[initial]].concat())
+                    }
+                };
+                self.program.states[*state].stays = stays;
+            }
         }
     }
 
@@ -374,6 +377,9 @@ fn add(set: &mut Set, more: &Set) {
 
 /// How often what may happen is reckoned anew, before all of it is taken to happen.
 const ROUNDS: usize = 8;
+
+/// How often the states are gone through.
+const PASSES: usize = 3;
 
 /// The most changes of a state in a tick that are followed.
 const CHANGES: usize = 4;

@@ -16,6 +16,7 @@ use crate::ir::tree::{Atom, Composite, Decorator, Guard, Node, Status};
 use crate::ir::{Id, Name, Program};
 use crate::source::Span;
 use crate::syntax::ast::{self, ExprKind, Item, ItemKind, NodeKind};
+use crate::syntax::print;
 
 impl<'a> Checker<'a> {
     /// Warns of nodes that are never reached and of guards that always or never hold.
@@ -54,8 +55,13 @@ impl<'a> Checker<'a> {
                 }
                 let within = reached.and(&of_guard(&self.program, asked, true));
                 if within.is_never() {
+                    let asks_otherwise = held.and(&of_guard(&self.program, asked, true));
+                    let why = match asks_otherwise.is_never() {
+                        true => "what stands around it rules this out",
+                        false => "what comes before it takes every case in which this holds",
+                    };
                     self.warning(Code::W0602, guard.span, "this unit is never reached")
-                        .label("what comes before it takes every case in which this holds");
+                        .label(why);
                     return;
                 }
                 self.asked_already(guard, asked, held);
@@ -216,7 +222,11 @@ impl<'a> Checker<'a> {
         if !plain && !self.asks_a_constant(guard) && !self.says_one_thing_twice(written.span) {
             let asked = self.asked_by(guard);
             let cause = self.cause(&asked, &|program| never(program, wanted));
-            if !self.has_told(cause, written.span) {
+            if !self.has_told(cause, written.span, &format!("{says} holds")) {
+                let why = match wanted {
+                    true => self.never_at_once(written, guard),
+                    false => "it asks nothing".to_owned(),
+                };
                 let mut ends = 0;
                 guard.visit_atoms(&mut |atom| {
                     ends += usize::from(entry(&self.program, atom).is_some())
@@ -225,7 +235,7 @@ impl<'a> Checker<'a> {
                 let one_end = "`history last 1` keeps a single end: no two of these hold at once";
                 let message = format!("this guard {says} holds");
                 self.warning(Code::W0601, written.span, message)
-                    .label("it asks nothing")
+                    .label(why)
                     .help_if(of_one_end.then(|| one_end.to_owned()));
                 self.tells(cause);
             }
@@ -235,6 +245,29 @@ impl<'a> Checker<'a> {
 }
 
 impl Checker<'_> {
+    /// Which two parts of a guard that never holds exclude each other, if two do.
+    fn never_at_once(&self, written: &ast::Expr, guard: &Guard) -> String {
+        let parts = match guard {
+            Guard::And(parts) => parts.as_slice(),
+            _ => &[],
+        };
+        let texts = written.conjuncts();
+        let pairs = (0..parts.len()).flat_map(|at| (0..at).map(move |before| [before, at]));
+        let mut pairs = pairs.filter(|_| parts.len() == texts.len());
+        let excluded = pairs.find_map(|pair| {
+            let [Some(one), Some(other)] = pair.map(|at| parts.get(at)) else {
+                return None;
+            };
+            let both = Guard::And(vec![one.clone(), other.clone()]);
+            let never = of_guard(&self.program, &both, true).is_never();
+            never.then_some(pair.map(|at| texts.get(at).map(|text| print::expr(text))))
+        });
+        match excluded {
+            Some([Some(one), Some(other)]) => format!("`{one}` and `{other}` never hold at once"),
+            _ => "whatever happens in the world".to_owned(),
+        }
+    }
+
     /// Whether a guard asks a predicate that is constant by its definition.
     fn asks_a_constant(&self, guard: &Guard) -> bool {
         let mut any = false;
