@@ -210,9 +210,18 @@ impl<'a> Checker<'a> {
                         end: value.span.start,
                         ..name.span
                     };
-                    self.error(Code::E0305, name.span, message)
-                        .label("no parameter has a name")
-                        .fix("drop the name", until_value, "", Applicability::Unsafe);
+                    let draft = self.error(Code::E0305, name.span, message);
+                    match name.name.as_str() {
+                        "facing" => draft
+                            .label("which way a place faces is said behind its shape")
+                            .help(format!("write `… ) facing {}`", print::expr(value))),
+                        _ => draft.label("no parameter has a name").fix(
+                            "drop the name",
+                            until_value,
+                            "",
+                            Applicability::Unsafe,
+                        ),
+                    };
                 }
                 None
             }

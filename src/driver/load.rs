@@ -317,6 +317,7 @@ impl Loader<'_> {
         let resolved = self.found(from, path);
         let table = path.ends_with(".csv");
         if self.open.contains(&resolved) {
+            self.incomplete = true;
             let message = format!("`{path}` uses this file, or is this file");
             self.diagnostics.push(
                 Diagnostic::new(Code::E0210, span, message)

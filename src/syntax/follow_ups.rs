@@ -18,7 +18,8 @@ pub(super) fn left_out(text: &str, tree: &mut File, sorted: Vec<Diagnostic>) -> 
         sorted.into_iter().partition(Diagnostic::is_error);
     let sorted = under_their_heads(text, sorted);
     tree.lost.any = !sorted.is_empty();
-    tree.lost.unnamed |= is_cut(text, &sorted);
+    tree.lost.unnamed |=
+        is_cut(text, &sorted) || sorted.iter().any(|found| is_lost_use(text, found));
     let mut places: Vec<Span> = tree
         .lost
         .places
@@ -241,6 +242,14 @@ fn is_cut(text: &str, found: &[Diagnostic]) -> bool {
         found.code == Code::E0102 || lines(text, found.span()).range().end >= end
     };
     !text.is_empty() && !text.ends_with('\n') && found.iter().any(at_end)
+}
+
+/// Whether a mistake leaves it open which file is used.
+fn is_lost_use(text: &str, found: &Diagnostic) -> bool {
+    let line = text
+        .get(lines(text, found.span()).range())
+        .unwrap_or_default();
+    found.code == Code::E0106 && line.trim_start().starts_with("use ")
 }
 
 /// The mistakes of one place that do not follow from others there.

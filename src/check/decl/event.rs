@@ -219,7 +219,10 @@ impl<'a> Checker<'a> {
                 let name = plain_ref(value).filter(|name| name.args.is_none());
                 name.is_some_and(|name| {
                     let name = name.name.name.as_str();
-                    self.names.types.contains_key(name) || self.may_bind(name)
+                    // The name that the family itself binds is no misspelt member, however near one is.
+                    let is_its = params.iter().any(|param| param.name.name == name);
+                    let is_its = is_its && self.names.value(name, false).is_none();
+                    is_its || self.names.types.contains_key(name) || self.may_bind(name)
                 })
             }
             _ => false,

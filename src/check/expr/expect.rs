@@ -491,7 +491,7 @@ impl Draft<'_> {
         )
     }
 
-    /// Offers to write `min` after a number of minutes.
+    /// Offers to write `min` after a number of minutes, or `ms` after one of so many that they are hardly minutes.
     pub fn minutes(self, expr: &Expr, wanted: Option<Dim>) -> Self {
         let ExprKind::Number(literal) = &expr.kind else {
             return self;
@@ -500,9 +500,15 @@ impl Draft<'_> {
         if !metres || wanted != Some(Dim::TIME) {
             return self;
         }
-        let right = format!("{} min", literal.digits);
+        let many = literal.value >= 100.0;
+        let (what, unit) = if many {
+            ("milliseconds", "ms")
+        } else {
+            ("minutes", "min")
+        };
+        let right = format!("{} {unit}", literal.digits);
         self.fix(
-            format!("minutes are `min`: write `{right}`"),
+            format!("{what} are `{unit}`: write `{right}`"),
             expr.span,
             right,
             Applicability::Unsafe,

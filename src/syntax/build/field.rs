@@ -127,6 +127,10 @@ impl<'i> Builder<'i> {
             let args = if args == "()" { "" } else { args };
             return Ok(format!("{name}{args} {{ {owner} }}"));
         }
+        // The robot that acts is meant without a name.
+        if let (Some(args), "self" | "this") = (args, owner) {
+            return Ok(format!("{name}{args}"));
+        }
         let of_another_language = ["Math", "math", "np", "numpy", "std", "random"];
         if let Some(args) = args.filter(|_| owner == "std" && !FUNCTIONS.contains(&name)) {
             return Ok(format!("{name}{args}"));

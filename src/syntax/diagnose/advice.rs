@@ -389,6 +389,11 @@ impl Place<'_> {
             (Rule::strict_item, "{") if self.before() == ":" && self.begins_with("state") => {
                 "its values have a type with a name: `enum NAME { a, b }`, then `state NAME: ENUM = a`"
             }
+            (Rule::strict_item, "{") if self.before() == "=>" && self.line_begins_with("on") => {
+                let arrow = self.before.map_or(self.span(), |it| self.span_of(it));
+                let gap = arrow.to(self.span().before());
+                return diagnostic.fix("drop `=>`", gap, "", Applicability::Unsafe);
+            }
             (_, "{") if wants_value => "a value stands without braces",
             (Rule::strict_item, "{") if self.before() == "=" && self.begins_with("behavior") => {
                 "the clauses of a behaviour follow its name, without `=`"
@@ -475,7 +480,7 @@ impl Place<'_> {
     }
 
     /// Whether the token parts a third value from the two of a point.
-    fn is_third_coordinate(&self) -> bool {
+    pub(super) fn is_third_coordinate(&self) -> bool {
         let is_point = !self.expects(Rule::comma);
         is_point && self.open_paren().is_some()
     }

@@ -11,6 +11,7 @@ impl Place<'_> {
     /// A number or a sign in two pieces, a unit behind no number, a value behind `return`.
     pub(super) fn in_pieces(&self) -> Option<Diagnostic> {
         self.decimal_comma()
+            .or_else(|| self.decimal_commas_in_a_point())
             .or_else(|| self.torn_sign())
             .or_else(|| self.asked_for_truth())
             .or_else(|| self.mixed_units())
@@ -33,6 +34,39 @@ impl Place<'_> {
         }
         let span = self.span_of(first).to(self.span());
         let right = format!("{}.{}", first.of(self.text), self.found());
+        self.told(span, "a decimal fraction has a point", right)
+    }
+
+    /// `(2,5 m, 1 m)`: decimal commas in a point, which has too many coordinates by them.
+    fn decimal_commas_in_a_point(&self) -> Option<Diagnostic> {
+        if self.found() != "," || !self.is_third_coordinate() {
+            return None;
+        }
+        let has = |token: &Token, text: &str| token.of(self.text) == text;
+        let found = self.tokens.iter();
+        let at = found.clone().position(|it| it.start == self.found.start)?;
+        let open = found.clone().take(at).rposition(|it| has(it, "("))?;
+        let close = found.skip(at).position(|it| has(it, ")"))?;
+        let digits = |token: Token| {
+            token.kind == Kind::Number && token.of(self.text).bytes().all(|it| it.is_ascii_digit())
+        };
+        let torn = |three: &[Token]| match three {
+            [first, comma, last] => {
+                let touch = first.end == comma.start && comma.end == last.start;
+                let torn = touch && has(comma, ",") && digits(*first) && digits(*last);
+                torn.then_some((*first, *comma, *last))
+            }
+            _ => None,
+        };
+        let point = self.tokens.get(open..at + close)?;
+        let torn: Vec<(Token, Token, Token)> = point.windows(3).filter_map(torn).collect();
+        let ((first, ..), (.., last)) = (torn.first()?, torn.last()?);
+        let mut right = self.text.get(first.start..last.end)?.to_owned();
+        for (_, comma, _) in &torn {
+            let comma = comma.start - first.start;
+            right.replace_range(comma..=comma, ".");
+        }
+        let span = self.span_of(*first).to(self.span_of(*last));
         self.told(span, "a decimal fraction has a point", right)
     }
 

@@ -27,6 +27,7 @@ impl Place<'_> {
     pub(super) fn rewritten(&self) -> Option<Diagnostic> {
         self.spaced_name()
             .or_else(|| self.typed_first())
+            .or_else(|| self.filtered_binder())
             .or_else(|| self.turned_place())
             .or_else(|| self.indexed())
             .or_else(|| self.bracketed_for())
@@ -292,6 +293,9 @@ impl Place<'_> {
             ("behavior", "(") if CALLED.contains(&self.found()) => {
                 Some("gives a behaviour what it stands for")
             }
+            ("event" | "predicate", "(") if CALLED.contains(&self.found()) => {
+                Some("gives a name its condition")
+            }
             _ => None,
         };
         if let Some(gives) = gives {
@@ -328,12 +332,58 @@ impl Place<'_> {
             return None;
         }
         let span = self.span_of(ty).to(self.span());
-        if TYPES.contains(&self.found()) && !TYPES.contains(&ty.of(self.text)) {
+        let is_type = |word: &str| TYPES.contains(&word) || self.is_kind(word);
+        if is_type(self.found()) && !is_type(ty.of(self.text)) {
             let right = format!("{}: {}", ty.of(self.text), self.found());
             return self.told(span, "a `:` parts a parameter from its type", right);
         }
         let right = format!("{}: {}", self.found(), ty.of(self.text));
         self.told(span, "the name of a parameter goes before its type", right)
+    }
+
+    /// `any(b in bush if ripe(b))`: a condition behind a binder without its `:`.
+    fn filtered_binder(&self) -> Option<Diagnostic> {
+        let line = self
+            .text
+            .get(..self.found.start)?
+            .rfind('\n')
+            .map_or(0, |at| at + 1);
+        let before = self
+            .tokens
+            .iter()
+            .filter(|it| it.start >= line && it.start < self.found.start);
+        let before: Vec<Token> = before.copied().collect();
+        let binder = before.windows(4).rfind(|four| match four {
+            [name, of, kind, word] => {
+                let [of, word] = [of, word].map(|token| token.of(self.text));
+                is_word(*name)
+                    && is_word(*kind)
+                    && of == "in"
+                    && matches!(word, "if" | "where" | "when")
+            }
+            _ => false,
+        });
+        let [.., kind, word] = binder? else {
+            return None;
+        };
+        let (gap, word) = (self.span_of(*kind).after(), self.span_of(*word));
+        let diagnostic = Diagnostic::new(Code::E0101, word, "what is asked of each follows a `:`")
+            .label("write `:`")
+            .fix("put a `:`", gap.to(word), ":", Applicability::Unsafe);
+        (self.found() == ")").then_some(diagnostic)
+    }
+
+    /// Whether places or walls seem to be of a kind that is called so.
+    fn is_kind(&self, word: &str) -> bool {
+        let declares = |tokens: &[Token]| match tokens
+            .iter()
+            .map(|token| token.of(self.text))
+            .collect::<Vec<_>>()[..]
+        {
+            ["place" | "wall", _, ":", kind] => kind == word,
+            _ => false,
+        };
+        self.tokens.windows(4).any(declares)
     }
 
     /// `place A = disc(…) heading -90 deg`
