@@ -111,13 +111,7 @@ pub(super) fn choose<W: World>(
     starts: &Starts,
     settings: &Settings,
 ) -> Result<Grown, Atom> {
-    let (mut trees, price) = (candidates(&grower.visited, starts), grower.price);
-    // Where it returns as much as all the others, none of them is worth its nodes.
-    let single = grower
-        .single
-        .clone()
-        .filter(|single| !trees.contains(single));
-    trees.extend(single);
+    let (trees, price) = (candidates(&grower.visited, starts), grower.price);
     let judge = &mut grower.judge;
     let of = episodes(settings);
     let race = judge.fresh();

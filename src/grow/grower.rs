@@ -25,8 +25,6 @@ use serde::{Deserialize, Serialize};
 
 /// The part of what there is to gain that a node must bring.
 const PRICE: f64 = 0.003;
-/// What there is to gain is at least this part of the return: where a behaviour alone is as good, nodes are not for nothing.
-const LITTLE: f64 = 0.05;
 /// The ticks of a collection, as a part of the effort.
 const COLLECTED: f64 = 0.006;
 /// Episodes that show what a tree does, for pruning without simulation.
@@ -60,7 +58,7 @@ pub struct Grower<'g, 'w, 'a, W> {
     /// The trees that were the best of their time.
     pub visited: Vec<Visited>,
     /// The best single behaviour.
-    pub single: Option<Node>,
+    single: Option<Node>,
     attempts: Attempts,
 }
 
@@ -198,8 +196,7 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
         let spread = exact.contender.spread();
         let means = singles.iter().map(|single| single.contender.returns().mean);
         let least = means.fold(f64::NEG_INFINITY, f64::max);
-        let scale = (top - least).min(top.abs().max(spread));
-        let scale = scale.max(0.1 * spread).max(LITTLE * top.abs());
+        let scale = (top - least).min(top.abs().max(spread)).max(0.1 * spread);
         self.price = PRICE * scale.max(1e-6);
         self.scale = exact.scale();
         let mean = |single: &Entrant| single.contender.returns().mean;
