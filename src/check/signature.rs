@@ -7,6 +7,7 @@ use crate::diagnostic::{Applicability, Code};
 use crate::source::Span;
 use crate::syntax::ast::{Arg, ArgKind, Expr, Ident, Ref};
 use crate::syntax::print;
+use crate::syntax::words::SHAPES;
 
 /// The arguments that something takes.
 pub struct Signature<'s> {
@@ -210,11 +211,15 @@ impl<'a> Checker<'a> {
                         end: value.span.start,
                         ..name.span
                     };
+                    let shape = owner.trim_matches('`');
                     let draft = self.error(Code::E0305, name.span, message);
                     match name.name.as_str() {
-                        "facing" => draft
-                            .label("which way a place faces is said behind its shape")
-                            .help(format!("write `… ) facing {}`", print::expr(value))),
+                        "facing" if SHAPES.contains(&shape) => {
+                            let way = print::expr(value);
+                            draft
+                                .label("which way a place faces is said behind its shape")
+                                .help(format!("write `{shape}(…) facing {way}`"))
+                        }
                         _ => draft.label("no parameter has a name").fix(
                             "drop the name",
                             until_value,

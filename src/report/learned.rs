@@ -282,11 +282,11 @@ impl<W> Report<'_, W> {
     fn failing(&mut self) {
         let program = self.results.experiment.program;
         let all = &self.results.trees.chosen().failing;
+        let tree = match self.results.is_grown() {
+            true => "the exact tree",
+            false => "the tree",
+        };
         for failing in all.iter().take(LISTED) {
-            let tree = match self.results.is_grown() {
-                true => "the exact tree",
-                false => "the tree",
-            };
             let text = words::failing(program, &self.results.policy, failing, tree);
             self.line("fails", text);
         }

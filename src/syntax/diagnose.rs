@@ -23,6 +23,7 @@ pub(super) use words::end_is_missing;
 
 use super::brackets::{innermost_open, unclosed};
 use super::expected;
+use super::glance::Glance;
 use super::grammar::Rule;
 use super::tokens::{Kind, Token};
 use crate::diagnostic::{Applicability, Code, Diagnostic, suggest};
@@ -44,7 +45,7 @@ pub(super) struct Failure {
 pub(super) fn failure(
     file: FileId,
     text: &str,
-    tokens: &[Token],
+    (tokens, glance): (&[Token], &Glance),
     failure: &Failure,
 ) -> (usize, Diagnostic) {
     let index = tokens.partition_point(|token| token.end <= failure.at);
@@ -63,6 +64,7 @@ pub(super) fn failure(
         file,
         text,
         tokens,
+        glance,
         failure,
         found,
         before,
@@ -118,6 +120,7 @@ struct Place<'a> {
     file: FileId,
     text: &'a str,
     tokens: &'a [Token],
+    glance: &'a Glance<'a>,
     failure: &'a Failure,
     found: Token,
     before: Option<Token>,

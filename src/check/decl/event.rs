@@ -220,9 +220,9 @@ impl<'a> Checker<'a> {
                 name.is_some_and(|name| {
                     let name = name.name.name.as_str();
                     // The name that the family itself binds is no misspelt member, however near one is.
-                    let is_its = params.iter().any(|param| param.name.name == name);
-                    let is_its = is_its && self.names.value(name, false).is_none();
-                    is_its || self.names.types.contains_key(name) || self.may_bind(name)
+                    let binds = params.iter().any(|param| param.name.name == name);
+                    let binds = binds && self.names.value(name, false).is_none();
+                    binds || self.names.types.contains_key(name) || self.may_bind(name)
                 })
             }
             _ => false,

@@ -87,16 +87,27 @@ impl<'a> Checker<'a> {
         }
         // What a state is set to may read one that comes after it.
         for _ in 0..PASSES {
+            let mut changed = false;
             for state in all.keys() {
                 let settings = set.get(state).map_or(&[][..], Vec::as_slice);
-                let stays = match self.program.states[*state].kind {
-                    ValueKind::Quantity => self.numbers_of(*state, settings),
-                    ValueKind::Bool | ValueKind::Enum(_) => {
-                        let initial = (World::acting(), self.program.states[*state].initial);
-                        self.one_of_these(*state, &[settings, &[initial]].concat())
-                    }
-                };
+                let before = self.program.states[*state].stays.clone();
+                let stays = self.stays_of(*state, settings);
+                changed |= stays != before;
                 self.program.states[*state].stays = stays;
+            }
+            if !changed {
+                break;
+            }
+        }
+    }
+
+    /// The values that these settings, and its declaration, give a state.
+    fn stays_of(&mut self, state: Id<State>, settings: &[Setting]) -> Stays {
+        match self.program.states[state].kind {
+            ValueKind::Quantity => self.numbers_of(state, settings),
+            ValueKind::Bool | ValueKind::Enum(_) => {
+                let initial = (World::acting(), self.program.states[state].initial);
+                self.one_of_these(state, &[settings, &[initial]].concat())
             }
         }
     }
@@ -378,7 +389,7 @@ fn add(set: &mut Set, more: &Set) {
 /// How often what may happen is reckoned anew, before all of it is taken to happen.
 const ROUNDS: usize = 8;
 
-/// How often the states are gone through.
+/// How often the states are gone through at most.
 const PASSES: usize = 3;
 
 /// The most changes of a state in a tick that are followed.

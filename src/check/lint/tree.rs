@@ -55,8 +55,8 @@ impl<'a> Checker<'a> {
                 }
                 let within = reached.and(&of_guard(&self.program, asked, true));
                 if within.is_never() {
-                    let asks_otherwise = held.and(&of_guard(&self.program, asked, true));
-                    let why = match asks_otherwise.is_never() {
+                    let here = held.and(&of_guard(&self.program, asked, true));
+                    let why = match here.is_never() {
                         true => "what stands around it rules this out",
                         false => "what comes before it takes every case in which this holds",
                     };
@@ -247,25 +247,25 @@ impl<'a> Checker<'a> {
 impl Checker<'_> {
     /// Which two parts of a guard that never holds exclude each other, if two do.
     fn never_at_once(&self, written: &ast::Expr, guard: &Guard) -> String {
+        let texts = written.conjuncts();
         let parts = match guard {
-            Guard::And(parts) => parts.as_slice(),
+            Guard::And(parts) if parts.len() == texts.len() => parts.as_slice(),
             _ => &[],
         };
-        let texts = written.conjuncts();
-        let pairs = (0..parts.len()).flat_map(|at| (0..at).map(move |before| [before, at]));
-        let mut pairs = pairs.filter(|_| parts.len() == texts.len());
-        let excluded = pairs.find_map(|pair| {
-            let [Some(one), Some(other)] = pair.map(|at| parts.get(at)) else {
-                return None;
-            };
-            let both = Guard::And(vec![one.clone(), other.clone()]);
-            let never = of_guard(&self.program, &both, true).is_never();
-            never.then_some(pair.map(|at| texts.get(at).map(|text| print::expr(text))))
-        });
-        match excluded {
-            Some([Some(one), Some(other)]) => format!("`{one}` and `{other}` never hold at once"),
-            _ => "whatever happens in the world".to_owned(),
+        for (at, other) in parts.iter().enumerate() {
+            for (before, one) in parts.iter().take(at).enumerate() {
+                let both = Guard::And(vec![one.clone(), other.clone()]);
+                if let (true, Some(one), Some(other)) = (
+                    of_guard(&self.program, &both, true).is_never(),
+                    texts.get(before),
+                    texts.get(at),
+                ) {
+                    let [one, other] = [one, other].map(|text| print::expr(text));
+                    return format!("`{one}` and `{other}` never hold at once");
+                }
+            }
         }
+        "whatever happens in the world".to_owned()
     }
 
     /// Whether a guard asks a predicate that is constant by its definition.

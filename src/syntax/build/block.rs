@@ -334,7 +334,7 @@ impl<'i> Builder<'i> {
             let failure = self.failure(Rule::strict_stmt, start, start);
             if failure.at > at.range().start {
                 let (until, diagnostic) =
-                    diagnose::failure(self.file, self.text, self.tokens, &failure);
+                    diagnose::failure(self.file, self.text, (self.tokens, self.glance()), &failure);
                 self.failed_at = Some(until);
                 self.report(diagnostic);
                 if self

@@ -63,7 +63,8 @@ impl<'i> Builder<'i> {
         if word == "else" && next.is_some_and(|next| self.is_choice_behind(next)) {
             // What is wrong stands behind the `else`.
             let failure = self.failure(Rule::strict_choice, start, start);
-            let (at, diagnostic) = diagnose::failure(self.file, self.text, self.tokens, &failure);
+            let (at, diagnostic) =
+                diagnose::failure(self.file, self.text, (self.tokens, self.glance()), &failure);
             self.failed_at = Some(at);
             self.report(diagnostic);
             self.lose_layout(start);

@@ -90,7 +90,8 @@ impl<'i> Builder<'i> {
             let apart = self.juxtaposition(&failure, Some(previous));
             failure = apart.unwrap_or(failure);
         }
-        let (at, diagnostic) = diagnose::failure(self.file, self.text, self.tokens, &failure);
+        let (at, diagnostic) =
+            diagnose::failure(self.file, self.text, (self.tokens, self.glance()), &failure);
         self.failed_at = Some(at);
         self.lose_meant(&diagnostic);
         self.report(diagnostic);

@@ -23,10 +23,8 @@ impl Place<'_> {
     fn decimal_comma(&self) -> Option<Diagnostic> {
         let (first, comma) = (self.second_before?, self.before?);
         let touching = first.end == comma.start && comma.end == self.found.start;
-        let digits = |token: Token| {
-            token.kind == Kind::Number && token.of(self.text).bytes().all(|it| it.is_ascii_digit())
-        };
-        if !touching || !digits(first) || !digits(self.found) || comma.of(self.text) != "," {
+        let digits = self.is_digits(first) && self.is_digits(self.found);
+        if !touching || !digits || comma.of(self.text) != "," {
             return None;
         }
         if self.found().len() == 3 {
@@ -37,28 +35,29 @@ impl Place<'_> {
         self.told(span, "a decimal fraction has a point", right)
     }
 
+    /// Whether a token is a number of digits alone.
+    fn is_digits(&self, token: Token) -> bool {
+        token.kind == Kind::Number && token.of(self.text).bytes().all(|it| it.is_ascii_digit())
+    }
+
     /// `(2,5 m, 1 m)`: decimal commas in a point, which has too many coordinates by them.
     fn decimal_commas_in_a_point(&self) -> Option<Diagnostic> {
         if self.found() != "," || !self.is_third_coordinate() {
             return None;
         }
         let has = |token: &Token, text: &str| token.of(self.text) == text;
-        let found = self.tokens.iter();
-        let at = found.clone().position(|it| it.start == self.found.start)?;
-        let open = found.clone().take(at).rposition(|it| has(it, "("))?;
-        let close = found.skip(at).position(|it| has(it, ")"))?;
-        let digits = |token: Token| {
-            token.kind == Kind::Number && token.of(self.text).bytes().all(|it| it.is_ascii_digit())
-        };
+        let open = self.open()?;
+        let from = self.tokens.partition_point(|it| it.end <= open.end);
+        let inner = self.tokens.get(from..)?;
+        let point = inner.get(..inner.iter().position(|it| has(it, ")"))?)?;
         let torn = |three: &[Token]| match three {
             [first, comma, last] => {
                 let touch = first.end == comma.start && comma.end == last.start;
-                let torn = touch && has(comma, ",") && digits(*first) && digits(*last);
-                torn.then_some((*first, *comma, *last))
+                let digits = self.is_digits(*first) && self.is_digits(*last);
+                (touch && has(comma, ",") && digits).then_some((*first, *comma, *last))
             }
             _ => None,
         };
-        let point = self.tokens.get(open..at + close)?;
         let torn: Vec<(Token, Token, Token)> = point.windows(3).filter_map(torn).collect();
         let ((first, ..), (.., last)) = (torn.first()?, torn.last()?);
         let mut right = self.text.get(first.start..last.end)?.to_owned();

@@ -310,11 +310,8 @@ impl Place<'_> {
             return None;
         }
         let span = self.span_of(name).to(self.span());
-        let is_task = |pair: &[Token]| match pair {
-            [word, task] => word.of(self.text) == "task" && task.of(self.text) == self.found(),
-            _ => false,
-        };
-        if matches!(word.of(self.text), "tree" | "learn") && self.tokens.windows(2).any(is_task) {
+        let is_task = self.glance.declares_by(&["task"], self.found());
+        if matches!(word.of(self.text), "tree" | "learn") && is_task {
             let right = format!("{} for {}", name.of(self.text), self.found());
             return self.told(span, "its task follows `for`", right);
         }
@@ -332,7 +329,7 @@ impl Place<'_> {
             return None;
         }
         let span = self.span_of(ty).to(self.span());
-        let is_type = |word: &str| TYPES.contains(&word) || self.is_kind(word);
+        let is_type = |word: &str| TYPES.contains(&word) || self.glance.is_kind(word);
         if is_type(self.found()) && !is_type(ty.of(self.text)) {
             let right = format!("{}: {}", ty.of(self.text), self.found());
             return self.told(span, "a `:` parts a parameter from its type", right);
@@ -343,47 +340,21 @@ impl Place<'_> {
 
     /// `any(b in bush if ripe(b))`: a condition behind a binder without its `:`.
     fn filtered_binder(&self) -> Option<Diagnostic> {
-        let line = self
-            .text
-            .get(..self.found.start)?
-            .rfind('\n')
-            .map_or(0, |at| at + 1);
-        let before = self
-            .tokens
-            .iter()
-            .filter(|it| it.start >= line && it.start < self.found.start);
-        let before: Vec<Token> = before.copied().collect();
-        let binder = before.windows(4).rfind(|four| match four {
-            [name, of, kind, word] => {
-                let [of, word] = [of, word].map(|token| token.of(self.text));
-                is_word(*name)
-                    && is_word(*kind)
-                    && of == "in"
-                    && matches!(word, "if" | "where" | "when")
-            }
-            _ => false,
-        });
-        let [.., kind, word] = binder? else {
+        let open = self.open().filter(|_| self.found() == ")")?;
+        let at = self.tokens.partition_point(|it| it.end <= open.end);
+        let [name, of, kind, word] = self.tokens.get(at..at + 4)? else {
             return None;
         };
+        let binds = is_word(*name) && is_word(*kind) && of.of(self.text) == "in";
+        if !binds || !matches!(word.of(self.text), "if" | "where" | "when") {
+            return None;
+        }
         let (gap, word) = (self.span_of(*kind).after(), self.span_of(*word));
-        let diagnostic = Diagnostic::new(Code::E0101, word, "what is asked of each follows a `:`")
-            .label("write `:`")
-            .fix("put a `:`", gap.to(word), ":", Applicability::Unsafe);
-        (self.found() == ")").then_some(diagnostic)
-    }
-
-    /// Whether places or walls seem to be of a kind that is called so.
-    fn is_kind(&self, word: &str) -> bool {
-        let declares = |tokens: &[Token]| match tokens
-            .iter()
-            .map(|token| token.of(self.text))
-            .collect::<Vec<_>>()[..]
-        {
-            ["place" | "wall", _, ":", kind] => kind == word,
-            _ => false,
-        };
-        self.tokens.windows(4).any(declares)
+        Some(
+            Diagnostic::new(Code::E0101, word, "what is asked of each follows a `:`")
+                .label("write `:`")
+                .fix("put a `:`", gap.to(word), ":", Applicability::Unsafe),
+        )
     }
 
     /// `place A = disc(…) heading -90 deg`
