@@ -9,7 +9,8 @@ use super::decl::input::InputSlot;
 use super::decl::predicate::PredicateId;
 use super::decl::state::StateSlot;
 use super::lint::{
-    Again, Asked, Assigned, Assignments, Causes, Condition, Equality, FailClause, Links,
+    Again, Asked, Assigned, Assignments, Causes, Condition, Equality, FailClause, Joints, Links,
+    Quantity,
 };
 use super::meaning::Meanings;
 use super::members::{Kinds, Member};
@@ -69,6 +70,8 @@ pub struct Checker<'a> {
     pub constant: BTreeSet<String>,
     /// The conditions of each `else if`.
     pub links: Links,
+    /// What each `and` and `or` joins.
+    pub joints: Joints,
     /// Where a program calls behaviours of the library.
     pub library_calls: BTreeMap<Span, Id<Behavior>>,
     /// Each `fail when`, by where it stands, as the behaviours have it.
@@ -81,6 +84,8 @@ pub struct Checker<'a> {
     pub assigned: Vec<Assigned>,
     /// Where statements change something by nothing.
     pub idle: BTreeSet<Span>,
+    /// The times that behaviours are given and the speeds in control laws, as they are written.
+    pub measures: BTreeMap<Span, Quantity>,
     /// Where a state is to be exactly so much.
     pub equalities: Vec<Equality<'a>>,
     /// The states that a value of a block hides.
@@ -165,6 +170,7 @@ impl<'a> Checker<'a> {
             conditions: Vec::new(),
             causes: Causes::new(),
             links: Links::new(),
+            joints: Joints::new(),
             constant: BTreeSet::new(),
             plain_ratios: BTreeMap::new(),
             needed: Vec::new(),
@@ -174,6 +180,7 @@ impl<'a> Checker<'a> {
             assignments: Assignments::new(),
             assigned: Vec::new(),
             idle: BTreeSet::new(),
+            measures: BTreeMap::new(),
             equalities: Vec::new(),
             hidden: BTreeSet::new(),
             positions: Vec::new(),

@@ -177,6 +177,9 @@ impl<'a> Checker<'a> {
                 _ => Entity::Local,
             };
             self.meanings.declare(name, entity);
+            if !self.bound.contains_key(&name.span) {
+                self.hides_what_is_declared(name, what);
+            }
             self.bound.entry(name.span).or_insert(Bound {
                 name: &name.name,
                 what,
@@ -233,6 +236,33 @@ impl<'a> Checker<'a> {
         ));
         // Whether it is read, and whether what it hides is ever set, depends on what is meant.
         self.reads(name.span);
+    }
+
+    /// Warns of a parameter, a local or a member with the name of something in the world or of a state.
+    fn hides_what_is_declared(&mut self, name: &'a Ident, what: &str) {
+        let called = &name.name;
+        let Some((decl, false)) = self.names.value(called, false) else {
+            return;
+        };
+        let stands = matches!(
+            decl,
+            Decl::State(_) | Decl::Place(..) | Decl::Wall(..) | Decl::Robot(_) | Decl::Sensor(_)
+        );
+        let beside = decl.ident().span.file == name.span.file;
+        if !stands || !beside || what == "value" {
+            return;
+        }
+        let hidden = match decl {
+            Decl::State(_) => "state",
+            _ => decl.what().trim_start_matches("a "),
+        };
+        self.warning(
+            Code::W0204,
+            name.span,
+            format!("this {what} hides the {hidden} `{called}`"),
+        )
+        .label(format!("where it is bound, the name means this {what}"))
+        .help("call one of the two something else");
     }
 
     /// Notes that a binding is read.

@@ -24,6 +24,7 @@ mod overwritten;
 mod predicates;
 mod ranges;
 mod reads;
+mod redundant;
 mod regions;
 mod repaid;
 mod rewards;
@@ -33,6 +34,7 @@ mod sizes;
 mod starts;
 mod stays;
 mod subtrees;
+mod tests;
 mod tree;
 mod unused;
 mod view;
@@ -50,8 +52,10 @@ pub use endings::Asked;
 pub use exact::Equality;
 pub use exclusions::exclusions;
 pub use mentions::Mentions;
+pub use redundant::Joints;
 pub use regions::FailClause;
 pub use same::Again;
+pub use sizes::Quantity;
 
 /// The least that an expression may be, as far as its operators and the world tell.
 pub fn least(program: &Program, id: ExprId) -> f64 {
@@ -97,7 +101,9 @@ impl<'a> Checker<'a> {
         self.nodes_without_effect(items());
         self.subtrees_without_effect(items());
         self.claims_in_vain(items());
+        self.tests_of_nowhere(items());
         self.sides_without_effect();
+        self.parts_without_effect();
         self.passed_over();
         for (state, stays) in kept {
             self.program.states[state].stays = stays;

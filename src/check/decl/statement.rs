@@ -122,7 +122,10 @@ impl<'a> Checker<'a> {
         let then = self.block(&branch.then);
         let otherwise = match branch.otherwise.as_deref() {
             None => Some(Block::default()),
-            Some(Else::Block(block)) => self.block(block),
+            Some(Else::Block(block)) => {
+                self.ends_chain(block.span, before);
+                self.block(block)
+            }
             Some(Else::If(inner)) => self.branch(inner, before).map(|stmt| Block(vec![stmt])),
         };
         Some(Stmt::If(condition.scalar()?, then?, otherwise?))

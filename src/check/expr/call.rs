@@ -5,7 +5,7 @@ use crate::check::builtin::{BuiltIn, Constant, Function};
 use crate::check::context::Region;
 use crate::check::types::{Type, Typed, Value};
 use crate::diagnostic::Code;
-use crate::ir::expr::{Expr, Pose};
+use crate::ir::expr::{Binary, Expr, Pose};
 use crate::source::Span;
 use crate::syntax::ast::Ref;
 
@@ -80,7 +80,12 @@ impl<'a> Checker<'a> {
         use Function as F;
         let function = match called {
             BuiltIn::Unary(op) => return self.function_of_one(op, reference),
-            BuiltIn::Binary(op) => return self.function_of_two(op, reference),
+            BuiltIn::Binary(op) => {
+                if matches!(op, Binary::Min | Binary::Max) {
+                    self.same_bounds(reference);
+                }
+                return self.function_of_two(op, reference);
+            }
             BuiltIn::Function(function) => function,
         };
         match function {

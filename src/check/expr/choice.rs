@@ -34,7 +34,10 @@ impl<'a> Checker<'a> {
         }
         let (otherwise, last) = match &choice.otherwise {
             Otherwise::If(inner, span) => (self.choice_after(inner, *span, before), None),
-            Otherwise::Yield(other) => (Some(self.yielded(other)), Some(&*other.value)),
+            Otherwise::Yield(other) => {
+                self.ends_chain(other.value.span, before);
+                (Some(self.yielded(other)), Some(&*other.value))
+            }
         };
         let otherwise = otherwise?;
         if then.ty == Type::Error || otherwise.ty == Type::Error {

@@ -8,8 +8,8 @@ use crate::source::Span;
 use crate::syntax::ast::{Expr, Literal};
 use std::f64::consts::TAU;
 
-/// More than three turns, in radians.
-const ROUND: f64 = 19.0;
+/// More than a turn, in radians.
+const ROUND: f64 = 6.3;
 
 impl<'a> Checker<'a> {
     /// A number, perhaps with a unit.
@@ -25,7 +25,9 @@ impl<'a> Checker<'a> {
             if unit.text == "rad" && literal.value.abs() > ROUND {
                 self.many_turns(literal, unit.span);
             }
-            let id = self.program.pool.num(meaning.scale.apply(literal.value));
+            let value = meaning.scale.apply(literal.value);
+            self.measured(meaning.dim, value, span);
+            let id = self.program.pool.num(value);
             let ty = if meaning.percent {
                 Type::Ratio
             } else {

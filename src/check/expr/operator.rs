@@ -118,6 +118,7 @@ impl<'a> Checker<'a> {
         }
         self.joins(left, a.scalar());
         self.joins(right, b.scalar());
+        self.joint(sign.node, span, [(left, a.scalar()), (right, b.scalar())]);
         Some(self.lift_binary(op, Type::Bool, &a, &b, span))
     }
 
@@ -329,19 +330,16 @@ impl<'a> Checker<'a> {
         self.lift_binary(op, Type::Bool, &a, &b, span)
     }
 
-    /// Whether this is where a robot is, how far it is from something, or what is reckoned from that: no two are ever quite
-    /// the same.
+    /// Whether this is where a robot is, how far it is from something, an input with a unit, or what is reckoned from that: no
+    /// two are ever quite the same.
     fn is_measure(&self, of: &Typed) -> bool {
-        fn measures(pool: &Pool, id: ExprId, turns: bool) -> bool {
+        fn measures(pool: &Pool, id: ExprId, is_one: &impl Fn(Node) -> bool) -> bool {
             match pool.get(id) {
-                Node::Pose(Pose::Heading) => turns,
-                Node::Pose(_) | Node::Robot(..) => true,
-                Node::NearestWall(echo) | Node::Wall(_, echo) => echo != Echo::Seen,
                 Node::Unary(op, of) => {
                     !matches!(
                         op,
                         Unary::Not | Unary::Round | Unary::Floor | Unary::Ceil | Unary::Sign
-                    ) && measures(pool, of, turns)
+                    ) && measures(pool, of, is_one)
                 }
                 Node::Binary(op, a, b) => {
                     let reckoned = matches!(
@@ -353,19 +351,26 @@ impl<'a> Checker<'a> {
                             | Binary::Hypot
                             | Binary::Atan2
                     );
-                    reckoned && (measures(pool, a, turns) || measures(pool, b, turns))
+                    reckoned && (measures(pool, a, is_one) || measures(pool, b, is_one))
                 }
-                _ => false,
+                one => is_one(one),
             }
         }
-        let dimensioned = of.ty.dim().is_some();
-        let expr = of.scalar().filter(|_| dimensioned);
+        let dim = of.ty.dim();
+        let expr = of.scalar().filter(|_| dim.is_some());
         // A robot that need not turn may face one way all the time, and be where it was.
         let drive = self.subject_robot().map(|robot| robot.drive.kind);
         let turns = drive == Some(DriveKind::Differential);
+        let is_one = |node| match node {
+            Node::Pose(Pose::Heading) => turns,
+            Node::Pose(_) | Node::Robot(..) => true,
+            Node::NearestWall(echo) | Node::Wall(_, echo) => echo != Echo::Seen,
+            Node::Input(_) => dim != Some(Dim::NONE),
+            _ => false,
+        };
         let pool = &self.program.pool;
         let mut kept = |part| matches!(part, Node::State(_) | Node::Local(_));
-        expr.is_some_and(|id| measures(pool, id, turns) && !pool.any(id, &mut kept))
+        expr.is_some_and(|id| measures(pool, id, &is_one) && !pool.any(id, &mut kept))
     }
 
     /// Whether this is a distance, which is not below zero.

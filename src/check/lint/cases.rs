@@ -404,6 +404,9 @@ impl Reader<'_> {
                 }
             };
         }
+        if let (Binary::Eq | Binary::Ne, true) = (op, self.is_between_counts(a, b)) {
+            return Some(Cases::constant(wanted == (op == Binary::Ne)));
+        }
         let may = range(self.view, of);
         let within: Vec<Interval> = within.into_iter().flatten().collect();
         // Of all comparisons `!=` alone holds of what is not a number.
@@ -417,6 +420,34 @@ impl Reader<'_> {
         let none = none.then(|| Case::from([(about(&self.view.program.pool, of), Says::NoNumber)]));
         Some(Cases::Some(within.chain(none).collect()))
     }
+}
+
+impl Reader<'_> {
+    /// Whether one of these counts something and the other is a constant that is no whole number.
+    fn is_between_counts(&self, a: ExprId, b: ExprId) -> bool {
+        let pool = &self.view.program.pool;
+        let no_count = |id| pool.constant(id).is_some_and(|value| value.fract() != 0.0);
+        no_count(a) && is_count(pool, b) || no_count(b) && is_count(pool, a)
+    }
+}
+
+/// Whether an expression adds up whole numbers, some of which hang on conditions.
+fn is_count(pool: &Pool, id: ExprId) -> bool {
+    let mut seen = FxHashSet::default();
+    let mut open = vec![id];
+    while let Some(id) = open.pop() {
+        if !seen.insert(id) {
+            continue;
+        }
+        match pool.get(id) {
+            Expr::Num(value) if value.fract() == 0.0 => {}
+            Expr::Binary(Binary::Add | Binary::Sub | Binary::Mul, a, b) | Expr::Select(_, a, b) => {
+                open.extend([a, b])
+            }
+            _ => return false,
+        }
+    }
+    true
 }
 
 /// What a literal on a number is about.

@@ -9,11 +9,11 @@ use crate::source::Span;
 use crate::syntax::ast;
 use std::collections::BTreeMap;
 
-/// The condition of an `else if`.
+/// The condition of an `else if`, or the `else` at the end.
 #[derive(Clone, Debug)]
 pub struct Link {
-    /// What it asks.
-    asks: ExprId,
+    /// What it asks; nothing at the end.
+    asks: Option<ExprId>,
     /// What the branches before it ask.
     before: Vec<ExprId>,
     /// Whether any robot may ask it.
@@ -37,19 +37,32 @@ impl<'a> Checker<'a> {
         let Some(asks) = asks.filter(|_| !self.context.library && before.len() < MOST) else {
             return;
         };
-        if let Some((first, _)) = before.last() {
-            let link = Link {
-                asks,
-                before: before.iter().map(|(_, asks)| *asks).collect(),
-                of_any_robot: !matches!(
-                    self.context.region,
-                    Region::Event | Region::Effect | Region::EachTick
-                ),
-            };
-            let links = self.links.entry(written.span);
-            links.or_insert_with(|| (*first, Vec::new())).1.push(link);
-        }
+        self.link(written.span, Some(asks), before);
         before.push((written.span, asks));
+    }
+
+    /// Notes the last branch of a chain, for which nothing is asked. One that follows a single condition says itself what
+    /// that leaves.
+    pub fn ends_chain(&mut self, last: Span, before: &[(Span, ExprId)]) {
+        if before.len() > 1 && before.len() < MOST {
+            self.link(last, None, before);
+        }
+    }
+
+    fn link(&mut self, at: Span, asks: Option<ExprId>, before: &[(Span, ExprId)]) {
+        let Some((first, _)) = before.last().filter(|_| !self.context.library) else {
+            return;
+        };
+        let link = Link {
+            asks,
+            before: before.iter().map(|(_, asks)| *asks).collect(),
+            of_any_robot: !matches!(
+                self.context.region,
+                Region::Event | Region::Effect | Region::EachTick
+            ),
+        };
+        let links = self.links.entry(at);
+        links.or_insert_with(|| (*first, Vec::new())).1.push(link);
     }
 
     /// Warns of the branches that are never taken, since an earlier one is wherever they could be.
@@ -59,7 +72,10 @@ impl<'a> Checker<'a> {
         for (at, (first, links)) in std::mem::take(&mut self.links) {
             let program = &self.program;
             let never = |link: &Link| {
-                let own = of_expr(program, link.asks, true);
+                let own = match link.asks {
+                    Some(asks) => of_expr(program, asks, true),
+                    None => Cases::constant(true),
+                };
                 let before = link.before.iter();
                 let rest = before.fold(own.clone(), |rest, asks| {
                     rest.and(&of_expr(program, *asks, false))
@@ -67,13 +83,20 @@ impl<'a> Checker<'a> {
                 !own.is_never() && own != Cases::Unknown && rest.is_never()
             };
             let unsure = |link: &Link| {
-                program.pool.constant(link.asks).is_some() || link.of_any_robot && !alone
+                let constant = |id| program.pool.constant(id).is_some();
+                link.asks.is_some_and(constant)
+                    || link.before.iter().any(|asks| constant(*asks))
+                    || link.of_any_robot && !alone
             };
             if links.iter().any(unsure) || !links.iter().all(never) {
                 continue;
             }
+            let label = match links.first().and_then(|link| link.asks) {
+                Some(_) => "wherever this holds, a branch before it is taken",
+                None => "in every case a branch before it is taken",
+            };
             self.warning(Code::W0601, at, "this branch is never taken")
-                .label("wherever this holds, a branch before it is taken")
+                .label(label)
                 .also(first, "branches are looked at in their order");
         }
     }

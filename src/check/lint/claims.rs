@@ -1,19 +1,23 @@
 //! Claims that speak of more time than there is, or cannot hold.
 
+use super::conditions::Places;
 use crate::check::Checker;
 use crate::check::tree::written;
 use crate::diagnostic::Code;
 use crate::ir::Id;
+use crate::ir::expr::Expr;
 use crate::ir::task::{self, ClaimKind, Occurrence, Task, TreeRef};
 use crate::ir::tree::Atom;
 use crate::source::Span;
-use crate::syntax::ast::{Claim, ClaimWhat, Ident, Item, ItemKind};
+use crate::syntax::ast::{
+    self, AspectKind, Claim, ClaimWhat, ExprKind, Ident, Item, ItemKind, UnaryOp,
+};
 
 impl<'a> Checker<'a> {
     /// Warns of claims that speak of more time than there is, or cannot hold.
-    pub fn claims_in_vain(&mut self, items: impl Iterator<Item = &'a Item>) {
+    pub fn claims_in_vain(&mut self, items: impl Iterator<Item = &'a Item> + Clone) {
         let mut earlier: Vec<(Span, task::Claim)> = Vec::new();
-        for item in items {
+        for item in items.clone() {
             let ItemKind::Claim(claim) = &item.kind else {
                 continue;
             };
@@ -32,7 +36,19 @@ impl<'a> Checker<'a> {
                 }
                 ClaimKind::Never(occurrence) | ClaimKind::Reaches(occurrence) => {
                     self.beyond_episodes(claim, checked.tree, occurrence);
+                    if matches!(checked.kind, ClaimKind::Never(_)) {
+                        self.pays_for_it(at, checked.tree, occurrence, items.clone());
+                    }
+                    if occurrence.probability == 0.0 {
+                        self.always_holds(claim);
+                        continue;
+                    }
                 }
+            }
+            if let Some((first, it)) = earlier.iter().find(|(_, it)| is_between(it, &checked)) {
+                let (first, weaker) = (*first, implies(it, &checked));
+                self.claims_nothing_more(if weaker { [at, first] } else { [first, at] });
+                continue;
             }
             match earlier.iter().find(|(_, it)| contradict(it, &checked)) {
                 Some((first, _)) => {
@@ -47,6 +63,79 @@ impl<'a> Checker<'a> {
                 }
                 None => earlier.push((at, checked)),
             }
+        }
+    }
+
+    /// `on dead: +10` in the task of a tree that is never to have it.
+    fn pays_for_it(
+        &mut self,
+        at: Span,
+        tree: TreeRef,
+        occurrence: &Occurrence,
+        mut items: impl Iterator<Item = &'a Item>,
+    ) {
+        let program = &self.program;
+        let Some(task) = self.claimed_in(tree).map(|task| &program.tasks[task]) else {
+            return;
+        };
+        let asks = |id| program.pool.get(id) == Expr::Event(occurrence.event);
+        let place = task.reward.iter().position(|line| asks(line.event));
+        let place = place.and_then(|place| task.written.reward.get(place).copied());
+        let aspects = items.find_map(|item| match &item.kind {
+            ItemKind::Task(it) if task.name.is(&it.name.name) => Some(&it.aspects),
+            _ => None,
+        });
+        let mut lines = aspects
+            .into_iter()
+            .flatten()
+            .filter_map(|aspect| match &aspect.kind {
+                AspectKind::Reward { lines, .. } => Some(lines),
+                _ => None,
+            });
+        let line = lines.next().and_then(|lines| lines.get(place?));
+        let pays = |value: &ast::Expr| match &value.kind {
+            ExprKind::Number(number) => number.value > 0.0,
+            ExprKind::Unary { op, operand } => {
+                op.node == UnaryOp::Pos && matches!(operand.kind, ExprKind::Number(_))
+            }
+            _ => false,
+        };
+        if let Some(line) = line.filter(|line| pays(&line.value)) {
+            let name = program.events[occurrence.event].name.clone();
+            self.warning(
+                Code::W0527,
+                line.value.span,
+                format!("this pays for `{name}`"),
+            )
+            .label("a claim rules it out")
+            .also(at, "it is never to happen")
+            .help("is the sign right?");
+        }
+    }
+
+    /// Warns of a claim that another one implies, unless something else is told of one of them.
+    fn claims_nothing_more(&mut self, [weaker, stronger]: [Span; 2]) {
+        let mut told = Places::default();
+        let known = self.diagnostics.iter();
+        known.for_each(|found| told.add(found.span()));
+        if told.overlap(weaker) || told.overlap(stronger) {
+            return;
+        }
+        let message = "this claim holds wherever another one does";
+        self.warning(Code::W0303, weaker, message)
+            .label("it claims nothing more")
+            .also(stronger, "the other claim");
+    }
+
+    /// `with probability >= 0%`
+    fn always_holds(&mut self, claim: &'a Claim) {
+        if let Some((false, probability)) = &claim.probability {
+            self.warning(
+                Code::W0520,
+                probability.span,
+                "this claim holds whatever the tree does",
+            )
+            .label("no probability is less than 0%");
         }
     }
 
@@ -108,6 +197,25 @@ impl<'a> Checker<'a> {
         let only = || program.tasks.ids().next();
         own.or_else(|| only().filter(|_| program.tasks.len() == 1))
     }
+}
+
+/// Whether one of two claims on one tree holds wherever the other does.
+fn is_between(one: &task::Claim, other: &task::Claim) -> bool {
+    implies(one, other) || implies(other, one)
+}
+
+/// Whether the second claim holds wherever the first one does, on the same tree.
+fn implies(one: &task::Claim, other: &task::Claim) -> bool {
+    let long = |within: Option<u64>| within.unwrap_or(u64::MAX);
+    let (strong, weak, no_weaker) = match (&one.kind, &other.kind) {
+        (ClaimKind::Never(a), ClaimKind::Never(b)) => (a, b, long(a.within) >= long(b.within)),
+        (ClaimKind::Reaches(a), ClaimKind::Reaches(b)) => (a, b, long(a.within) <= long(b.within)),
+        _ => return false,
+    };
+    one.tree == other.tree
+        && strong.event == weak.event
+        && no_weaker
+        && strong.probability >= weak.probability
 }
 
 /// Whether two claims on one tree cannot both hold: more of its episodes would have to be with an event and without it than

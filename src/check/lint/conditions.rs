@@ -108,12 +108,15 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Notes the condition of a choice between values, if it is written without any name.
+    /// Notes the condition of a choice between values. Of one that depends on parameters, nothing is said.
     pub fn chooses_by(&mut self, written: &'a ast::Expr, condition: Option<ExprId>) {
-        if is_nameless(written)
+        let is_effect = matches!(self.context.region, Region::Effect | Region::EachTick);
+        let nameless = is_nameless(written);
+        if (nameless || is_effect || self.bodies.for_itself())
             && let Some(noted) = self.notes(written.span, condition)
         {
-            noted.nameless = true;
+            noted.nameless = nameless;
+            noted.of_any_robot = !is_effect;
         }
     }
 

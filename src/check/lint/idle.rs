@@ -14,6 +14,16 @@ use crate::syntax::print;
 impl<'a> Checker<'a> {
     /// Warns of a decorator that its child gives nothing to do.
     pub fn decorates_nothing(&mut self, at: Span, kind: Decorator, child: &Node) {
+        if let (Decorator::Succeed | Decorator::Fail, Node::Condition(_)) = (kind, child) {
+            let answer = match kind {
+                Decorator::Succeed => "succeeds",
+                _ => "fails",
+            };
+            let message = format!("`{}` asks for nothing here", kind.word());
+            self.warning(Code::W0605, at, message)
+                .label(format!("it {answer} whether this holds or not"));
+            return;
+        }
         let never = |status| when(&self.program, child, status).is_never();
         let (fails, succeeds) = (!never(Status::Failure), !never(Status::Success));
         let why = match kind {

@@ -11,6 +11,7 @@ use crate::ir::expr::ExprId;
 use crate::ir::program::Predicate;
 use crate::ir::world::Robot;
 use crate::ir::{Id, Name, Program};
+use crate::source::Span;
 use crate::spelling::spelled;
 use crate::syntax::ast::{AspectKind, BehaviorBody, ClauseKind, Expr, Item, ItemKind, Ref, Task};
 use crate::syntax::print;
@@ -35,6 +36,61 @@ impl<'a> Checker<'a> {
                 }
                 _ => {}
             }
+        }
+        self.declared_alike(items);
+    }
+
+    /// Warns of predicates, and of events, that ask the same under two names. Of two that a task observes it is told there.
+    fn declared_alike(&mut self, items: impl Iterator<Item = &'a Item>) {
+        let program = &self.program;
+        let mut seen: BTreeMap<(bool, ExprId), (&'a str, Span)> = BTreeMap::new();
+        let mut found: Vec<(&str, Span, &'a str, Span)> = Vec::new();
+        for item in items {
+            let (name, value, when) = match &item.kind {
+                ItemKind::Predicate(predicate) if predicate.params.is_none() => {
+                    let Some(value) = &predicate.value else {
+                        continue;
+                    };
+                    let id = program.predicates.named(&Name::word(&predicate.name.name));
+                    let when = id.and_then(|id| program.predicates[id].when);
+                    (&predicate.name, value, when.map(|when| (true, when)))
+                }
+                ItemKind::Event(event) if event.params.is_none() => {
+                    let id = program.events.named(&Name::word(&event.name.name));
+                    let when = id.map(|id| program.events[id].when);
+                    (&event.name, &event.value, when.map(|when| (false, when)))
+                }
+                _ => continue,
+            };
+            // Whoever names a name once more does that on purpose.
+            let named = plain_ref(value).is_some();
+            let asks = |(_, when): &(bool, ExprId)| program.pool.constant(*when).is_none();
+            let Some(when) = when.filter(|when| !named && asks(when)) else {
+                continue;
+            };
+            let first = *seen.entry(when).or_insert((&name.name, value.span));
+            if first.1 != value.span && first.1.file == value.span.file {
+                let what = if when.0 { "predicate" } else { "event" };
+                found.push((what, value.span, first.0, first.1));
+            }
+        }
+        let told = self.diagnostics.iter();
+        let told = told.filter(|found| found.code == Code::W0513);
+        let told: Vec<String> = told.map(|found| found.message.clone()).collect();
+        for (what, at, first, first_at) in found {
+            if told
+                .iter()
+                .any(|message| message.contains(&format!("`{first}`")))
+            {
+                continue;
+            }
+            self.warning(
+                Code::W0513,
+                at,
+                format!("this {what} is `{first}` under another name"),
+            )
+            .label(format!("it asks what `{first}` asks"))
+            .also(first_at, "asked here already");
         }
     }
 

@@ -17,6 +17,9 @@ const MOST: u32 = 400;
 /// An angle in the plane.
 const ANGLE: Interval = Interval::between(-PI, PI);
 
+/// So many times its deviation a noise never is.
+pub const NEVER_DRAWN: f64 = 8.0;
+
 /// A length.
 const LENGTH: Interval = Interval::between(0.0, f64::INFINITY);
 
@@ -145,22 +148,16 @@ impl Ranges<'_> {
         }
     }
 
-    /// What a sensor without noise reads.
+    /// What a sensor reads.
     fn sensor(&self, id: Id<Sensor>) -> Interval {
-        let world = self.view.program.world.as_ref();
-        let robot = world.map(|world| world.robot_of(self.view.robot));
-        let sensor = robot.map(|robot| &robot.sensors[id]);
-        match sensor
-            .filter(|sensor| sensor.noise == 0.0)
-            .map(|it| &it.kind)
-        {
-            Some(
-                SensorKind::Scanner { range, .. }
-                | SensorKind::RangeFinder { range, .. }
-                | SensorKind::Beacon { range, .. },
-            ) => Interval::between(0.0, *range),
-            None => Interval::ALL,
-        }
+        let Some(world) = &self.view.program.world else {
+            return Interval::ALL;
+        };
+        let sensor = &world.robot_of(self.view.robot).sensors[id];
+        let (SensorKind::Scanner { range, .. }
+        | SensorKind::RangeFinder { range, .. }
+        | SensorKind::Beacon { range, .. }) = sensor.kind;
+        Interval::between(0.0, range + NEVER_DRAWN * sensor.noise)
     }
 
     fn unary(&mut self, op: Unary, a: ExprId) -> Interval {

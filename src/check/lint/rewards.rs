@@ -1,10 +1,12 @@
 //! Rewards that are never paid, ends that count for nothing, and times that never pass.
 
 use super::cases::{About, Case, Cases, Says, of_expr};
+use super::conditions::is_nameless;
 use super::repaid::{self, Setters};
 use super::tree::as_it_succeeds;
 use crate::check::Checker;
 use crate::check::expr::plain_ref;
+use crate::check::names::Decl;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::expr::{Expr, ExprId};
 use crate::ir::law::Behavior;
@@ -126,9 +128,26 @@ impl<'a> Checker<'a> {
                 if before.any(|(_, cases)| cases.is_always()) && self.diagnostics.iter().any(told) {
                     continue;
                 }
+                // So has been of an event that is another one under its name.
+                let event = match &line.paid {
+                    Paid::On(event) => plain_ref(event),
+                    Paid::Per { .. } => None,
+                };
+                let event = event.and_then(|asked| self.names.value(&asked.name.name, false));
+                if let Some((Decl::Event(event), _)) = event
+                    && self
+                        .diagnostics
+                        .iter()
+                        .any(|found| found.code == Code::W0513 && found.span() == event.value.span)
+                {
+                    continue;
+                }
                 self.warning(Code::W0509, here, "this reward is never paid")
                     .label("whenever this happens, an earlier line pays")
                     .also(earlier, "this line comes first");
+            }
+            if self.pays_whatever_happens(&line.paid, (checked, place)) {
+                continue;
             }
             let members = checked.written.reward.iter().zip(&checked.reward);
             let members = members.filter(|(of, _)| **of == place);
@@ -155,6 +174,29 @@ impl<'a> Checker<'a> {
                 before.extend(cases.into_iter().map(|cases| (here, cases)));
             }
         }
+    }
+
+    /// Warns of `on dead or not dead`, which is paid in every tick. Of a name that always holds it is told where that is declared.
+    fn pays_whatever_happens(&mut self, paid: &Paid, (checked, place): (&Task, usize)) -> bool {
+        let Paid::On(condition) = paid else {
+            return false;
+        };
+        let members = checked.written.reward.iter().zip(&checked.reward);
+        let mut members = members.filter(|(of, _)| **of == place).peekable();
+        let named = plain_ref(condition).is_some() || is_nameless(condition);
+        let always = members.peek().is_some()
+            && members.all(|(_, line)| of_expr(&self.program, line.event, false).is_never());
+        if named || !always {
+            return false;
+        }
+        self.warning(
+            Code::W0519,
+            condition.span,
+            "this always holds: it is paid in every tick",
+        )
+        .label("whatever happens in the world")
+        .help("a price for all of the time is written `per 1 s: …`");
+        true
     }
 
     /// The behaviours that end where a task is learned: those of its policies, and of other robots. `None` if nobody learns it.

@@ -42,7 +42,18 @@ impl<'a> Checker<'a> {
 
     /// Notes it where all that is drawn from is the same.
     pub fn same_draws(&mut self, draw: &'a Ref) {
-        let args = draw.args.as_deref().unwrap_or_default();
+        if matches!(draw.name.name.as_str(), "uniform" | "one_of") {
+            self.same_values(draw, "draws from one value");
+        }
+    }
+
+    /// Notes it where the less or the greater of two values is asked for that are the same.
+    pub fn same_bounds(&mut self, bound: &'a Ref) {
+        self.same_values(bound, "compares one value with itself");
+    }
+
+    fn same_values(&mut self, call: &'a Ref, does: &str) {
+        let args = call.args.as_deref().unwrap_or_default();
         let values = args.iter().filter_map(|arg| match &arg.kind {
             ArgKind::Positional(value) => Some(value),
             _ => None,
@@ -51,9 +62,8 @@ impl<'a> Checker<'a> {
         let [first, .., last] = values.as_slice() else {
             return;
         };
-        let draws = matches!(draw.name.name.as_str(), "uniform" | "one_of");
-        if draws && !self.context.library && values.iter().all(|value| is_like(first, value)) {
-            let message = format!("`{}` draws from one value", draw.name.name);
+        if !self.context.library && values.iter().all(|value| is_like(first, value)) {
+            let message = format!("`{}` {does}", call.name.name);
             self.again(last.span, first.span, message, "the same again");
         }
     }

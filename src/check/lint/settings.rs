@@ -18,6 +18,19 @@ const SMALL: f64 = 0.3;
 /// Of an episode's time, what comes after so small a part of it is to count for something.
 const SHORT: f64 = 50.0;
 
+/// Whoever learns from fewer episodes than this learns next to nothing.
+const FEW: u64 = 10;
+
+/// Episodes of learning that are shorter than those of the task by so many times leave out most of it.
+const PART: u64 = 50;
+
+/// Less than this share for what is tried is next to nothing.
+const SELDOM: f64 = 0.01;
+
+/// A discount looks next to nowhere that leaves a third after so many ticks, and after so many seconds.
+const AHEAD: f64 = 20.0;
+const SOON: f64 = 2.0;
+
 impl<'a> Checker<'a> {
     /// Warns of settings of learners with which little or nothing is learned.
     pub fn settings_of_learners(&mut self, items: impl Iterator<Item = &'a Item>) {
@@ -27,6 +40,7 @@ impl<'a> Checker<'a> {
                 self.sums_without_end(learn);
                 self.learns_nothing(learn);
                 self.tries_nothing(learn);
+                self.hardly_learns(learn);
                 self.tries_more_and_more(learn);
                 self.looks_no_further(learn);
                 self.looks_next_to_nowhere(learn);
@@ -89,6 +103,55 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Few episodes, short ones, or a small share for what is tried: most of a policy is chance then.
+    fn hardly_learns(&mut self, learn: &'a ast::Learn) {
+        let Some(learner) = self.learner(learn) else {
+            return;
+        };
+        let (episodes, ticks) = (learner.episodes, learner.episode_ticks);
+        let task = &self.program.tasks[learner.task];
+        let (name, whole) = (task.name.clone(), task.end_after);
+        let (low, high) = range(View::from(&self.program), learner.explore).ends();
+        let (hopes, tuned) = (setting(learn, "initial").is_some(), low != high);
+        let told = |checker: &Self, at| {
+            let mut found = checker.diagnostics.iter();
+            found.any(|found| found.span() == at)
+        };
+        if let Some(setting) = setting(learn, "episodes") {
+            if episodes < FEW && !told(self, setting.value.span) {
+                let message = match episodes {
+                    1 => "in 1 episode hardly anything is learned".to_owned(),
+                    _ => format!("in {episodes} episodes hardly anything is learned"),
+                };
+                self.warning(Code::W0528, setting.value.span, message)
+                    .label("what the policy does is mostly chance")
+                    .help("most tasks take some thousands");
+            }
+            if let Some((_, time)) = setting.tail.as_ref()
+                && ticks * PART <= whole
+            {
+                let message = "what comes later in an episode is never learned";
+                let part = whole / ticks;
+                self.warning(Code::W0528, time.span, message)
+                    .label(format!("the episodes of `{name}` are {part} times as long"));
+            }
+        }
+        if let Some(setting) = setting(learn, "explore")
+            && high > 0.0
+            && high < SELDOM
+            && !hopes
+        {
+            let at = match &setting.tail {
+                Some((_, last)) if tuned => setting.value.span.to(last.span),
+                _ => setting.value.span,
+            };
+            let percent = (high * 1e4).round() / 100.0;
+            self.warning(Code::W0528, at, "hardly anything is tried")
+                .label(format!("one decision in {} at most", (1.0 / high).round()))
+                .help(format!("a share of {percent} is written `{percent}%`, and most learners begin with more: `35% -> 5%`"));
+        }
+    }
+
     /// A discount of 0: what a decision leads to counts for nothing.
     fn looks_no_further(&mut self, learn: &'a ast::Learn) {
         let objective = self.learner(learn).map(|learner| learner.objective);
@@ -124,8 +187,23 @@ impl<'a> Checker<'a> {
         };
         let tick = self.tick.unwrap_or(1.0);
         let episode = learner.episode_ticks as f64 * tick;
-        let is_short = after.is_none_or(|after| -after / math::ln(factor) < episode / SHORT);
-        if factor <= 0.0 || factor > SMALL || !is_short {
+        if factor <= 0.0 || factor >= 1.0 {
+            return;
+        }
+        let ahead = after.map(|after| -after / math::ln(factor));
+        let is_short = ahead.is_none_or(|ahead| ahead < episode / SHORT);
+        if factor > SMALL {
+            let soon = |ahead: &f64| *ahead < SOON.min(AHEAD * tick);
+            if let Some(ahead) = ahead.filter(|ahead| is_short && soon(ahead)) {
+                let ahead = (ahead * 1e2).round() / 1e2;
+                let message = "next to nothing counts but what comes at once";
+                self.warning(Code::W0524, setting.value.span, message)
+                    .label(format!("what comes {ahead} s later counts for a third"))
+                    .help("a discount is mostly for longer: `0.95 per 1 s`, or `per decision`");
+            }
+            return;
+        }
+        if !is_short {
             return;
         }
         let per = match &setting.tail {

@@ -1,10 +1,13 @@
 //! Sizes out of proportion to the arena or to the robot: most are written in a wrong unit.
 
+use super::conditions::Places;
 use crate::check::Checker;
+use crate::check::context::Region;
 use crate::check::report::short;
 use crate::diagnostic::Code;
 use crate::geometry::{Shape, minus};
 use crate::ir::Name;
+use crate::ir::dimension::Dim;
 use crate::ir::world::{Robot, SensorKind, World};
 use crate::source::Span;
 use crate::syntax::ast::{self, Item, ItemKind, RobotEntryKind, WorldEntryKind};
@@ -12,15 +15,69 @@ use crate::syntax::ast::{self, Item, ItemKind, RobotEntryKind, WorldEntryKind};
 /// A robot hardly moves that does not get so part of the way through the arena.
 const NEAR: f64 = 5.0;
 
+/// A speed is a mistake that is so many times what a robot can do.
+const FAST: f64 = 5.0;
+
 /// A tick of so many seconds is likely a mistake.
 const LONG_TICK: f64 = 1.0;
 
+/// A number with its unit.
+#[derive(Clone, Copy, Debug)]
+pub enum Quantity {
+    /// Seconds.
+    Time(f64),
+    /// Metres per second.
+    Speed(f64),
+}
+
 impl<'a> Checker<'a> {
+    /// Notes a time that a behaviour is given, or a speed in a control law or a value for one.
+    pub fn measured(&mut self, dim: Dim, value: f64, at: Span) {
+        let region = self.context.region;
+        let quantity = match dim {
+            Dim::TIME if self.given.is_some() => Quantity::Time(value),
+            Dim::SPEED if matches!(region, Region::Control | Region::Let) => Quantity::Speed(value),
+            _ => return,
+        };
+        if !self.context.library {
+            self.measures.insert(at, quantity);
+        }
+    }
+
+    /// Warns of times that are over before a tick is, and of speeds that no robot comes near.
+    fn measures_out_of_proportion(&mut self, world: &World) {
+        let speeds = world.robots().map(|robot| robot.drive.max_speed);
+        let fastest = speeds.fold(0.0, f64::max);
+        let mut told = Places::default();
+        let known = self.diagnostics.iter();
+        known.for_each(|found| told.add(found.span()));
+        for (at, quantity) in std::mem::take(&mut self.measures) {
+            match quantity {
+                _ if told.overlap(at) => continue,
+                Quantity::Time(time) if time > 0.0 && time < world.tick => self
+                    .warning(
+                        Code::W0402,
+                        at,
+                        "this time is over before the first tick is",
+                    )
+                    .label(format!(
+                        "a tick of this world takes {} s",
+                        short(world.tick)
+                    )),
+                Quantity::Speed(speed) if speed > FAST * fastest && fastest > 0.0 => self
+                    .warning(Code::W0402, at, "no robot comes near this speed")
+                    .label(format!("the fastest goes {} m/s", short(fastest))),
+                _ => continue,
+            };
+        }
+    }
+
     /// Warns of robots that cross the arena in a tick, of sensors that see no wall, and of places that are everywhere.
     pub fn sizes_out_of_proportion(&mut self, items: impl Iterator<Item = &'a Item>) {
         let Some(world) = self.program.world.clone() else {
             return;
         };
+        self.measures_out_of_proportion(&world);
         for item in items {
             let ItemKind::World(declared) = &item.kind else {
                 continue;

@@ -6,6 +6,7 @@
 use super::cases::{About, Cases, Says, conjuncts, entry, of_expr, of_guard};
 use super::idle::is_switch;
 use super::mentions::Mentions;
+use super::ranges::NEVER_DRAWN;
 use super::repaid::lasts;
 use super::view::View;
 use crate::check::Checker;
@@ -65,6 +66,7 @@ impl<'a> Checker<'a> {
                     return;
                 }
                 self.asked_already(guard, asked, held);
+                self.parts_of_guard(guard, asked);
                 let held = held.and(&of_guard(&self.program, asked, true));
                 self.nodes_of(inner, node, &within, &held);
             }
@@ -354,8 +356,7 @@ pub fn at_success(program: &Program, id: ExprId) -> Cases {
         return Cases::constant(true);
     };
     let drive = &world.robot.drive;
-    // Noise of eight times its deviation is never drawn.
-    let step = (drive.max_speed + 8.0 * drive.speed_noise) * world.tick;
+    let step = (drive.max_speed + NEVER_DRAWN * drive.speed_noise) * world.tick;
     let mut places = as_it_succeeds(program, id);
     if let Cases::Some(cases) = &mut places {
         for case in cases {

@@ -12,7 +12,7 @@ use crate::ir::expr::{Binary, Expr, ExprId};
 use crate::ir::task::StartLine;
 use crate::ir::world::{Place, World};
 use crate::source::Span;
-use crate::syntax::ast::{self, Ident, Item, ItemKind, WorldEntryKind};
+use crate::syntax::ast::{self, Ident, Item, ItemKind, RobotEntryKind, WorldEntryKind};
 use rustc_hash::FxHashSet;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -33,6 +33,8 @@ impl<'a> Checker<'a> {
         for item in items {
             if let ItemKind::World(declared) = &item.kind {
                 self.walls_outside(declared, &world);
+                self.walls_alike(declared, &world);
+                self.sensors_alike(declared, &world);
                 self.places_alike(declared, &world);
                 self.places_apart(declared, &world, &anywhere);
                 self.places_too_small(declared, &world);
@@ -55,6 +57,62 @@ impl<'a> Checker<'a> {
                 let message = format!("the wall `{}` lies outside the arena", name.name);
                 self.warning(Code::W0401, shape.span, message)
                     .label("no robot meets it");
+            }
+        }
+    }
+
+    /// Walls that are there once already. Those that stand at times may take turns.
+    fn walls_alike(&mut self, declared: &'a ast::World, world: &World) {
+        let mut seen: BTreeMap<String, (&'a Ident, Span)> = BTreeMap::new();
+        for entry in &declared.entries {
+            let WorldEntryKind::Wall { name, shape, .. } = &entry.kind else {
+                continue;
+            };
+            let wall = world.walls.named(&Name::word(&name.name));
+            let Some(wall) = wall.map(|wall| &world.walls[wall]) else {
+                continue;
+            };
+            if wall.when.is_some() {
+                continue;
+            }
+            let what = format!("{:?}", wall.shape);
+            let (first, at) = *seen.entry(what).or_insert((name, shape.span));
+            if at != shape.span {
+                let message = format!("the walls `{}` and `{}` coincide", first.name, name.name);
+                self.warning(Code::W0401, shape.span, message)
+                    .label("the same wall under another name")
+                    .also(at, "the first");
+            }
+        }
+    }
+
+    /// Sensors of a robot that read the same. Of two with noise, each has its own.
+    fn sensors_alike(&mut self, declared: &'a ast::World, world: &World) {
+        for entry in &declared.entries {
+            let WorldEntryKind::Robot { name, entries, .. } = &entry.kind else {
+                continue;
+            };
+            let Some(robot) = world.robots().find(|robot| robot.name.is(&name.name)) else {
+                continue;
+            };
+            let mut seen: BTreeMap<String, (&'a Ident, Span)> = BTreeMap::new();
+            for entry in entries {
+                let RobotEntryKind::Sensor { name, value } = &entry.kind else {
+                    continue;
+                };
+                let mut sensors = robot.sensors.values();
+                let sensor = sensors.find(|sensor| sensor.name.is(&name.name));
+                let Some(sensor) = sensor.filter(|sensor| sensor.noise == 0.0) else {
+                    continue;
+                };
+                let what = format!("{:?}", sensor.kind);
+                let (first, at) = *seen.entry(what).or_insert((name, value.span));
+                if at != value.span {
+                    let message = format!("`{}` and `{}` read the same", first.name, name.name);
+                    self.warning(Code::W0401, value.span, message)
+                        .label("the same sensor under another name")
+                        .also(at, "the first");
+                }
             }
         }
     }
