@@ -68,6 +68,13 @@ pub const TYPES: [&str; 15] = [
     "target",
 ];
 
+/// The words by which other languages choose among values.
+pub(super) const SWITCHES: [&str; 3] = ["match", "switch", "case"];
+
+/// How a value is chosen here.
+pub(super) const CHOICE: &str =
+    "a value is chosen by `if a == b { … } else if a == c { … } else { … }`";
+
 /// How a value by the time is said, for who writes `2% per tick`.
 pub(super) const RATE: &str = "a rate in every tick: `battery -= 1%/s * tick`";
 

@@ -9,7 +9,7 @@ use crate::syntax::ast::{
 use crate::syntax::diagnose::{self, no_such_unit};
 use crate::syntax::grammar::{Node, Parts, Rule};
 use crate::syntax::tokens::Kind;
-use crate::syntax::words::{RATE, TYPES};
+use crate::syntax::words::{CHOICE, RATE, SWITCHES, TYPES};
 
 /// The words that declare what statements set.
 const SET: [&str; 2] = ["state", "local"];
@@ -119,6 +119,11 @@ impl<'i> Builder<'i> {
         }
         let message = expected(found);
         let diagnostic = Diagnostic::new(Code::E0101, value, message).label("expected `=`");
+        let before = self.text.get(..target.range().start).unwrap_or_default();
+        let mut words = before.trim_end().rsplit(|c: char| !c.is_alphanumeric());
+        if words.next().is_some_and(|word| SWITCHES.contains(&word)) {
+            return diagnostic.help(CHOICE);
+        }
         let plain = name.split('(').next().unwrap_or(name);
         let begins =
             found.starts_with(|c: char| c.is_alphanumeric() || matches!(c, '_' | '`' | '-'));

@@ -7,7 +7,7 @@ use crate::source::Span;
 use crate::spelling::RESERVED;
 use crate::syntax::grammar::Rule;
 use crate::syntax::tokens::{Kind, Token};
-use crate::syntax::words::{CALLED, FUNCTIONS, NODES, RANGING, RATE};
+use crate::syntax::words::{CALLED, CHOICE, FUNCTIONS, NODES, RANGING, RATE, SWITCHES};
 
 /// Whether a word comes next.
 fn is_word_next(next: Option<Token>) -> bool {
@@ -141,6 +141,21 @@ impl Place<'_> {
             (_, "{") if self.before() == "*" => {
                 "a node that goes on where it was is a `memory sequence { … }`"
             }
+            _ if self.is_function_without_name() => {
+                "a function has a name: `let NAME(x: TYPE) = VALUE`"
+            }
+            (_, "{")
+                if self
+                    .second_before
+                    .is_some_and(|word| SWITCHES.contains(&word.of(self.text))) =>
+            {
+                CHOICE
+            }
+            (Rule::strict_aspect, _)
+                if self.before() == "after" && self.line_begins_with("end") =>
+            {
+                "a limit of the time is a line of its own: `end after 10 min`"
+            }
             (_, "|")
                 if self
                     .wanted()
@@ -187,6 +202,12 @@ impl Place<'_> {
                 if self.line_begins_with("behavior") && self.before() != "=" =>
             {
                 "nodes make a tree: `tree NAME = sequence { … }`"
+            }
+            (Rule::strict_robot_entry, "{") if self.line_begins_with("sensor") => {
+                "what a sensor is follows `=`: `sensor NAME = range_finder(at = 0 deg, range = 2 m)`"
+            }
+            (Rule::strict_robot_entry, "{") if self.line_begins_with("drive") => {
+                "arguments stand in parentheses: `differential(max_speed = 0.4 m/s, max_turn = 2 rad/s)`"
             }
             (Rule::strict_robot_entry, "{") => {
                 "the tree has a name: `tree NAME = …`, and then `runs = NAME`"
@@ -320,6 +341,13 @@ impl Place<'_> {
             (Rule::strict_item, "<" | "{" | "(" | "[") if !self.same_line_as_before() => {
                 "a program is made of items: `world NAME { … }`, `state NAME = VALUE`, `tree NAME = NODE`"
             }
+            (Rule::strict_world_entry, _)
+                if self.expects(Rule::colon)
+                    && self.has_its_kind_beside_its_name()
+                    && (self.begins_with("place") || self.begins_with("wall")) =>
+            {
+                "the kind follows the name: `place oak: tree = disc((1 m, 2 m), 20 cm)`"
+            }
             (Rule::strict_world_entry, "unless") => {
                 "a door is shut while its condition holds: `when not CONDITION`"
             }
@@ -417,6 +445,34 @@ impl Place<'_> {
             _ => return self.advised_on_names(diagnostic),
         };
         diagnostic.help(help)
+    }
+
+    /// `place tree oak =`, `place oak(tree) =`: whether the token is a second name, behind which the value follows.
+    fn has_its_kind_beside_its_name(&self) -> bool {
+        let rest = self.text.get(self.found.end..).unwrap_or_default();
+        let rest = rest.lines().next().unwrap_or_default();
+        let rest = match self.found() {
+            "(" => rest.split_once(')').map(|(_, rest)| rest),
+            _ => Some(rest).filter(|_| is_word(self.found)),
+        };
+        rest.is_some_and(|rest| rest.trim_start().starts_with('='))
+    }
+
+    /// Whether the token begins a function as other languages write one without a name: `|x: place| …`, `lambda x: …`.
+    fn is_function_without_name(&self) -> bool {
+        if self.before() == "lambda" {
+            return is_word(self.found);
+        }
+        let rest = self.text.get(self.found.end..).unwrap_or_default();
+        let rest = rest.lines().next().unwrap_or_default();
+        let wants_value = self
+            .wanted()
+            .is_some_and(|wanted| wanted.contains("a value"));
+        let is_bar = wants_value && self.found() == "|";
+        let Some((bound, body)) = rest.split_once('|').filter(|_| is_bar) else {
+            return false;
+        };
+        bound.contains(':') || body.trim_start().starts_with(|c: char| c.is_alphanumeric())
     }
 
     /// Whether `..` or a second `,` shows that a range is meant by what follows `in`.
