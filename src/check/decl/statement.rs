@@ -320,6 +320,8 @@ impl<'a> Checker<'a> {
                 }
                 Some((ty, meant, bound))
             }
+            // Its declaration is told.
+            Some((Decl::Input(_), _)) if self.has_world => None,
             Some((decl, _)) => {
                 let depends = matches!(decl, Decl::Predicate(_) | Decl::Event(_) | Decl::Let(_));
                 let help = match depends {

@@ -335,15 +335,20 @@ impl<'a> Checker<'a> {
     ) -> BTreeSet<ExprId> {
         let starting = Starting::of(&self.program.pool);
         let mut told = BTreeSet::new();
-        let own: BTreeSet<&str> = (items.clone())
-            .filter_map(|item| match &item.kind {
-                ItemKind::Behavior(behavior) => {
-                    let has_law = matches!(behavior.body, BehaviorBody::Clauses(_));
-                    has_law.then_some(behavior.name.name.as_str())
-                }
-                _ => None,
-            })
-            .collect();
+        let declared = items.clone().filter_map(|item| match &item.kind {
+            ItemKind::Behavior(behavior) => Some((behavior.name.name.as_str(), &behavior.body)),
+            _ => None,
+        });
+        let declared: BTreeMap<&str, &BehaviorBody> = declared.collect();
+        // What another name stands for has its own clauses, too, if that has.
+        let is_own = |name: &str| match declared.get(name) {
+            Some(BehaviorBody::Alias(of)) => matches!(
+                declared.get(of.name.name.as_str()),
+                Some(BehaviorBody::Clauses(_))
+            ),
+            Some(body) => matches!(body, BehaviorBody::Clauses(_)),
+            None => false,
+        };
         let (mut found, mut late) = (Vec::new(), Vec::new());
         for item in items {
             let ItemKind::Task(task) = &item.kind else {
@@ -368,7 +373,7 @@ impl<'a> Checker<'a> {
                 let learners = learners.filter(|learner| learner.task == task_id);
                 let longest = learners.map(|learner| learner.episode_ticks);
                 let longest = longest.fold(checked.end_after, u64::max);
-                let calls_library = !own.contains(behavior.name.family.as_str());
+                let calls_library = !is_own(&behavior.name.family);
                 if let (None, Some(at), Some(written)) = (law, at, behavior.law.as_ref())
                     && succeeds_after(view, written, longest, &starting)
                 {

@@ -247,6 +247,8 @@ impl<'a> Checker<'a> {
                 return None;
             }
             Some((Decl::State(state), _)) => state,
+            // Its declaration is told.
+            Some((Decl::Input(_), _)) if self.has_world => return None,
             Some((decl, _)) => {
                 return self
                     .error(
