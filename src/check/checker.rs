@@ -85,7 +85,7 @@ pub struct Checker<'a> {
     /// Where statements change something by nothing.
     pub idle: BTreeSet<Span>,
     /// The times that behaviours are given and the speeds in control laws, as they are written.
-    pub measures: BTreeMap<Span, Quantity>,
+    pub quantities: BTreeMap<Span, Quantity>,
     /// Where a state is to be exactly so much.
     pub equalities: Vec<Equality<'a>>,
     /// The states that a value of a block hides.
@@ -180,7 +180,7 @@ impl<'a> Checker<'a> {
             assignments: Assignments::new(),
             assigned: Vec::new(),
             idle: BTreeSet::new(),
-            measures: BTreeMap::new(),
+            quantities: BTreeMap::new(),
             equalities: Vec::new(),
             hidden: BTreeSet::new(),
             positions: Vec::new(),

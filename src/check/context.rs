@@ -64,6 +64,14 @@ impl Region {
         matches!(self, Region::Clause | Region::Local | Region::Control)
     }
 
+    /// Whether the robot that learns is the only one that reads what stands here.
+    pub fn of_the_learner(self) -> bool {
+        matches!(
+            self,
+            Region::Event | Region::Effect | Region::EachTick | Region::Reward
+        )
+    }
+
     /// Whether it is known which events happen in this tick.
     pub fn sees_events(self) -> bool {
         matches!(self, Region::Event | Region::Effect | Region::Reward)

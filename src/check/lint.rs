@@ -41,11 +41,13 @@ mod view;
 mod world;
 
 use super::{Checker, Input};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::Program;
 use crate::ir::expr::ExprId;
+use crate::source::Span;
 pub use causes::Causes;
 pub use chains::Links;
+use conditions::Places;
 pub use conditions::{Condition, is_nameless};
 pub use effects::{Assigned, Assignments};
 pub use endings::Asked;
@@ -115,5 +117,29 @@ impl<'a> Checker<'a> {
 
     fn has_errors(&self) -> bool {
         self.diagnostics.iter().any(Diagnostic::is_error)
+    }
+
+    /// The places of which something has been told.
+    fn told(&self) -> Places {
+        let mut told = Places::default();
+        let known = self.diagnostics.iter();
+        known.for_each(|found| told.add(found.span()));
+        told
+    }
+
+    /// Whether this has been told of a place within a span.
+    fn is_told_within(&self, code: Code, span: Span) -> bool {
+        let mut found = self.diagnostics.iter();
+        found.any(|found| {
+            let at = found.span();
+            let within = at.file == span.file && span.start <= at.start && at.end <= span.end;
+            found.code == code && within
+        })
+    }
+
+    /// Whether the robot that learns is the only one.
+    fn has_one_robot(&self) -> bool {
+        let world = self.program.world.as_ref();
+        world.is_none_or(|world| world.others.is_empty())
     }
 }

@@ -26,7 +26,7 @@ impl<'a> Checker<'a> {
                 self.many_turns(literal, unit.span);
             }
             let value = meaning.scale.apply(literal.value);
-            self.measured(meaning.dim, value, span);
+            self.notes_quantity(meaning.dim, value, span);
             let id = self.program.pool.num(value);
             let ty = if meaning.percent {
                 Type::Ratio

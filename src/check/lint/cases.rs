@@ -404,7 +404,7 @@ impl Reader<'_> {
                 }
             };
         }
-        if let (Binary::Eq | Binary::Ne, true) = (op, self.is_between_counts(a, b)) {
+        if let (Binary::Eq | Binary::Ne, true) = (op, self.asks_for_part_of_a_count(a, b)) {
             return Some(Cases::constant(wanted == (op == Binary::Ne)));
         }
         let may = range(self.view, of);
@@ -420,11 +420,9 @@ impl Reader<'_> {
         let none = none.then(|| Case::from([(about(&self.view.program.pool, of), Says::NoNumber)]));
         Some(Cases::Some(within.chain(none).collect()))
     }
-}
 
-impl Reader<'_> {
     /// Whether one of these counts something and the other is a constant that is no whole number.
-    fn is_between_counts(&self, a: ExprId, b: ExprId) -> bool {
+    fn asks_for_part_of_a_count(&self, a: ExprId, b: ExprId) -> bool {
         let pool = &self.view.program.pool;
         let no_count = |id| pool.constant(id).is_some_and(|value| value.fract() != 0.0);
         no_count(a) && is_count(pool, b) || no_count(b) && is_count(pool, a)

@@ -2,7 +2,6 @@
 
 use super::cases::{Cases, of_expr};
 use crate::check::Checker;
-use crate::check::context::Region;
 use crate::diagnostic::Code;
 use crate::ir::expr::ExprId;
 use crate::source::Span;
@@ -56,10 +55,7 @@ impl<'a> Checker<'a> {
         let link = Link {
             asks,
             before: before.iter().map(|(_, asks)| *asks).collect(),
-            of_any_robot: !matches!(
-                self.context.region,
-                Region::Event | Region::Effect | Region::EachTick
-            ),
+            of_any_robot: !self.context.region.of_the_learner(),
         };
         let links = self.links.entry(at);
         links.or_insert_with(|| (*first, Vec::new())).1.push(link);
@@ -67,8 +63,7 @@ impl<'a> Checker<'a> {
 
     /// Warns of the branches that are never taken, since an earlier one is wherever they could be.
     pub fn branches_never_taken(&mut self) {
-        let world = self.program.world.as_ref();
-        let alone = world.is_none_or(|world| world.others.is_empty());
+        let alone = self.has_one_robot();
         for (at, (first, links)) in std::mem::take(&mut self.links) {
             let program = &self.program;
             let never = |link: &Link| {

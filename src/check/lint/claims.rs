@@ -1,6 +1,5 @@
 //! Claims that speak of more time than there is, or cannot hold.
 
-use super::conditions::Places;
 use crate::check::Checker;
 use crate::check::tree::written;
 use crate::diagnostic::Code;
@@ -45,7 +44,7 @@ impl<'a> Checker<'a> {
                     }
                 }
             }
-            if let Some((first, it)) = earlier.iter().find(|(_, it)| is_between(it, &checked)) {
+            if let Some((first, it)) = earlier.iter().find(|(_, it)| are_nested(it, &checked)) {
                 let (first, weaker) = (*first, implies(it, &checked));
                 self.claims_nothing_more(if weaker { [at, first] } else { [first, at] });
                 continue;
@@ -115,9 +114,7 @@ impl<'a> Checker<'a> {
 
     /// Warns of a claim that another one implies, unless something else is told of one of them.
     fn claims_nothing_more(&mut self, [weaker, stronger]: [Span; 2]) {
-        let mut told = Places::default();
-        let known = self.diagnostics.iter();
-        known.for_each(|found| told.add(found.span()));
+        let told = self.told();
         if told.overlap(weaker) || told.overlap(stronger) {
             return;
         }
@@ -200,7 +197,7 @@ impl<'a> Checker<'a> {
 }
 
 /// Whether one of two claims on one tree holds wherever the other does.
-fn is_between(one: &task::Claim, other: &task::Claim) -> bool {
+fn are_nested(one: &task::Claim, other: &task::Claim) -> bool {
     implies(one, other) || implies(other, one)
 }
 

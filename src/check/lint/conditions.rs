@@ -189,8 +189,7 @@ impl<'a> Checker<'a> {
     }
 
     fn hold_always_or_never(&mut self, noted: Vec<Condition>, constant: &BTreeSet<ExprId>) {
-        let world = self.program.world.as_ref();
-        let alone = world.is_none_or(|world| world.others.is_empty());
+        let alone = self.has_one_robot();
         for (at, conditions) in by_place(noted) {
             let pool = &self.program.pool;
             let told = |it: &Condition| {

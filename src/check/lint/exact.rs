@@ -1,6 +1,5 @@
 //! Quantities that are to be exactly so much, and pass over that.
 
-use super::conditions::Places;
 use super::stays::{Set, all_settings};
 use crate::check::Checker;
 use crate::check::types::Typed;
@@ -59,9 +58,7 @@ impl<'a> Checker<'a> {
 
     /// Warns of quantities that pass over what they are to be equal to.
     pub fn passed_over(&mut self) {
-        let mut told = Places::default();
-        let known = self.diagnostics.iter();
-        known.for_each(|found| told.add(found.span()));
+        let told = self.told();
         let mut places: BTreeMap<Span, Vec<Equality>> = BTreeMap::new();
         for equality in std::mem::take(&mut self.equalities) {
             places.entry(equality.op.span).or_default().push(equality);

@@ -13,7 +13,9 @@ use crate::ir::world::Robot;
 use crate::ir::{Id, Name, Program};
 use crate::source::Span;
 use crate::spelling::spelled;
-use crate::syntax::ast::{AspectKind, BehaviorBody, ClauseKind, Expr, Item, ItemKind, Ref, Task};
+use crate::syntax::ast::{
+    AspectKind, BehaviorBody, ClauseKind, Expr, Ident, Item, ItemKind, Ref, Task,
+};
 use crate::syntax::print;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -21,6 +23,7 @@ impl<'a> Checker<'a> {
     /// Warns of predicates that always or never hold, of pairs that say the same, and of what a behaviour requires and
     /// the task does not observe.
     pub fn predicates_without_effect(&mut self, items: impl Iterator<Item = &'a Item> + Clone) {
+        let mut told = BTreeSet::new();
         for item in items.clone() {
             match &item.kind {
                 ItemKind::Predicate(predicate) => {
@@ -31,66 +34,61 @@ impl<'a> Checker<'a> {
                     }
                 }
                 ItemKind::Task(task) => {
-                    self.predicates_alike(task);
+                    self.predicates_alike(task, &mut told);
                     self.unobserved(task, items.clone());
                 }
                 _ => {}
             }
         }
-        self.declared_alike(items);
+        self.declared_alike(items, &told);
     }
 
-    /// Warns of predicates, and of events, that ask the same under two names. Of two that a task observes it is told there.
-    fn declared_alike(&mut self, items: impl Iterator<Item = &'a Item>) {
+    /// Warns of predicates, and of events, that ask the same under two names; of those predicates it has been `told` as they
+    /// are observed.
+    fn declared_alike(
+        &mut self,
+        items: impl Iterator<Item = &'a Item>,
+        told: &BTreeSet<Id<Predicate>>,
+    ) {
         let program = &self.program;
-        let mut seen: BTreeMap<(bool, ExprId), (&'a str, Span)> = BTreeMap::new();
-        let mut found: Vec<(&str, Span, &'a str, Span)> = Vec::new();
-        for item in items {
-            let (name, value, when) = match &item.kind {
-                ItemKind::Predicate(predicate) if predicate.params.is_none() => {
-                    let Some(value) = &predicate.value else {
-                        continue;
-                    };
-                    let id = program.predicates.named(&Name::word(&predicate.name.name));
-                    let when = id.and_then(|id| program.predicates[id].when);
-                    (&predicate.name, value, when.map(|when| (true, when)))
-                }
-                ItemKind::Event(event) if event.params.is_none() => {
-                    let id = program.events.named(&Name::word(&event.name.name));
-                    let when = id.map(|id| program.events[id].when);
-                    (&event.name, &event.value, when.map(|when| (false, when)))
-                }
-                _ => continue,
-            };
+        let asks = |item: &'a Item| match &item.kind {
+            ItemKind::Predicate(predicate) if predicate.params.is_none() => {
+                let id = program
+                    .predicates
+                    .named(&Name::word(&predicate.name.name))?;
+                let when = program.predicates[id]
+                    .when
+                    .filter(|_| !told.contains(&id))?;
+                Some((
+                    "predicate",
+                    &predicate.name,
+                    predicate.value.as_ref()?,
+                    when,
+                ))
+            }
+            ItemKind::Event(event) if event.params.is_none() => {
+                let id = program.events.named(&Name::word(&event.name.name))?;
+                Some(("event", &event.name, &event.value, program.events[id].when))
+            }
+            _ => None,
+        };
+        let mut seen: BTreeMap<(&str, ExprId), (&'a Ident, Span)> = BTreeMap::new();
+        let mut found = Vec::new();
+        for (what, name, value, when) in items.filter_map(asks) {
             // Whoever names a name once more does that on purpose.
-            let named = plain_ref(value).is_some();
-            let asks = |(_, when): &(bool, ExprId)| program.pool.constant(*when).is_none();
-            let Some(when) = when.filter(|when| !named && asks(when)) else {
+            if plain_ref(value).is_some() || program.pool.constant(when).is_some() {
                 continue;
-            };
-            let first = *seen.entry(when).or_insert((&name.name, value.span));
-            if first.1 != value.span && first.1.file == value.span.file {
-                let what = if when.0 { "predicate" } else { "event" };
-                found.push((what, value.span, first.0, first.1));
+            }
+            let (first, at) = *seen.entry((what, when)).or_insert((name, value.span));
+            if at != value.span && at.file == value.span.file {
+                found.push((what, value.span, &first.name, at));
             }
         }
-        let told = self.diagnostics.iter();
-        let told = told.filter(|found| found.code == Code::W0513);
-        let told: Vec<String> = told.map(|found| found.message.clone()).collect();
-        for (what, at, first, first_at) in found {
-            if told
-                .iter()
-                .any(|message| message.contains(&format!("`{first}`")))
-            {
-                continue;
-            }
-            self.warning(
-                Code::W0513,
-                at,
-                format!("this {what} is `{first}` under another name"),
-            )
-            .label(format!("it asks what `{first}` asks"))
-            .also(first_at, "asked here already");
+        for (what, here, first, at) in found {
+            let message = format!("this {what} is `{first}` under another name");
+            self.warning(Code::W0513, here, message)
+                .label(format!("it asks what `{first}` asks"))
+                .also(at, "asked here already");
         }
     }
 
@@ -192,8 +190,8 @@ impl<'a> Checker<'a> {
     }
 
     /// Of two observed predicates that are equal, or opposites, the second tells nothing. Two members of one family stand
-    /// and fall together.
-    fn predicates_alike(&mut self, task: &'a Task) {
+    /// and fall together. Adds the predicates of which that is told.
+    fn predicates_alike(&mut self, task: &'a Task, told: &mut BTreeSet<Id<Predicate>>) {
         let observed = self.observed_by(task);
         for (at, &(reference, id)) in observed.iter().enumerate() {
             let before = observed.iter().take(at);
@@ -229,6 +227,7 @@ impl<'a> Checker<'a> {
                 }
                 let names = [id, other].map(|id| self.program.predicates[id].name.to_string());
                 let [name, of] = names.map(|name| name.trim_matches('`').to_owned());
+                told.insert(id);
                 let message = format!("`{name}` {what} `{of}`");
                 self.warning(Code::W0513, reference.span, message)
                     .label("observing this as well tells the robot nothing")

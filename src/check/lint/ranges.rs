@@ -17,8 +17,8 @@ const MOST: u32 = 400;
 /// An angle in the plane.
 const ANGLE: Interval = Interval::between(-PI, PI);
 
-/// So many times its deviation a noise never is.
-pub const NEVER_DRAWN: f64 = 8.0;
+/// So many times its deviation a noise never is: the generator draws from 53 bits, and its tail ends before that.
+pub const NEVER_DRAWN: f64 = 13.0;
 
 /// A length.
 const LENGTH: Interval = Interval::between(0.0, f64::INFINITY);

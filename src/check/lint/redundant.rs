@@ -1,9 +1,7 @@
 //! Parts of conditions that change nothing beside the others: `battery <= 30% and battery <= 0%`, `a or (a and b)`.
 
 use super::cases::{Cases, of_expr, of_guard};
-use super::conditions::Places;
 use crate::check::Checker;
-use crate::check::context::Region;
 use crate::diagnostic::Code;
 use crate::ir::expr::ExprId;
 use crate::ir::name::Given;
@@ -48,10 +46,7 @@ impl<'a> Checker<'a> {
         let joint = Joint {
             op,
             sides: [(left.span, a), (right.span, b)],
-            of_any_robot: !matches!(
-                self.context.region,
-                Region::Event | Region::Effect | Region::EachTick | Region::Reward
-            ),
+            of_any_robot: !self.context.region.of_the_learner(),
         };
         self.joints.entry(at).or_default().push(joint);
     }
@@ -59,16 +54,16 @@ impl<'a> Checker<'a> {
     /// Warns of the parts of conditions without which they would say the same.
     pub fn parts_without_effect(&mut self) {
         let joints = &std::mem::take(&mut self.joints);
-        let mut told = Places::default();
-        let known = self.diagnostics.iter();
-        known.for_each(|found| told.add(found.span()));
-        let world = self.program.world.as_ref();
-        let alone = world.is_none_or(|world| world.others.is_empty());
+        let told = self.told();
+        let alone = self.has_one_robot();
         let all = joints.values().filter_map(|of| of.first());
         let sides = all.flat_map(|joint| joint.sides.map(|(at, _)| (joint.op, at)));
         let inner = sides.filter(|(op, at)| op_at(joints, *at) == Some(*op));
         let inner: BTreeSet<Span> = inner.map(|(_, at)| at).collect();
         for (at, of) in joints {
+            let Some(op) = of.first().map(|joint| joint.op) else {
+                continue;
+            };
             let unsure = of.iter().any(|joint| joint.of_any_robot && !alone);
             if inner.contains(at) || unsure || told.overlap(*at) {
                 continue;
@@ -88,7 +83,6 @@ impl<'a> Checker<'a> {
                     }
                 });
             }
-            let op = of.first().map(|joint| joint.op);
             for idle in found.into_iter().flatten() {
                 self.changes_nothing(op, &idle);
             }
@@ -122,18 +116,16 @@ impl<'a> Checker<'a> {
                 open.extend(texts.into_iter().zip(parts));
                 continue;
             }
-            let mut told = Places::default();
-            let known = self.diagnostics.iter();
-            known.for_each(|found| told.add(found.span()));
+            let told = self.told();
             for idle in idle.iter().filter(|idle| !told.overlap(idle.at)) {
-                self.changes_nothing(Some(op), idle);
+                self.changes_nothing(op, idle);
             }
         }
     }
 
-    fn changes_nothing(&mut self, op: Option<BinaryOp>, idle: &Idle) {
+    fn changes_nothing(&mut self, op: BinaryOp, idle: &Idle) {
         let (message, label, beside) = match op {
-            Some(BinaryOp::Or) => (
+            BinaryOp::Or => (
                 "this alternative adds nothing",
                 "wherever it holds, the rest holds without it",
                 "wherever the other holds, this does",

@@ -135,10 +135,7 @@ impl<'a> Checker<'a> {
                 };
                 let event = event.and_then(|asked| self.names.value(&asked.name.name, false));
                 if let Some((Decl::Event(event), _)) = event
-                    && self
-                        .diagnostics
-                        .iter()
-                        .any(|found| found.code == Code::W0513 && found.span() == event.value.span)
+                    && self.is_told_within(Code::W0513, event.value.span)
                 {
                     continue;
                 }

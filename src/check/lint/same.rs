@@ -135,14 +135,7 @@ impl<'a> Checker<'a> {
 
     /// Whether there was a warning of this within a span.
     pub fn says_one_thing_twice(&self, span: Span) -> bool {
-        let mut found = self.diagnostics.iter();
-        found.any(|found| {
-            let at = found.span();
-            found.code == Code::W0303
-                && at.file == span.file
-                && span.start <= at.start
-                && at.end <= span.end
-        })
+        self.is_told_within(Code::W0303, span)
     }
 }
 

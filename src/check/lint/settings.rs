@@ -112,13 +112,9 @@ impl<'a> Checker<'a> {
         let task = &self.program.tasks[learner.task];
         let (name, whole) = (task.name.clone(), task.end_after);
         let (low, high) = range(View::from(&self.program), learner.explore).ends();
-        let (hopes, tuned) = (setting(learn, "initial").is_some(), low != high);
-        let told = |checker: &Self, at| {
-            let mut found = checker.diagnostics.iter();
-            found.any(|found| found.span() == at)
-        };
+        let (hopes, changes) = (setting(learn, "initial").is_some(), low != high);
         if let Some(setting) = setting(learn, "episodes") {
-            if episodes < FEW && !told(self, setting.value.span) {
+            if episodes < FEW && !self.told().overlap(setting.value.span) {
                 let message = match episodes {
                     1 => "in 1 episode hardly anything is learned".to_owned(),
                     _ => format!("in {episodes} episodes hardly anything is learned"),
@@ -142,13 +138,12 @@ impl<'a> Checker<'a> {
             && !hopes
         {
             let at = match &setting.tail {
-                Some((_, last)) if tuned => setting.value.span.to(last.span),
+                Some((_, last)) if changes => setting.value.span.to(last.span),
                 _ => setting.value.span,
             };
-            let percent = (high * 1e4).round() / 100.0;
             self.warning(Code::W0528, at, "hardly anything is tried")
                 .label(format!("one decision in {} at most", (1.0 / high).round()))
-                .help(format!("a share of {percent} is written `{percent}%`, and most learners begin with more: `35% -> 5%`"));
+                .help("most learners begin with more: `35% -> 5%`");
         }
     }
 

@@ -1,6 +1,5 @@
 //! Sizes out of proportion to the arena or to the robot: most are written in a wrong unit.
 
-use super::conditions::Places;
 use crate::check::Checker;
 use crate::check::context::Region;
 use crate::check::report::short;
@@ -32,7 +31,7 @@ pub enum Quantity {
 
 impl<'a> Checker<'a> {
     /// Notes a time that a behaviour is given, or a speed in a control law or a value for one.
-    pub fn measured(&mut self, dim: Dim, value: f64, at: Span) {
+    pub fn notes_quantity(&mut self, dim: Dim, value: f64, at: Span) {
         let region = self.context.region;
         let quantity = match dim {
             Dim::TIME if self.given.is_some() => Quantity::Time(value),
@@ -40,18 +39,16 @@ impl<'a> Checker<'a> {
             _ => return,
         };
         if !self.context.library {
-            self.measures.insert(at, quantity);
+            self.quantities.insert(at, quantity);
         }
     }
 
     /// Warns of times that are over before a tick is, and of speeds that no robot comes near.
-    fn measures_out_of_proportion(&mut self, world: &World) {
+    fn quantities_out_of_proportion(&mut self, world: &World) {
         let speeds = world.robots().map(|robot| robot.drive.max_speed);
         let fastest = speeds.fold(0.0, f64::max);
-        let mut told = Places::default();
-        let known = self.diagnostics.iter();
-        known.for_each(|found| told.add(found.span()));
-        for (at, quantity) in std::mem::take(&mut self.measures) {
+        let told = self.told();
+        for (at, quantity) in std::mem::take(&mut self.quantities) {
             match quantity {
                 _ if told.overlap(at) => continue,
                 Quantity::Time(time) if time > 0.0 && time < world.tick => self
@@ -77,7 +74,7 @@ impl<'a> Checker<'a> {
         let Some(world) = self.program.world.clone() else {
             return;
         };
-        self.measures_out_of_proportion(&world);
+        self.quantities_out_of_proportion(&world);
         for item in items {
             let ItemKind::World(declared) = &item.kind else {
                 continue;

@@ -5,6 +5,7 @@ use crate::check::Checker;
 use crate::diagnostic::Code;
 use crate::ir::Id;
 use crate::ir::program::Predicate;
+use crate::ir::test::Test;
 use crate::ir::tree::{Atom, Guard};
 use crate::syntax::ast::{Item, ItemKind, TestLineKind};
 use std::collections::BTreeMap;
@@ -20,9 +21,12 @@ impl<'a> Checker<'a> {
             _ => None,
         });
         let checked = self.program.tests.clone();
+        let checked: BTreeMap<&str, &Test> = (checked.iter())
+            .map(|test| (test.title.as_str(), test))
+            .collect();
         for test in tests {
-            let mut named = checked.iter().filter(|it| it.title == test.title.name);
-            let Some(built) = named.next().filter(|it| it.lines.len() == test.lines.len()) else {
+            let built = checked.get(test.title.name.as_str());
+            let Some(built) = built.filter(|it| it.lines.len() == test.lines.len()) else {
                 continue;
             };
             let mut holds: BTreeMap<Id<Predicate>, bool> = BTreeMap::new();

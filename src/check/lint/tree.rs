@@ -299,15 +299,7 @@ impl Checker<'_> {
         // So it does where it never succeeds at all, which is told of it.
         let named = self.names.value(&behavior.name.family, false);
         let body = named.and_then(|(decl, _)| decl.body());
-        let is_told = body.is_some_and(|body| {
-            let mut told = self.diagnostics.iter();
-            told.any(|found| {
-                let at = found.span();
-                let within = at.file == body.file && body.start <= at.start && at.end <= body.end;
-                found.code == Code::W0302 && within
-            })
-        });
-        if is_told {
+        if body.is_some_and(|body| self.is_told_within(Code::W0302, body)) {
             return;
         }
         let message = format!("`{}` always fails here", behavior.name.bare());

@@ -63,26 +63,17 @@ impl<'a> Checker<'a> {
 
     /// Walls that are there once already. Those that stand at times may take turns.
     fn walls_alike(&mut self, declared: &'a ast::World, world: &World) {
-        let mut seen: BTreeMap<String, (&'a Ident, Span)> = BTreeMap::new();
-        for entry in &declared.entries {
+        let walls = declared.entries.iter().filter_map(|entry| {
             let WorldEntryKind::Wall { name, shape, .. } = &entry.kind else {
-                continue;
+                return None;
             };
-            let wall = world.walls.named(&Name::word(&name.name));
-            let Some(wall) = wall.map(|wall| &world.walls[wall]) else {
-                continue;
-            };
-            if wall.when.is_some() {
-                continue;
-            }
-            let what = format!("{:?}", wall.shape);
-            let (first, at) = *seen.entry(what).or_insert((name, shape.span));
-            if at != shape.span {
-                let message = format!("the walls `{}` and `{}` coincide", first.name, name.name);
-                self.warning(Code::W0401, shape.span, message)
-                    .label("the same wall under another name")
-                    .also(at, "the first");
-            }
+            let wall = &world.walls[world.walls.named(&Name::word(&name.name))?];
+            let stands = wall.when.is_none();
+            stands.then(|| (format!("{:?}", wall.shape), name, shape.span))
+        });
+        for [(first, at), (name, here)] in alike(walls) {
+            let message = format!("the walls `{}` and `{}` coincide", first.name, name.name);
+            self.the_same(here, message, "wall", at);
         }
     }
 
@@ -95,40 +86,36 @@ impl<'a> Checker<'a> {
             let Some(robot) = world.robots().find(|robot| robot.name.is(&name.name)) else {
                 continue;
             };
-            let mut seen: BTreeMap<String, (&'a Ident, Span)> = BTreeMap::new();
-            for entry in entries {
+            let sensors = entries.iter().filter_map(|entry| {
                 let RobotEntryKind::Sensor { name, value } = &entry.kind else {
-                    continue;
+                    return None;
                 };
                 let mut sensors = robot.sensors.values();
-                let sensor = sensors.find(|sensor| sensor.name.is(&name.name));
-                let Some(sensor) = sensor.filter(|sensor| sensor.noise == 0.0) else {
-                    continue;
-                };
-                let what = format!("{:?}", sensor.kind);
-                let (first, at) = *seen.entry(what).or_insert((name, value.span));
-                if at != value.span {
-                    let message = format!("`{}` and `{}` read the same", first.name, name.name);
-                    self.warning(Code::W0401, value.span, message)
-                        .label("the same sensor under another name")
-                        .also(at, "the first");
-                }
+                let sensor = sensors.find(|sensor| sensor.name.is(&name.name))?;
+                let exact = sensor.noise == 0.0;
+                exact.then(|| (format!("{:?}", sensor.kind), name, value.span))
+            });
+            for [(first, at), (name, here)] in alike(sensors) {
+                let message = format!("`{}` and `{}` read the same", first.name, name.name);
+                self.the_same(here, message, "sensor", at);
             }
         }
     }
 
     fn places_alike(&mut self, declared: &'a ast::World, world: &World) {
-        let mut seen: BTreeMap<String, (&'a Ident, Span)> = BTreeMap::new();
-        for (name, span, place) in places(declared, world) {
-            let what = format!("{:?} {:?}", place.shape, place.facing);
-            let (first, at) = *seen.entry(what).or_insert((name, span));
-            if at != span {
-                let message = format!("the places `{}` and `{}` coincide", first.name, name.name);
-                self.warning(Code::W0401, span, message)
-                    .label("the same place under another name")
-                    .also(at, "the first");
-            }
+        let places = places(declared, world).map(|(name, span, place)| {
+            (format!("{:?} {:?}", place.shape, place.facing), name, span)
+        });
+        for [(first, at), (name, here)] in alike(places) {
+            let message = format!("the places `{}` and `{}` coincide", first.name, name.name);
+            self.the_same(here, message, "place", at);
         }
+    }
+
+    fn the_same(&mut self, here: Span, message: String, what: &str, first: Span) {
+        self.warning(Code::W0401, here, message)
+            .label(format!("the same {what} under another name"))
+            .also(first, "the first");
     }
 
     /// Places that the robot is sent to and no way leads to: from where it starts, or if that may be anywhere from the one of
@@ -276,6 +263,16 @@ impl<'a> Checker<'a> {
         let starts: Option<Vec<Point>> = tasks.chain(learners).map(fixed).collect();
         starts.filter(|starts| !starts.is_empty())
     }
+}
+
+/// Of things with a text that says all of them but their names, those that are there already, each behind the first.
+fn alike<'a>(
+    things: impl Iterator<Item = (String, &'a Ident, Span)>,
+) -> Vec<[(&'a Ident, Span); 2]> {
+    let mut seen: BTreeMap<String, (&'a Ident, Span)> = BTreeMap::new();
+    let pairs =
+        things.map(|(what, name, at)| [*seen.entry(what).or_insert((name, at)), (name, at)]);
+    pairs.filter(|[(_, first), (_, at)]| first != at).collect()
 }
 
 /// The lines of an item by which episodes start anywhere.
