@@ -89,6 +89,7 @@ impl<'a> Checker<'a> {
                 Some(Typed::new(Type::LENGTH, coordinate, span))
             }
             ExprKind::Unary { op, operand } => self.unary(op.node, operand, span),
+            ExprKind::Binary { .. } if self.is_lost_with_a_dash(expr) => None,
             ExprKind::Binary { op, left, right } => match is_arithmetic(op.node) {
                 true => self.arithmetic(expr),
                 false => self.binary(*op, left, right, span),

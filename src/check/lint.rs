@@ -77,7 +77,7 @@ impl<'a> Checker<'a> {
         if self.has_errors() {
             return;
         }
-        self.values_of_states(items());
+        let stay = self.values_of_states(items());
         self.unread_names();
         self.unused_declarations(files);
         if self.kind_misspelt {
@@ -86,11 +86,12 @@ impl<'a> Checker<'a> {
         self.same_on_both_sides();
         self.values_overwritten(items());
         self.effects_without_effect();
-        let kept = self.bound_by_episodes();
+        let kept = self.bound_by_episodes(&stay);
         self.find_constant_predicates();
         self.conditions_without_effect();
         self.branches_never_taken();
         self.choices_alike(items());
+        self.sides_of_clauses();
         self.regions_without_effect(items());
         let told = self.choices_that_never_succeed(items());
         self.calls_without_effect(&told);

@@ -1,7 +1,7 @@
 //! Mistakes that follow from others: of those that one slip brings about, one is told.
 
 use super::ast::{File, Item, ItemKind};
-use super::words::ASPECTS;
+use super::words::{ASPECTS, NAMES};
 use crate::diagnostic::{self, Applicability, Code, Diagnostic, suggest};
 use crate::source::Span;
 use std::cmp::Ordering;
@@ -195,10 +195,11 @@ fn too_early(text: &str, found: Diagnostic) -> Diagnostic {
         .fix("drop the `}`", close, "", Applicability::Unsafe)
 }
 
-/// One message for all the marks of one sign that nothing needs: who ends one line by it ends them all so.
+/// One message for all the marks of one sign that nothing needs: who ends one line by it ends them all so. And one for all the
+/// places where a name has the same marks in it.
 fn one_of_a_habit(text: &str, told: Vec<Diagnostic>) -> Vec<Diagnostic> {
     let mut kept: Vec<Diagnostic> = Vec::new();
-    let mut first: BTreeMap<&str, (usize, Vec<Span>)> = BTreeMap::new();
+    let mut first: BTreeMap<String, (usize, Vec<Span>)> = BTreeMap::new();
     for found in told {
         if let Some(last) = kept.last_mut()
             && lacks_its_type(last)
@@ -208,13 +209,18 @@ fn one_of_a_habit(text: &str, told: Vec<Diagnostic>) -> Vec<Diagnostic> {
             *last = last.clone().also(found.span(), "and this");
             continue;
         }
-        if found.code != Code::E0118 {
-            kept.push(found);
-            continue;
-        }
+        let marked = found.help.iter().find(|help| help.starts_with(NAMES));
+        let habit = match (found.code, marked) {
+            (Code::E0118, _) => slice(text, &found).to_owned(),
+            (_, Some(help)) => help.clone(),
+            _ => {
+                kept.push(found);
+                continue;
+            }
+        };
         let mark = slice(text, &found);
-        let Some((at, further)) = first.get_mut(mark) else {
-            first.insert(mark, (kept.len(), Vec::new()));
+        let Some((at, further)) = first.get_mut(&habit) else {
+            first.insert(habit, (kept.len(), Vec::new()));
             kept.push(found);
             continue;
         };

@@ -449,3 +449,11 @@ impl Outcome {
         }
     }
 }
+
+/// How the advice begins that a name is one word.
+pub const NAMES: &str = "a name is made of letters, digits and `_`";
+
+/// The advice on words with marks between them that are to be this name.
+pub fn name_of_words(joined: &str) -> String {
+    format!("{NAMES}: `{joined}`; or it stands in backquotes")
+}

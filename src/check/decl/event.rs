@@ -11,6 +11,7 @@ use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::ir::expr::ExprId;
 use crate::ir::program::{Effect, Event};
 use crate::ir::{self, Id};
+use crate::source::Span;
 use crate::syntax::ast::{self, Arg, ArgKind, Ident, Params, Ref, Trigger};
 
 /// The id of an event.
@@ -24,9 +25,11 @@ impl<'a> Checker<'a> {
             self.only_ranging(params, &mut scope);
         }
         let mut when = None;
+        let told = self.diagnostics.len();
         self.body_for_itself(&event.name, Region::Event, scope, |checker| {
             when = checker.event_condition(event);
         });
+        self.of_another_type(event.params.as_ref(), told);
         let mut members = vec![(Vec::new(), when)];
         if let Some(params) = &event.params {
             let clean = self.bodies.clean.get(&event.name.span) == Some(&true);
@@ -49,6 +52,19 @@ impl<'a> Checker<'a> {
             family.push(Member { codes, is });
         }
         self.events.insert(&event.name.name, family);
+    }
+
+    /// Of the parameters that a body takes for something else, as it has been told since so many diagnostics, it is not sure what
+    /// they are meant to be.
+    fn of_another_type(&mut self, params: Option<&Params>, told: usize) {
+        let found = self.diagnostics.get(told..).unwrap_or_default().iter();
+        let found = found.filter(|found| found.code == Code::E0302);
+        let named: Vec<Span> = found
+            .filter_map(|found| self.meanings.declaration(found.span()))
+            .collect();
+        let params = params.iter().flat_map(|params| &params.params);
+        let unsure = params.filter(|param| named.contains(&param.name.span));
+        self.unsure.extend(unsure.map(|param| param.span));
     }
 
     fn event_condition(&mut self, event: &'a ast::Event) -> Option<ExprId> {

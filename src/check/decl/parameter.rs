@@ -4,6 +4,7 @@ use crate::check::Checker;
 use crate::check::context::{Binding, Context, Region};
 use crate::check::expr::expect::is_literal;
 use crate::check::names::Decl;
+use crate::check::report::listed;
 use crate::check::signature::{Signature, Takes};
 use crate::check::types::{Type, Value};
 use crate::diagnostic::{Applicability, Code, Diagnostic};
@@ -84,6 +85,9 @@ impl<'a> Checker<'a> {
         }
         let told = self.diagnostics.len();
         let matched = self.matched(&signature, args);
+        if !library && !matched.fine {
+            self.hides_the_library(name, told);
+        }
         let called = self.names.value(name, self.context.library);
         let makes_instance = !matches!(called, Some((Decl::Let(_), _)));
         let mut fine = matched.fine;
@@ -293,6 +297,30 @@ impl<'a> Checker<'a> {
             "two arguments stand the other way around",
         )
         .write(span, right, Applicability::Unsafe);
+    }
+
+    /// Notes at the mistakes with the arguments of a name, told since so many diagnostics, that the library has it, too.
+    fn hides_the_library(&mut self, name: &str, told: usize) {
+        let Some((Decl::Behavior(behavior), true)) = self.names.value(name, true) else {
+            return;
+        };
+        let params = behavior.params.as_ref();
+        let params = params.map_or(&[][..], |params| params.params.as_slice());
+        let names: Vec<&str> = params
+            .iter()
+            .map(|param| param.name.name.as_str())
+            .collect();
+        let takes = match names.is_empty() {
+            true => "no arguments".to_owned(),
+            false => listed(&names, "and"),
+        };
+        let note = format!(
+            "the library's `{name}` takes {takes}, but here the one of this program counts"
+        );
+        let found = self.diagnostics.get_mut(told..).unwrap_or_default();
+        for found in found {
+            *found = found.clone().note(note.clone());
+        }
     }
 
     fn in_library<T>(&mut self, library: bool, pass: impl FnOnce(&mut Self) -> T) -> T {

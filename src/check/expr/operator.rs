@@ -195,6 +195,7 @@ impl<'a> Checker<'a> {
         let mut first = expr;
         while let ExprKind::Binary { op, left, right } = &first.kind
             && is_arithmetic(op.node)
+            && !self.is_lost_with_a_dash(first)
         {
             steps.push((first, *op, &**left, &**right));
             first = left;

@@ -25,6 +25,8 @@ pub struct Condition {
     of_any_robot: bool,
     /// Whether it is a part of another one, or of a value.
     joined: bool,
+    /// Whether it is a part of `requires`, `succeed when` or `fail when`.
+    of_a_clause: bool,
 }
 
 /// Places in the text, joined where they overlap: by file and start, the end.
@@ -82,6 +84,7 @@ impl<'a> Checker<'a> {
         {
             noted.of_any_robot = region != Region::Event;
             noted.joined = true;
+            noted.of_a_clause = region == Region::Clause;
         }
     }
 
@@ -141,6 +144,7 @@ impl<'a> Checker<'a> {
             nameless: false,
             of_any_robot: false,
             joined: false,
+            of_a_clause: false,
         });
         self.conditions.last_mut()
     }
@@ -165,6 +169,15 @@ impl<'a> Checker<'a> {
         let before = self.diagnostics.len();
         self.hold_always_or_never(these, &BTreeSet::new());
         self.diagnostics.len() > before
+    }
+
+    /// Warns of the sides of `and` and `or` in the clauses of behaviours that always or never hold.
+    pub fn sides_of_clauses(&mut self) {
+        let noted = std::mem::take(&mut self.conditions);
+        let (of_clauses, others) = noted.into_iter().partition(|it| it.of_a_clause);
+        self.conditions = of_clauses;
+        self.sides_without_effect();
+        self.conditions = others;
     }
 
     /// Warns of the sides of `and` and `or` that always or never hold, where the whole does not: of the innermost.

@@ -52,8 +52,9 @@ impl Checker<'_> {
         tasks.chain(learners).max()
     }
 
-    /// Bounds the times that the program counts by what an episode leaves time for; gives what was known of them before.
-    pub fn bound_by_episodes(&mut self) -> Vec<(Id<State>, Stays)> {
+    /// Bounds the times that the program counts by what an episode leaves time for, but for those of which it is told that they
+    /// `stay` as they are; gives what was known of them before.
+    pub fn bound_by_episodes(&mut self, stay: &[Id<State>]) -> Vec<(Id<State>, Stays)> {
         let tick = self.program.world.as_ref().map(|world| world.tick);
         let (Some(ticks), Some(tick), false) =
             (self.longest_episode(), tick, self.values_are_unsure())
@@ -66,7 +67,7 @@ impl Checker<'_> {
             let (ValueKind::Quantity, Stays::Within(ends)) = (&state.kind, &state.stays) else {
                 continue;
             };
-            if ends.start().is_finite() && ends.end().is_finite() {
+            if ends.start().is_finite() && ends.end().is_finite() || stay.contains(&id) {
                 continue;
             }
             let initial = range(View::from(&self.program), state.initial).ends();

@@ -199,9 +199,11 @@ impl<'a> Checker<'a> {
     }
 
     fn regions_of(&mut self, clauses: &'a [Clause], laws: &[(Name, Law)], starting: &Starting) {
+        // What never or always holds within a clause says enough of it.
         let first = |wanted: fn(&ClauseKind) -> bool| {
             let mut clauses = clauses.iter();
-            clauses.find(|clause| wanted(&clause.kind)).map(place)
+            let first = clauses.find(|clause| wanted(&clause.kind))?;
+            (!self.is_told_within(Code::W0601, first.span)).then(|| place(first))
         };
         let requires = first(|kind| matches!(kind, ClauseKind::Requires(_)));
         let succeed = first(|kind| matches!(kind, ClauseKind::Succeed(_)));

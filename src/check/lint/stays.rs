@@ -28,9 +28,11 @@ impl<'a> Checker<'a> {
     ///
     /// An effect counts where what it waits for can happen, by the values that are found; and where it cannot whatever the
     /// values are: that is told of what it waits for, and nothing else is to follow from it.
-    pub fn values_of_states(&mut self, items: impl Iterator<Item = &'a Item>) {
+    ///
+    /// Gives the states that never change, as is told of them.
+    pub fn values_of_states(&mut self, items: impl Iterator<Item = &'a Item>) -> Vec<Id<State>> {
         if self.values_are_unsure() {
-            return;
+            return Vec::new();
         }
         let mut always = set_in_ticks(&self.program);
         set_at_starts(&self.program, &mut always);
@@ -64,14 +66,14 @@ impl<'a> Checker<'a> {
             happen.iter().for_each(|(_, more)| add(&mut set, more));
         }
         let stay = self.states_that_stay(items, &all, &waiting);
-        if waiting.is_empty() {
-            return;
+        if !waiting.is_empty() {
+            // From what never happens nothing else is to follow.
+            self.stay_by(&all, &all);
+            for state in &stay {
+                self.program.states[*state].stays = Stays::ANY;
+            }
         }
-        // From what never happens nothing else is to follow.
-        self.stay_by(&all, &all);
-        for state in stay {
-            self.program.states[state].stays = Stays::ANY;
-        }
+        stay
     }
 
     /// Whether a value may be another one than it says.

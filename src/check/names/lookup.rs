@@ -3,6 +3,7 @@
 use super::Decl;
 use crate::check::Checker;
 use crate::check::builtin::{BuiltIn, Constant};
+use crate::check::expr::plain_ref;
 use crate::check::report::Draft;
 use crate::check::types::Value;
 use crate::diagnostic::{Applicability, Code, suggest};
@@ -282,8 +283,17 @@ impl<'a> Checker<'a> {
         found
     }
 
+    /// Whether `battery-low` was to be one name, which a declaration that was not understood was to declare.
+    pub fn is_lost_with_a_dash(&self, expr: &Expr) -> bool {
+        matches!(expr.kind, ExprKind::Binary { .. })
+            && dashed(expr).is_some_and(|joined| self.names.is_lost(&joined))
+    }
+
     /// Reports an expression where a name is needed; `declaration` gives it one.
     pub fn not_named(&mut self, expr: &Expr, wanted: &str, declaration: &str) {
+        if self.is_lost_with_a_dash(expr) {
+            return;
+        }
         let joined = match &expr.kind {
             ExprKind::Binary { op, left, right } => {
                 let word = match op.node {
@@ -308,6 +318,37 @@ impl<'a> Checker<'a> {
                 .help(format!("declare one: `{declaration}`"));
         }
     }
+}
+
+/// The most words of a name that is written with dashes.
+const WORDS: usize = 8;
+
+/// The name that `battery-low` would be, if it is of words that touch.
+fn dashed(expr: &Expr) -> Option<String> {
+    let mut words: Vec<&str> = Vec::new();
+    let mut left = expr;
+    while let ExprKind::Binary {
+        op,
+        left: next,
+        right,
+    } = &left.kind
+    {
+        let touching = next.span.end == op.span.start && op.span.end == right.span.start;
+        let right = plain_ref(right).filter(|name| touching && name.args.is_none())?;
+        if op.node != BinaryOp::Sub || words.len() >= WORDS {
+            return None;
+        }
+        words.push(&right.name.name);
+        left = next;
+    }
+    words.push(
+        &plain_ref(left)
+            .filter(|name| name.args.is_none())?
+            .name
+            .name,
+    );
+    words.reverse();
+    Some(words.join("_"))
 }
 
 /// What says here what logic and other languages call so.

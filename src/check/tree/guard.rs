@@ -50,6 +50,7 @@ impl<'a> Checker<'a> {
             }
             ExprKind::Ref(reference) => self.atom(reference).map(Guard::Atom),
             ExprKind::Error => None,
+            ExprKind::Binary { .. } if self.is_lost_with_a_dash(expr) => None,
             ExprKind::Binary { op, left, right }
                 if matches!(op.node, BinaryOp::Eq | BinaryOp::Ne)
                     && let ExprKind::Bool(value) = right.kind

@@ -9,7 +9,7 @@ use crate::syntax::ast::{
 use crate::syntax::diagnose::{self, no_such_unit};
 use crate::syntax::grammar::{Node, Parts, Rule};
 use crate::syntax::tokens::Kind;
-use crate::syntax::words::{CHOICE, RATE, SWITCHES, TYPES};
+use crate::syntax::words::{CHOICE, RATE, SWITCHES, TYPES, name_of_words};
 
 /// The words that declare what statements set.
 const SET: [&str; 2] = ["state", "local"];
@@ -119,6 +119,9 @@ impl<'i> Builder<'i> {
         }
         let message = expected(found);
         let diagnostic = Diagnostic::new(Code::E0101, value, message).label("expected `=`");
+        if let Some(joined) = marked(name, rest).filter(|_| target.end == value.start) {
+            return diagnostic.help(name_of_words(&joined));
+        }
         let before = self.text.get(..target.range().start).unwrap_or_default();
         let mut words = before.trim_end().rsplit(|c: char| !c.is_alphanumeric());
         if words.next().is_some_and(|word| SWITCHES.contains(&word)) {
@@ -528,4 +531,15 @@ fn step_by_one(name: &str, mark: &str) -> Option<String> {
         "--" => Some(format!("{name} -= 1")),
         _ => None,
     }
+}
+
+/// The name that `wet-ness += …` sets, of what stands before the `-` and what follows.
+fn marked(name: &str, rest: &str) -> Option<String> {
+    let in_name = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-');
+    let end = rest.find(|c: char| !in_name(c))?;
+    let (words, value) = (rest.get(..end)?, rest.get(end..)?.trim_start());
+    let sets = ["=", "+=", "-=", "*=", "/="];
+    let is_set = sets.iter().any(|sign| value.starts_with(sign)) && !value.starts_with("==");
+    let is_marked = words.starts_with('-') && words.len() > 1 && is_set;
+    is_marked.then(|| format!("{name}{}", words.replace('-', "_")))
 }

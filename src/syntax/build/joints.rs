@@ -345,6 +345,20 @@ impl<'i> Builder<'i> {
             "xor" => Diagnostic::new(Code::E0110, place, "there is no `xor`")
                 .label("conditions are joined by `and`, `or` and `not`")
                 .help("one of the two, and not both: `a and not b or b and not a`"),
+            "1" if UNITS.contains(&name) && self.divides(place) => {
+                let rest = self.text.get(place.range().start..).unwrap_or_default();
+                let slash = rest.find('/').unwrap_or_default() + 1;
+                let start = before.range().end;
+                let one = Span::new(self.file, start, place.range().start + slash);
+                self.failed_at = Some(place.range().start + slash);
+                Diagnostic::new(
+                    Code::E0101,
+                    place,
+                    "a unit is divided by another one as it is",
+                )
+                .label("leave this `1` out")
+                .fix("write `/` alone", one, "/", Applicability::Safe)
+            }
             _ => {
                 let is_word = name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
                 let rest = self.text.get(place.range().start..).unwrap_or_default();
@@ -391,5 +405,15 @@ impl<'i> Builder<'i> {
         };
         self.report(diagnostic);
         true
+    }
+
+    /// Whether a number divides by a unit: `1/s`.
+    fn divides(&self, number: Span) -> bool {
+        let rest = self.text.get(number.range().end..).unwrap_or_default();
+        let unit = rest.trim_start_matches(' ').strip_prefix('/');
+        let unit = unit.unwrap_or_default().trim_start_matches(' ');
+        let letters = unit.find(|c: char| !c.is_ascii_alphabetic());
+        let unit = unit.get(..letters.unwrap_or(unit.len()));
+        unit.is_some_and(|unit| UNITS.contains(&unit))
     }
 }

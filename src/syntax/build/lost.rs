@@ -100,6 +100,20 @@ impl Builder<'_> {
             let joined = [self.bare(&left), self.bare(&right)].join(mark);
             self.lost.names.push(joined);
         }
+        // `nothing-to-do`
+        let mut joined = [self.bare(&left), self.bare(&right)].join("_");
+        let mut end = right.end;
+        let behind = self.tokens.get(index + 2..).unwrap_or_default();
+        for pair in behind.chunks(2) {
+            let [again, word] = pair else { break };
+            let same = again.of(self.text) == mark.of(self.text) && again.start == end;
+            if !same || word.start != again.end || word.kind != Kind::Word {
+                break;
+            }
+            joined = format!("{joined}_{}", self.bare(word));
+            end = word.end;
+            self.lost.names.push(joined.clone());
+        }
     }
 
     fn line_end(&self, at: usize) -> usize {
