@@ -9,8 +9,8 @@ use super::decl::input::InputSlot;
 use super::decl::predicate::PredicateId;
 use super::decl::state::StateSlot;
 use super::lint::{
-    Again, Asked, Assigned, Assignments, Causes, Condition, Equality, FailClause, Joints, Links,
-    Quantity,
+    Again, Asked, Assigned, Assignments, Bounded, Causes, Condition, Equality, FailClause, Joints,
+    Links, Quantity,
 };
 use super::meaning::Meanings;
 use super::members::{Kinds, Member};
@@ -82,6 +82,8 @@ pub struct Checker<'a> {
     pub assignments: Assignments,
     /// What effects set, whatever else holds where they are done.
     pub assigned: Vec<Assigned>,
+    /// The values, bounded from one side, that statements set states to.
+    pub bounded: Bounded,
     /// Where statements change something by nothing.
     pub idle: BTreeSet<Span>,
     /// The times that behaviours are given and the speeds in control laws, as they are written.
@@ -178,6 +180,7 @@ impl<'a> Checker<'a> {
             fails: BTreeMap::new(),
             again: BTreeMap::new(),
             assignments: Assignments::new(),
+            bounded: Bounded::new(),
             assigned: Vec::new(),
             idle: BTreeSet::new(),
             quantities: BTreeMap::new(),

@@ -3,6 +3,7 @@
 //! They err on the side of silence: what they report does not depend on how the program runs.
 
 mod apart;
+mod bounds;
 mod cases;
 mod causes;
 mod chains;
@@ -45,6 +46,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::Program;
 use crate::ir::expr::ExprId;
 use crate::source::Span;
+pub use bounds::Bounded;
 pub use causes::Causes;
 pub use chains::Links;
 use conditions::Places;
@@ -86,6 +88,7 @@ impl<'a> Checker<'a> {
         self.same_on_both_sides();
         self.values_overwritten(items());
         self.effects_without_effect();
+        self.bounds_on_the_wrong_side(items());
         let kept = self.bound_by_episodes(&stay);
         self.find_constant_predicates();
         self.conditions_without_effect();

@@ -25,6 +25,9 @@ pub(super) struct Arguments {
     /// The seed of the episodes.
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
+    /// Show for each node of the tree in how many ticks it was reached, succeeded and failed.
+    #[arg(long, conflicts_with = "policy")]
+    nodes: bool,
     /// How to write the figures.
     #[arg(long, value_name = "FORM", default_value = "human")]
     format: Format,
@@ -108,7 +111,11 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     if let Some(traced) = traced {
         return files::print(&traced);
     }
-    let ran = run::run(&loaded, &subject, arguments.episodes, arguments.seed)
+    let play = match arguments.nodes {
+        true => run::counted,
+        false => run::run,
+    };
+    let ran = play(&loaded, &subject, arguments.episodes, arguments.seed)
         .map_err(|refused| say.refused(&refused))?;
     match arguments.format {
         Format::Human => files::print(&ran.human()),

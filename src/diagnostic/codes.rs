@@ -179,6 +179,7 @@ codes! {
     W0308 "an effect that changes nothing",
     W0309 "a start that reads what it sets later",
     W0310 "a start that may be shut in",
+    W0311 "a bound on the wrong side",
 
     W0401 "a part of the world that does nothing",
     W0402 "a size out of proportion",

@@ -18,6 +18,7 @@ pub mod learn;
 pub mod load;
 pub mod minimize;
 pub mod new;
+mod nodes;
 pub mod picture;
 mod record;
 mod refused;

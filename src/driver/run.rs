@@ -3,7 +3,7 @@
 use super::load::Loaded;
 use super::refused::Refused;
 use super::text::Text;
-use super::{table, target, world};
+use super::{nodes, table, target, world};
 use crate::ir::Id;
 use crate::ir::task::Task;
 use crate::ir::tree::Tree;
@@ -11,7 +11,8 @@ use crate::learn::simulated::Purpose;
 use crate::learn::statistics::Summary;
 use crate::policy::Policy;
 use crate::report::episodes::Episodes;
-use crate::trial::play;
+use crate::source::Span;
+use crate::trial::{play, reached};
 
 /// What to run.
 #[derive(Clone, Debug)]
@@ -68,11 +69,44 @@ pub fn run(
     episodes: u64,
     seed: u64,
 ) -> Result<Episodes, Refused> {
+    played(loaded, subject, (episodes, seed), false)
+}
+
+/// Runs these episodes as [`run`] does, and counts what the nodes of a tree answer in them.
+///
+/// # Errors
+/// As [`run`].
+pub fn counted(
+    loaded: &Loaded,
+    subject: &Subject,
+    episodes: u64,
+    seed: u64,
+) -> Result<Episodes, Refused> {
+    played(loaded, subject, (episodes, seed), true)
+}
+
+fn played(
+    loaded: &Loaded,
+    subject: &Subject,
+    (episodes, seed): (u64, u64),
+    nodes: bool,
+) -> Result<Episodes, Refused> {
     let program = &loaded.program;
     let id = subject.task(loaded)?;
     let task = &program.tasks[id];
     let start = Purpose::Run.start(seed, task.end_after);
+    let mut coverage = None;
     let played = match subject {
+        Subject::Tree(tree) if nodes => {
+            let tree = &program.trees[*tree];
+            let counted = reached::tree(program, id, &tree.root, episodes, start);
+            counted.map(|(played, answers)| {
+                let name = &tree.name.family;
+                let found = nodes::of(loaded, name, Span::default(), &tree.root);
+                coverage = Some(found.covered(loaded, (name, &tree.root), &answers));
+                played
+            })
+        }
         Subject::Tree(tree) => {
             let root = &program.trees[*tree].root;
             play::tree(program, id, root, episodes, start)
@@ -83,5 +117,9 @@ pub fn run(
     };
     let played = played.map_err(|why| world::unplayable(loaded, why))?;
     let summary = Summary::of(&played, task.end_on.len());
-    Ok(Episodes::new(program, task, summary))
+    let episodes = Episodes::new(program, task, summary);
+    Ok(Episodes {
+        coverage,
+        ..episodes
+    })
 }

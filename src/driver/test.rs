@@ -1,16 +1,16 @@
 //! `btc test`: the tests that stand in programs.
 
 mod failure;
-mod places;
 
 use super::learn::Learned;
 use super::load::Loaded;
+use super::nodes;
 use super::verify::assumed;
 use crate::diagnostic::{Code, Diagnostic, render};
 use crate::ir::test::{Subject, Test};
 use crate::ir::tree::Node;
-use crate::report::tested::{Coverage, Place, Tested};
-use crate::source::{FileId, Span};
+use crate::report::tested::Tested;
+use crate::source::FileId;
 use crate::syntax::ast::{self, ItemKind};
 use crate::trial::test::play;
 
@@ -100,23 +100,19 @@ fn one(loaded: &Loaded, due: Due, learned: &[Learned], results: &mut Results) {
     let history = test.task.map(|task| program.tasks[task].history);
     let history = history.unwrap_or_else(|| assumed(&[root]));
     let outcome = play(root, history, &test.lines);
-    let places::Found { spans, calls } = match &test.subject {
-        Subject::Learned(_) => places::Found::default(),
-        Subject::Tree(_) | Subject::Subtree(_) => places::of(loaded, written, root),
+    let found = match &test.subject {
+        Subject::Learned(_) => nodes::Found::default(),
+        Subject::Tree(_) | Subject::Subtree(_) => {
+            let tree = &written.tree;
+            nodes::of(loaded, &tree.name.name, tree.span, root)
+        }
     };
     let failure = (outcome.failed.as_ref())
-        .map(|failed| failure::of(program, (test, written), (root, &spans), failed));
+        .map(|failed| failure::of(program, (test, written), (root, &found.spans), failed));
     let told = failure.as_ref().map(|failure| told(loaded, failure));
     results.tested.test(test, outcome.ticks, told);
     results.failures.extend(failure);
-    let written = |at: usize| {
-        let called = calls.get(&at).map(|(span, text)| (*span, text.clone()));
-        let span = called.as_ref().map(|(span, _)| *span);
-        let span = span.or_else(|| spans.get(at).copied());
-        let place = span.and_then(|span| place(loaded, span));
-        (place, called.map(|(_, text)| text))
-    };
-    let covered = Coverage::of(program, &test.tree, root, &outcome.nodes, written);
+    let covered = found.covered(loaded, (&test.tree, root), &outcome.nodes);
     results.tested.cover(covered);
 }
 
@@ -127,17 +123,6 @@ fn told(loaded: &Loaded, failure: &Diagnostic) -> (String, String) {
         render::human(&loaded.sources, failure, false),
         render::json(&loaded.sources, failure),
     )
-}
-
-/// The file, the line and the column, counted from one.
-fn place(loaded: &Loaded, span: Span) -> Option<Place> {
-    let source = loaded.sources.get(span.file)?;
-    let (line, column) = source.position(span.start);
-    Some(Place {
-        file: source.name.clone(),
-        line: line + 1,
-        column: column + 1,
-    })
 }
 
 /// The mistake in a test of a tree that no file has.

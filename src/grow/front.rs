@@ -23,6 +23,8 @@ const STAGES: [(usize, usize); 3] = [(60, 7), (160, 3), (500, 3)];
 const VETTED: usize = 1500;
 /// The standard errors by which a tree does surely more harm than another.
 const SURE: f64 = 2.0;
+/// A tree that returns more by this part than the best that was known before may do more harm than that does.
+const MUCH: f64 = 0.5;
 /// The most trees that are looked at for the front.
 const LOOKED_AT: usize = 12;
 /// Fresh episodes that measure the tree that was chosen.
@@ -129,7 +131,9 @@ pub(super) fn choose<W: World>(
         let chosen = chosen(judge, &entrants, &known, settings.choice, price);
         let by = (&mut *judge, &trials);
         let goes_on = match settings.choice {
-            _ if chosen == exact => plays_next(by, &mut entrants, ended, price),
+            _ if chosen == exact || chosen == known.best => {
+                plays_next(by, &mut entrants, &known, price)
+            }
             Choice::Knee => is_doubted(by, &mut entrants, [chosen, known.best], vetted),
             Choice::Nodes(_) | Choice::Loss(_) => false,
         };
@@ -248,16 +252,24 @@ fn confirmed<W: World>(
     let halves = settings.choice == Choice::Knee;
     let stages = STAGES.len() - usize::from(!halves);
     let mut out: Vec<Entrant> = Vec::new();
+    let is_theirs = |entrant: &&Entrant| starts.others.iter().any(|(_, it)| *it == entrant.root);
     for (episodes, stay) in STAGES.into_iter().take(stages) {
         let episodes = judge.scaled(of(episodes));
         judge.play(trials, &mut exact, episodes, None);
         judge.play(trials, &mut entrants, episodes, exact.first());
         if halves {
-            let Some(exact) = exact.first() else { break };
+            let known = exact.iter().chain(entrants.iter().filter(is_theirs));
+            let mean = |entrant: &Entrant| entrant.contender.returns().mean;
+            let best = known.reduce(|best, next| if mean(next) > mean(best) { next } else { best });
+            let Some(best) = best.cloned() else { break };
             let terms = Terms::taking(price);
-            let gain = |entrant: &Entrant| judge.gain(entrant, exact, terms).mean;
+            let gain = |entrant: &Entrant| judge.gain(entrant, &best, terms).mean;
             entrants.sort_by(|a, b| gain(b).total_cmp(&gain(a)));
-            out.extend(entrants.drain(stay.min(entrants.len())..));
+            // The best tree of the file is what others are held against.
+            let leave = entrants.split_off(stay.min(entrants.len()));
+            let (stays, leave) = leave.into_iter().partition(|it| it.root == best.root);
+            entrants.extend::<Vec<Entrant>>(stays);
+            out.extend::<Vec<Entrant>>(leave);
         }
     }
     entrants.extend(out);
@@ -265,28 +277,24 @@ fn confirmed<W: World>(
     Ok(entrants)
 }
 
-/// Lets the best of the trees that left early play to the end, if it looks better than the exact one, which stands last. Harm
+/// Lets the best of the trees that left early play to the end, if it looks better than the best that was known before. Harm
 /// that is rare shows late, so those that stayed longest may all have turned out to do more of it.
 fn plays_next<W: World>(
     (judge, trials): (&mut Judge<'_, '_, W>, &Trials<'_, W>),
     entrants: &mut [Entrant],
-    episodes: usize,
+    known: &Known,
     price: f64,
 ) -> bool {
-    let Some((exact, others)) = entrants.split_last_mut() else {
+    let Some(base) = entrants.get(known.best) else {
         return false;
     };
-    let gains = others.iter_mut().filter_map(|entrant| {
-        let gain = judge.gain(entrant, exact, Terms::taking(price)).mean;
-        let waits = entrant.contender.episodes() < episodes && gain > 0.0;
-        waits.then_some((gain, entrant))
+    let gains = entrants.iter().enumerate().filter_map(|(at, entrant)| {
+        let gain = judge.gain(entrant, base, Terms::taking(price)).mean;
+        let waits = entrant.contender.episodes() < known.ended && gain > 0.0;
+        waits.then_some((gain, at))
     });
     let next = gains.reduce(|best, next| if next.0 > best.0 { next } else { best });
-    let Some((_, next)) = next else {
-        return false;
-    };
-    judge.play(trials, std::slice::from_mut(next), episodes, Some(exact));
-    true
+    next.is_some_and(|(_, at)| judge.plays_to(trials, entrants, at, known.ended) > 0)
 }
 
 /// What was there before the search.
@@ -333,8 +341,8 @@ fn known<W: World>(
     })
 }
 
-/// Lets the tree that was chosen play on and, where it then looks worse than the best that was known before, that one, too.
-/// Whether it does, so that the choice has to be made again.
+/// Lets the tree that was chosen play on and, where it then did harm or looks worse than the best that was known before, that one,
+/// too. Whether it does, so that the choice has to be made again.
 fn is_doubted<W: World>(
     (judge, trials): (&mut Judge<'_, '_, W>, &Trials<'_, W>),
     entrants: &mut [Entrant],
@@ -348,11 +356,11 @@ fn is_doubted<W: World>(
         return false;
     };
     let worth = |entrant: &Entrant| judge.worth(entrant, other.scale(), Terms::taking(0.0));
-    let is_worse = worth(own) < worth(other);
-    if is_worse {
+    let doubted = worth(own) < worth(other) || judge.harms(own) > 0;
+    if doubted {
         judge.plays_to(trials, entrants, best, episodes);
     }
-    is_worse
+    doubted
 }
 
 /// The place of the tree that is taken.
@@ -368,7 +376,9 @@ fn chosen<W: World>(
     let within = |most: u64| {
         let is_safe = |entrant: &Entrant| {
             let harms = judge.ground.harms(&entrant.contender, known.ended);
-            entrant.contender.episodes() >= known.ended && !does_more_harm([harms, most], SURE)
+            entrant.contender.episodes() >= known.ended
+                && !does_more_harm([harms, most], SURE)
+                && !is_more_harmful(judge, entrant, entrants.get(known.best))
         };
         let safe = entrants.iter().enumerate();
         let safe = safe.filter(|(_, entrant)| is_safe(entrant));
@@ -403,6 +413,21 @@ fn chosen<W: World>(
     }
 }
 
+/// Whether a tree does surely more harm than another in the episodes that both have played, and does not return so much more that
+/// this one is no measure.
+fn is_more_harmful<W: World>(
+    judge: &Judge<'_, '_, W>,
+    entrant: &Entrant,
+    other: Option<&Entrant>,
+) -> bool {
+    let Some(other) = other else { return false };
+    let both = [entrant, other].map(|it| &it.contender);
+    let [own, theirs] = both.map(|contender| contender.episodes());
+    let harms = both.map(|contender| judge.ground.harms(contender, own.min(theirs)));
+    let gain = judge.gain(entrant, other, Terms::free()).mean;
+    does_more_harm(harms, SURE) && gain <= MUCH * other.contender.returns().mean.abs()
+}
+
 /// The place of the tree that returns most for its nodes and its harm, of those that are as good as the best that was known before
 /// without regard to nodes, with and without regard to harm.
 fn knee<W: World>(
@@ -430,13 +455,13 @@ fn knee<W: World>(
                 gain.mean >= -chance.max(less)
             })
     };
-    // What harm costs is a part of what the exact tree returns.
-    let gain = |entrant: &Entrant| judge.gain(entrant, exact, Terms::taking(price)).mean;
+    // What harm costs is a part of what the best tree returns.
+    let gain = |entrant: &Entrant, over| judge.gain(entrant, over, Terms::taking(price)).mean;
     let good = safe.iter().filter(|(_, entrant)| as_good(entrant));
-    let gains = good.map(|(at, entrant)| (*at, gain(entrant)));
+    let gains = good.map(|(at, entrant)| (at, gain(entrant, base), entrant));
     let best = gains.reduce(|best, next| if next.1 > best.1 { next } else { best });
-    let gives_way = best.filter(|(_, gain)| *gain > PROVED * price);
-    gives_way.map_or(known.exact, |(at, _)| at)
+    let gives_way = best.filter(|(_, _, entrant)| gain(entrant, exact) > PROVED * price);
+    gives_way.map_or(known.exact, |(at, ..)| *at)
 }
 
 /// The trees that none beats in both nodes and return, and the one that was taken.

@@ -120,6 +120,18 @@ pub fn play_all<P: Process, C: Controller>(
     patience: Option<u64>,
     make: impl Fn() -> (P, C) + Sync + Send,
 ) -> Vec<Episode> {
+    let played = play_each(episodes, start, patience, make, |_| ());
+    played.into_iter().map(|(episode, ())| episode).collect()
+}
+
+/// Plays n episodes as [`play_all`] does; `asked` is what is wanted of the controller after each.
+pub fn play_each<P: Process, C: Controller, T: Send>(
+    episodes: u64,
+    start: Start,
+    patience: Option<u64>,
+    make: impl Fn() -> (P, C) + Sync + Send,
+    asked: impl Fn(&C) -> T + Sync + Send,
+) -> Vec<(Episode, T)> {
     (0..episodes)
         .into_par_iter()
         .map_init(&make, |(process, controller), episode| {
@@ -127,7 +139,8 @@ pub fn play_all<P: Process, C: Controller>(
                 episode: start.episode + episode,
                 ..start
             };
-            play(process, controller, start, patience)
+            let episode = play(process, controller, start, patience);
+            (episode, asked(controller))
         })
         .collect()
 }

@@ -384,7 +384,19 @@ impl Reading {
 
     /// Tells contradictions, and gives the order of the rows.
     fn contradictions(&mut self, text: &[u8]) -> Vec<u32> {
-        let room = MISTAKES.saturating_sub(self.mistakes.len());
+        // Rows may differ in a column that was left out.
+        let lacks = |error: &TableError| {
+            matches!(
+                error.kind,
+                TableErrorKind::UnusableName { .. }
+                    | TableErrorKind::Nameless
+                    | TableErrorKind::RepeatedColumn(_)
+            )
+        };
+        let room = match self.mistakes.iter().any(lacks) {
+            true => 0,
+            false => MISTAKES.saturating_sub(self.mistakes.len()),
+        };
         let merged = merge::merge(&mut self.rows, room);
         let exact = merged.contradictions.iter().map(|pair| (*pair, false));
         let overlaps = overlap::overlaps(&self.rows, &merged.order, room);

@@ -1,5 +1,6 @@
 //! The figures of episodes.
 
+use super::coverage::Coverage;
 use super::ends::Ended;
 use super::json::{self, Named};
 use super::words::{self, end_names, numbered};
@@ -18,6 +19,8 @@ pub struct Episodes {
     pub events: Vec<String>,
     /// The names of what ends episodes, as in [`Summary::ended`].
     pub ends: Vec<String>,
+    /// What the nodes of the tree have answered, where that was asked.
+    pub coverage: Option<Coverage>,
 }
 
 #[derive(Serialize)]
@@ -29,6 +32,8 @@ struct Document<'a> {
     worst: Option<Worst>,
     events: Named<Rate>,
     ended: Named<End>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    coverage: Option<serde_json::Value>,
 }
 
 /// The episode with the lowest return, and how many return far less than the others.
@@ -62,6 +67,7 @@ impl Episodes {
             summary,
             events: events.map(|event| event.name.to_string()).collect(),
             ends: end_names(program, task),
+            coverage: None,
         }
     }
 
@@ -94,6 +100,7 @@ impl Episodes {
             }),
             events: self.events.iter().zip(&summary.events).map(rate).collect(),
             ended: ends.chain([("limit".to_owned(), limit)]).collect(),
+            coverage: self.coverage.as_ref().map(Coverage::json),
         }
     }
 
@@ -148,6 +155,9 @@ impl Episodes {
             ));
         }
         text.push_str(&format!("  {:<width$} {:>9}\n", "limit", summary.cut));
+        if let Some(coverage) = &self.coverage {
+            text.push_str(&format!("\n{}", coverage.table()));
+        }
         text
     }
 }

@@ -1,5 +1,6 @@
 //! Results in words, and the same figures as JSON documents.
 
+pub mod coverage;
 pub mod curve;
 pub mod decanonicalised;
 pub mod difference;

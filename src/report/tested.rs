@@ -1,12 +1,8 @@
 //! Tests of trees, with the nodes that they tick.
 
+use super::coverage::{Coverage, Place};
 use super::words::{command_data, command_property, counted};
-use crate::emit::bt;
-use crate::ir::Program;
 use crate::ir::test::Test;
-use crate::ir::tree::{Composite, Node};
-use crate::tree::size::Price;
-use crate::trial::test::Answers;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 
@@ -32,135 +28,6 @@ pub struct One {
     pub ticks: u64,
     /// Why it fails, for a person and as a JSON document.
     pub failure: Option<(String, String)>,
-}
-
-/// The nodes of a tree, with how often tests have ticked each.
-#[derive(Clone, Debug)]
-pub struct Coverage {
-    /// The tree, as the tests name it.
-    pub tree: String,
-    /// Its nodes, in pre-order.
-    pub nodes: Vec<Covered>,
-}
-
-/// A node.
-#[derive(Clone, Debug)]
-pub struct Covered {
-    /// What it is.
-    pub node: String,
-    /// How many nodes it is drawn as, as in every [size](crate::tree::size::Size): a guard of two literals is two or more.
-    pub drawn: usize,
-    /// The node that it stands under.
-    pub parent: Option<usize>,
-    /// Where it is written.
-    pub place: Option<Place>,
-    /// What it has answered, all tests together.
-    pub answers: Answers,
-}
-
-/// A place in a file; lines and columns are counted from one.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Place {
-    /// The file.
-    pub file: String,
-    /// The line.
-    pub line: usize,
-    /// The column, in characters.
-    pub column: usize,
-}
-
-impl Coverage {
-    /// What one test has ticked of a tree; `written` gives the place of a node by its place in pre-order, and what is called
-    /// there if it is a subtree.
-    pub fn of(
-        program: &Program,
-        tree: &str,
-        root: &Node,
-        answers: &[Answers],
-        written: impl Fn(usize) -> (Option<Place>, Option<String>),
-    ) -> Self {
-        let mut nodes = Vec::new();
-        walk(program, root, None, &mut nodes);
-        for (at, node) in nodes.iter_mut().enumerate() {
-            let (place, called) = written(at);
-            node.place = place;
-            node.node = called.unwrap_or_else(|| std::mem::take(&mut node.node));
-            node.answers = answers.get(at).copied().unwrap_or_default();
-        }
-        Self {
-            tree: tree.to_owned(),
-            nodes,
-        }
-    }
-
-    /// How many nodes were ticked: those of a guard that was asked.
-    fn ticked(&self) -> usize {
-        let nodes = self.nodes.iter();
-        let ticked = nodes.filter(|node| node.answers.ticks() > 0);
-        ticked.map(|node| node.drawn).sum()
-    }
-
-    /// How many nodes there are.
-    fn size(&self) -> usize {
-        self.nodes.iter().map(|node| node.drawn).sum()
-    }
-
-    /// The nodes that no test has ticked, without those under them.
-    fn never(&self) -> impl Iterator<Item = &Covered> {
-        let is_ticked = |at: usize| {
-            let node = self.nodes.get(at);
-            node.is_some_and(|node| node.answers.ticks() > 0)
-        };
-        let nodes = self.nodes.iter();
-        nodes.filter(move |node| node.answers.ticks() == 0 && node.parent.is_none_or(is_ticked))
-    }
-
-    /// How many of its nodes were ticked, in a line.
-    fn headline(&self) -> String {
-        let (tree, ticked, all) = (&self.tree, self.ticked(), self.size());
-        match ticked == all {
-            true => format!("{tree}: every node is ticked"),
-            false => format!("{tree}: {ticked} of {} ticked", counted(all, "node")),
-        }
-    }
-}
-
-/// The nodes under a parent, itself told with its place among those that were found.
-fn walk(program: &Program, node: &Node, parent: Option<(usize, &Node)>, found: &mut Vec<Covered>) {
-    let at = found.len();
-    found.push(Covered {
-        node: word(program, node),
-        drawn: Price::of_node(node, parent.map(|(_, parent)| parent)).nodes,
-        parent: parent.map(|(at, _)| at),
-        place: None,
-        answers: Answers::default(),
-    });
-    for child in node.children() {
-        walk(program, child, Some((at, node)), found);
-    }
-}
-
-/// A node in a few words: a guard, a behaviour, `memory sequence`, `low => …`.
-pub fn word(program: &Program, node: &Node) -> String {
-    match node {
-        Node::Condition(guard) => bt::guard(program, guard),
-        Node::Behavior(id) => program.behaviors[*id].name.to_string(),
-        Node::Composite {
-            kind,
-            memory,
-            children,
-        } => match (kind, memory, children.as_slice()) {
-            (Composite::Sequence, false, [Node::Condition(guard), then]) => {
-                format!("{} => {}", bt::guard(program, guard), word(program, then))
-            }
-            _ => kind.word(*memory).to_owned(),
-        },
-        Node::Parallel { successes, .. } => format!("parallel({successes})"),
-        Node::Decorator { kind, .. } => match kind.to_string().split_once(' ') {
-            Some((word, much)) => format!("{word}({much})"),
-            None => kind.to_string(),
-        },
-    }
 }
 
 impl Tested {
@@ -284,28 +151,7 @@ impl Tested {
                 "failure": failure,
             })
         });
-        let coverage = self.coverage.iter().map(|tree| {
-            let nodes = tree.nodes.iter().map(|node| {
-                let place = node.place.as_ref();
-                let place = place
-                    .map(|it| json!({ "file": it.file, "line": it.line, "column": it.column }));
-                json!({
-                    "node": node.node,
-                    "parent": node.parent,
-                    "place": place,
-                    "ticks": node.answers.ticks(),
-                    "success": node.answers.success,
-                    "failure": node.answers.failure,
-                    "running": node.answers.running,
-                })
-            });
-            json!({
-                "tree": tree.tree,
-                "nodes": tree.size(),
-                "ticked": tree.ticked(),
-                "each": nodes.collect::<Vec<_>>(),
-            })
-        });
+        let coverage = self.coverage.iter().map(Coverage::json);
         let document = json!({
             "file": self.file,
             "tests": tests.collect::<Vec<_>>(),

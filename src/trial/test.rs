@@ -46,7 +46,8 @@ impl Answers {
         self.running += other.running;
     }
 
-    fn count(&mut self, status: Status) {
+    /// Takes in an answer.
+    pub fn count(&mut self, status: Status) {
         match status {
             Status::Success => self.success += 1,
             Status::Failure => self.failure += 1,
@@ -156,7 +157,7 @@ fn parts(expected: &Expected, ticked: &[(Id<Behavior>, Status)], answer: Status)
 }
 
 /// How many nodes a tree has.
-fn count(node: &Node) -> usize {
+pub fn count(node: &Node) -> usize {
     1 + node.children().iter().map(count).sum::<usize>()
 }
 

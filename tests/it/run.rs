@@ -4,7 +4,7 @@ use crate::program;
 use btc::driver::Text;
 use btc::driver::format::format;
 use btc::driver::load::Loaded;
-use btc::driver::run::Subject;
+use btc::driver::run::{self, Subject};
 use btc::driver::trace::{self, Step};
 use btc::{LearnOptions, Program, Shape};
 use std::path::Path;
@@ -37,6 +37,41 @@ fn traces_show_what_programs_mean() {
         }
         assert_eq!(in_json.lines().count() + 1, trace.csv().lines().count());
     });
+}
+
+/// Counting what nodes answer changes no episode; what is counted adds up.
+#[test]
+fn the_nodes_of_a_tree_are_counted() {
+    cases(|path| {
+        let loaded = loaded(path);
+        let subject = Subject::only_tree(&loaded).unwrap();
+        let plain = run::run(&loaded, &subject, 3, 1).unwrap();
+        let counted = run::counted(&loaded, &subject, 3, 1).unwrap();
+        assert_eq!(plain.summary, counted.summary, "{}", path.display());
+        let coverage = counted.coverage.unwrap();
+        let ticks = |at: usize| coverage.nodes[at].answers.ticks();
+        assert_eq!(ticks(0), counted.summary.ticks, "{}", path.display());
+        for (at, node) in coverage.nodes.iter().enumerate().skip(1) {
+            let parent = node.parent.unwrap();
+            assert!(ticks(at) <= ticks(parent), "{}", path.display());
+            if coverage.nodes[parent].guarded && at == parent + 2 {
+                let guard = coverage.nodes[at - 1].answers;
+                assert_eq!(guard.success, ticks(at), "{}", path.display());
+            }
+        }
+    });
+}
+
+/// Nodes that are never reached stand out.
+#[test]
+fn what_nodes_answer_is_shown() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/delivery_small.bt");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let text = text.replace("battery <= 25%", "battery <= -1%");
+    let loaded = program::with_text(&path, text);
+    let subject = Subject::tree(&loaded, "expert").unwrap();
+    let counted = run::counted(&loaded, &subject, 4, 1).unwrap();
+    crate::snapshot::check("run_nodes", &counted.coverage.unwrap().table());
 }
 
 /// Every program with a learner can be learned, and what is learned is a program.

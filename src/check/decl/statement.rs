@@ -7,7 +7,7 @@ use crate::check::lint::is_nameless;
 use crate::check::names::{Decl, START_WORDS, is_built_in};
 use crate::check::types::units::Dim;
 use crate::check::types::{Type, Value};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::ir::Pool;
 use crate::ir::expr::{Binary, Expr, ExprId, Local, Temp};
 use crate::ir::law::{Block, Stmt};
@@ -131,6 +131,16 @@ impl<'a> Checker<'a> {
         Some(Stmt::If(condition.scalar()?, then?, otherwise?))
     }
 
+    /// Whether a time is to grow by 1 in each tick.
+    fn counts_ticks(&self, value: &ast::Expr, ty: &Type) -> bool {
+        let in_ticks = matches!(self.context.region, Region::EachTick | Region::Control);
+        let one = matches!(
+            &value.kind,
+            ast::ExprKind::Number(literal) if literal.unit.is_none() && literal.value == 1.0
+        );
+        in_ticks && one && *ty == Type::TIME
+    }
+
     fn assign(
         &mut self,
         at: Span,
@@ -159,6 +169,19 @@ impl<'a> Checker<'a> {
             return None;
         }
         let value = match op.node {
+            AssignOp::Add | AssignOp::Sub if self.counts_ticks(value, &ty) => {
+                let message = format!("{role} is {ty}, not {}", Type::NUMBER);
+                return self
+                    .error(Code::E0301, value.span, message)
+                    .this_is(&Type::NUMBER)
+                    .fix(
+                        "the time that passes in a tick is `tick`",
+                        value.span,
+                        "tick",
+                        Applicability::Unsafe,
+                    )
+                    .none();
+            }
             AssignOp::Set | AssignOp::Add | AssignOp::Sub => {
                 self.set_to(&target.name, value, &ty, &role)
             }

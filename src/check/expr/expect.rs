@@ -11,7 +11,7 @@ use crate::diagnostic::{Applicability, Code, suggest};
 use crate::ir::expr::ExprId;
 use crate::source::Span;
 use crate::spelling::spelled;
-use crate::syntax::ast::{ArgKind, BinaryOp, Choice, Expr, ExprKind, LetBody, Otherwise, Ref};
+use crate::syntax::ast::{Arg, ArgKind, BinaryOp, Choice, Expr, ExprKind, LetBody, Otherwise, Ref};
 use crate::syntax::print;
 
 impl<'a> Checker<'a> {
@@ -261,8 +261,17 @@ impl<'a> Checker<'a> {
         }) = &expr.kind
             && PASSING.contains(&name.name.as_str())
         {
+            // Beside 100, 1 is a percentage, too.
+            let plain = |arg: &Arg| match &arg.kind {
+                ArgKind::Positional(value) => plain_number(value),
+                _ => None,
+            };
+            let beside = args.iter().any(|arg| plain(arg).is_some_and(|it| it > 1.0));
             for arg in args {
                 match &arg.kind {
+                    ArgKind::Positional(value) if beside && plain(arg) == Some(1.0) => {
+                        self.plain_ratio(value);
+                    }
                     ArgKind::Positional(value) => self.warn_plain_ratio(value, wanted),
                     ArgKind::Range(low, high) => {
                         self.warn_plain_ratio(low, wanted);
@@ -286,22 +295,35 @@ impl<'a> Checker<'a> {
         if let Some(named) = self.plain_constant(expr) {
             self.plain_ratios.insert(named.span, named);
         }
-        if let ExprKind::Number(literal) = &expr.kind
-            && literal.unit.is_none()
-            && literal.value > 1.0
-        {
-            let digits = &literal.digits;
-            let message = format!("`{digits}` stands for {} %", literal.value * 100.0);
-            let percent = format!("{digits}%");
-            self.warning(Code::W0301, expr.span, message)
-                .label("a ratio goes from 0 to 1, or from 0% to 100%")
-                .fix(
-                    format!("write `{percent}`"),
-                    expr.span,
-                    percent,
-                    Applicability::Unsafe,
-                );
+        if plain_number(expr).is_some_and(|value| value > 1.0) {
+            self.plain_ratio(expr);
         }
+    }
+
+    /// Warns of a plain number that was likely meant as a percentage.
+    fn plain_ratio(&mut self, expr: &Expr) {
+        let ExprKind::Number(literal) = &expr.kind else {
+            return;
+        };
+        let digits = &literal.digits;
+        let message = format!("`{digits}` stands for {} %", literal.value * 100.0);
+        let percent = format!("{digits}%");
+        self.warning(Code::W0301, expr.span, message)
+            .label("a ratio goes from 0 to 1, or from 0% to 100%")
+            .fix(
+                format!("write `{percent}`"),
+                expr.span,
+                percent,
+                Applicability::Unsafe,
+            );
+    }
+}
+
+/// The value of a number without a unit.
+fn plain_number(expr: &Expr) -> Option<f64> {
+    match &expr.kind {
+        ExprKind::Number(literal) if literal.unit.is_none() => Some(literal.value),
+        _ => None,
     }
 }
 

@@ -79,11 +79,11 @@ impl Checker<'_> {
         let name = &state.name.family;
         let note = match (cause.lacks, &state.kind) {
             (Lacks::Less, _) => match self.is_first(cause) {
-                true => format!("in an episode nothing makes `{name}` any less"),
+                true => format!("in an episode nothing makes `{name}` less than it is declared"),
                 false => format!("nothing that sets `{name}` makes it small enough"),
             },
             (Lacks::Greater, _) => match self.is_first(cause) {
-                true => format!("in an episode nothing makes `{name}` any greater"),
+                true => format!("in an episode nothing makes `{name}` greater than it is declared"),
                 false => format!("nothing that sets `{name}` makes it great enough"),
             },
             (Lacks::Value(value), ValueKind::Enum(variants)) => {

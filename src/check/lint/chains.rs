@@ -1,6 +1,7 @@
 //! Branches of `if … else if …` that an earlier one leaves nothing.
 
 use super::cases::{Cases, of_expr};
+use super::view::is_of_a_robot;
 use crate::check::Checker;
 use crate::diagnostic::Code;
 use crate::ir::expr::ExprId;
@@ -81,7 +82,13 @@ impl<'a> Checker<'a> {
                 let constant = |id| program.pool.constant(id).is_some();
                 link.asks.is_some_and(constant)
                     || link.before.iter().any(|asks| constant(*asks))
-                    || link.of_any_robot && !alone
+                    || link.of_any_robot
+                        && !alone
+                        && link
+                            .asks
+                            .iter()
+                            .chain(&link.before)
+                            .any(|asks| is_of_a_robot(&program.pool, *asks))
             };
             if links.iter().any(unsure) || !links.iter().all(never) {
                 continue;

@@ -3,6 +3,7 @@
 use super::apart::because;
 use super::cases::of_expr;
 use super::tree::at_success;
+use super::view::is_of_a_robot;
 use crate::check::Checker;
 use crate::check::context::Region;
 use crate::diagnostic::Code;
@@ -209,7 +210,7 @@ impl<'a> Checker<'a> {
                 // Of an event that never happens it is told where that is declared.
                 pool.constant(it.asks).is_some() && !it.nameless
                     || matches!(pool.get(it.asks), Expr::Event(_))
-                    || it.of_any_robot && !it.nameless && !alone
+                    || it.of_any_robot && !it.nameless && !alone && is_of_a_robot(pool, it.asks)
                     || parts(pool, it.asks).any(|part| constant.contains(&part))
             };
             if conditions.iter().any(told) || self.says_one_thing_twice(at) {

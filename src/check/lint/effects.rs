@@ -35,6 +35,7 @@ impl<'a> Checker<'a> {
     pub fn assigns(&mut self, at: Span, state: Id<State>, value: ExprId) {
         if !self.context.library {
             self.assignments.push((at, state, value));
+            self.notes_bound(at, state, value);
         }
     }
 

@@ -1,6 +1,8 @@
 //! Expressions that say one thing twice: `b < b`, `a or b or a`, `x = x`.
 
 use crate::check::Checker;
+use crate::check::expr::plain_ref;
+use crate::check::names::Decl;
 use crate::diagnostic::Code;
 use crate::source::Span;
 use crate::syntax::ast::{
@@ -20,6 +22,13 @@ pub struct Again {
 }
 
 impl<'a> Checker<'a> {
+    /// Whether an expression is an input: what it is compared with may be a word that is called so, too.
+    fn is_input(&self, expr: &Expr) -> bool {
+        let named = plain_ref(expr).map(|name| name.name.name.as_str());
+        let decl = named.and_then(|name| self.names.value(name, false));
+        matches!(decl, Some((Decl::Input(_), _)))
+    }
+
     /// Notes it where the operands of an operator are the same.
     pub fn same_operands(&mut self, op: Spanned<BinaryOp>, left: &'a Expr, right: &'a Expr) {
         if self.context.library {
@@ -34,7 +43,7 @@ impl<'a> Checker<'a> {
         }
         let tells = op.node >= BinaryOp::Eq && op.node <= BinaryOp::Ge
             || matches!(op.node, BinaryOp::Sub | BinaryOp::Div);
-        if tells && !is_literal(left) && is_like(left, right) {
+        if tells && !is_literal(left) && is_like(left, right) && !self.is_input(left) {
             let message = format!("both sides of `{}` are the same", op.node.spelling());
             self.again(right.span, left.span, message, "the same as on the left");
         }

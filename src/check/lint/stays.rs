@@ -251,7 +251,7 @@ impl<'a> Checker<'a> {
     }
 
     /// The values of these settings.
-    fn one_of_these(&self, state: Id<State>, settings: &[Setting]) -> Stays {
+    pub fn one_of_these(&self, state: Id<State>, settings: &[Setting]) -> Stays {
         match self.program.states[state].kind {
             ValueKind::Quantity => {
                 let none = f64::INFINITY..=f64::NEG_INFINITY;
@@ -426,7 +426,7 @@ pub fn all_settings(program: &Program) -> Set {
 }
 
 /// What sets each state as an episode starts.
-fn set_at_starts(program: &Program, found: &mut Set) {
+pub fn set_at_starts(program: &Program, found: &mut Set) {
     let tasks = program.tasks.values().map(|task| &task.start);
     let learners = program.learners.values().map(|learner| &learner.start);
     tasks

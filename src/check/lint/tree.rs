@@ -396,9 +396,15 @@ fn where_it_succeeds(program: &Program, id: Id<Behavior>) -> Cases {
     let Some(law) = &behavior.law else {
         return Cases::Unknown;
     };
-    let succeeds = of_expr(View::of(program, &behavior.name), law.succeed, true);
-    let Cases::Some(mut cases) = succeeds else {
-        return succeeds;
+    let view = View::of(program, &behavior.name);
+    let [allowed, succeeds] = [law.requires, law.succeed].map(|id| of_expr(view, id, true));
+    let both = match (&allowed, &succeeds) {
+        (Cases::Unknown, _) => succeeds,
+        (_, Cases::Unknown) => allowed,
+        _ => allowed.and(&succeeds),
+    };
+    let Cases::Some(mut cases) = both else {
+        return both;
     };
     // What it waits for never holds: that is told where it is declared.
     if cases.is_empty() {

@@ -2,8 +2,10 @@
 
 use super::interval::Interval;
 use crate::geometry::Shape;
+use crate::ir::expr::{Expr, ExprId};
 use crate::ir::world::{Robot, World};
-use crate::ir::{Id, Name, Program};
+use crate::ir::{Id, Name, Pool, Program};
+use std::collections::BTreeSet;
 
 /// A program, and the robot that reads what it says: heading, distances, sensors.
 #[derive(Clone, Copy, Debug)]
@@ -49,4 +51,39 @@ impl<'p> From<&'p Program> for View<'p> {
             near: None,
         }
     }
+}
+
+/// Whether an expression reads where a robot is, or what it sees: of another robot the same text may say another thing.
+pub fn is_of_a_robot(pool: &Pool, id: ExprId) -> bool {
+    let mut seen = BTreeSet::from([id]);
+    let mut open = vec![id];
+    while let Some(id) = open.pop() {
+        let parts = match pool.get(id) {
+            Expr::Pose(_)
+            | Expr::Robot(..)
+            | Expr::Visible(..)
+            | Expr::NearestWall(_)
+            | Expr::Wall(..)
+            | Expr::Sensor(..)
+            | Expr::Inside(_)
+            | Expr::Ended(..)
+            | Expr::Event(_)
+            | Expr::Draw(..) => return true,
+            Expr::Unary(_, of) => vec![of],
+            Expr::Binary(_, a, b) => vec![a, b],
+            Expr::Select(is, a, b) => vec![is, a, b],
+            Expr::Num(_)
+            | Expr::Bool(_)
+            | Expr::State(_)
+            | Expr::Input(_)
+            | Expr::Local(_)
+            | Expr::Temp(_)
+            | Expr::Touching
+            | Expr::Elapsed
+            | Expr::Visits
+            | Expr::Progress => continue,
+        };
+        open.extend(parts.into_iter().filter(|part| seen.insert(*part)));
+    }
+    false
 }

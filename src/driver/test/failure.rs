@@ -4,7 +4,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::Program;
 use crate::ir::test::Test;
 use crate::ir::tree::{Atom, Decorator, Guard, Node, Status};
-use crate::report::tested;
+use crate::report::coverage;
 use crate::source::Span;
 use crate::syntax::ast::{self, Step, TestLineKind};
 use crate::trial::test::{Failed, Parts};
@@ -217,5 +217,5 @@ fn held(program: &Program, root: &Node, failed: &Failed) -> String {
 fn word(program: &Program, root: &Node, at: usize) -> String {
     let nodes = nodes(root);
     let node = nodes.get(at).copied().unwrap_or(root);
-    tested::word(program, node)
+    coverage::word(program, node)
 }

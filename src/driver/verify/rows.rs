@@ -194,7 +194,8 @@ impl Sides<'_> {
                 "  {table}:{}: {}: the table says {}, `{tree}` selects {}",
                 self.line(&found.minterm),
                 words::minterm(self.program, &self.policy.atoms, &found.minterm),
-                does(found.table),
+                self.allowed(&found.minterm)
+                    .unwrap_or_else(|| does(found.table)),
                 found.tree.map_or_else(|| "nothing".to_owned(), does),
             )
         }));
@@ -253,6 +254,20 @@ impl Sides<'_> {
             let span = Span::new(file, header.start, header.end);
             vec![Diagnostic::new(code, span, message).label(label)]
         })
+    }
+
+    /// The behaviours that the row of a minterm allows.
+    fn allowed(&self, minterm: &Minterm) -> Option<String> {
+        let mut rows = self.table.rows().zip(self.table.allowed());
+        let (_, allowed) = rows.find(|(row, _)| row.speaks_of(minterm))?;
+        let named = |number: usize| {
+            self.table
+                .behaviors
+                .get(number)
+                .map(|(name, _)| name.as_str())
+        };
+        let names: Option<Vec<&str>> = allowed.into_iter().map(named).collect();
+        Some(names?.join("|"))
     }
 
     /// The line of the row that speaks of a minterm.

@@ -10,6 +10,7 @@ use super::alone::{self, CLEAR};
 use super::beams;
 use super::complements::complemented;
 use super::core::Core;
+use super::exchanged::exchanged;
 use super::memory::configurations;
 use super::minimiser::{LARGE, Minimiser};
 use super::optimum::optimum;
@@ -63,7 +64,7 @@ pub(super) fn ordered(problem: &Problem, order: Order, account: &Account) -> Opt
         let node = listed(&minimiser, &subunits, &list);
         found.push((Size::of(&node), node));
     }
-    smallest(problem, found)
+    smallest(problem, found, false)
 }
 
 /// The smallest tree that was found and proved, with groups and solved windows if it is to be tight.
@@ -129,14 +130,14 @@ pub(super) fn tree(problem: &Problem, is_tight: bool, account: &Account) -> Foun
     if is_tight && !is_small {
         regrouped(problem, &mut trees, &mut core, &mut known, account);
     }
-    let mut tree = smallest(problem, trees);
+    let mut tree = smallest(problem, trees, true);
     if tree.is_none() {
         // No partition of rows that leave atoms free.
         let minimiser = Minimiser::new(problem, Account::unlimited());
         let subunits = behaviors(problem);
         let list = in_order(&minimiser, &subunits, Order::Learned);
         let listed = list.map(|list| listed(&minimiser, &subunits, &list));
-        tree = smallest(problem, sized(listed.into_iter().collect()));
+        tree = smallest(problem, sized(listed.into_iter().collect()), true);
     }
     Found {
         tree,
@@ -226,8 +227,9 @@ fn regrouped(
     }
 }
 
-/// The smallest of these that is proved. What a tree asks twice in a tick it asks once.
-fn smallest(problem: &Problem, found: Vec<(Size, Node)>) -> Option<(Node, Proof)> {
+/// The smallest of these that is proved. What a tree asks twice in a tick it asks once; and where no order is wanted, as `free` says, the sides of choices
+/// are exchanged.
+fn smallest(problem: &Problem, found: Vec<(Size, Node)>, free: bool) -> Option<(Node, Proof)> {
     let once = found.iter().map(|(_, node)| {
         let once = asked_once(node);
         let shared = shared(once.clone());
@@ -244,6 +246,11 @@ fn smallest(problem: &Problem, found: Vec<(Size, Node)>) -> Option<(Node, Proof)
     // Stable: of equal sizes the first found stands first.
     found.sort_by_key(|(size, _)| *size);
     found.dedup_by(|a, b| a.1 == b.1);
+    let small = found.iter().take(if free { TIGHT } else { 0 });
+    let exchanged = small.filter_map(|(_, node)| exchanged(problem, node));
+    let exchanged: Vec<Node> = exchanged.collect();
+    found.extend(sized(exchanged));
+    found.sort_by_key(|(size, _)| *size);
     let mut smallest = found.into_iter().take(PROOFS);
     smallest.find_map(|(_, node)| {
         let proof = problem.prover().prove(&node).ok()?;

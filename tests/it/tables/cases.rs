@@ -154,6 +154,20 @@ fn a_tree_that_decides_otherwise_is_told_the_lines() {
     assert_eq!(code("nobody"), Code::E0504);
 }
 
+/// All that a row allows is told.
+#[test]
+fn what_a_row_allows_is_told_whole() {
+    let table = "low,behavior\n1,dock|wander\n0,wander\n";
+    let program = "predicate low\nbehavior dock\nbehavior wander\nbehavior stop\n\
+                   tree other = selector { low => stop, wander }\n";
+    let loaded = load("other.bt", program.into(), &mut NoFiles);
+    assert_eq!(program::shown(&loaded), "");
+    let table = text("t.csv", table.as_bytes());
+    let proved = verify::table(&loaded, "other", (table, None), None).unwrap();
+    let says = "t.csv:2: {low}: the table says dock|wander, `other` selects stop";
+    assert!(proved.text.contains(says), "{}", proved.text);
+}
+
 /// Two trees of a program that has declared names alone.
 #[test]
 fn trees_without_a_task_are_compared() {

@@ -1,10 +1,12 @@
-//! Where the nodes of a tested tree are written.
+//! Where the nodes of a tree are written.
 
-use crate::driver::load::Loaded;
+use super::load::Loaded;
 use crate::ir::tree::Node;
+use crate::report::coverage::{Coverage, Place};
 use crate::source::Span;
 use crate::syntax::ast::{self, Expr, ExprKind, ItemKind, NodeKind};
 use crate::syntax::print;
+use crate::trial::test::Answers;
 use std::collections::BTreeMap;
 
 /// Where the nodes of a tree are written, by their places in pre-order.
@@ -16,21 +18,51 @@ pub(super) struct Found {
     pub(super) calls: BTreeMap<usize, (Span, String)>,
 }
 
-/// The places of the nodes of a tree.
-pub(super) fn of(loaded: &Loaded, test: &ast::Test, root: &Node) -> Found {
+/// The places of the nodes of a tree of this name; `named` is the place of those of a tree that no file has.
+pub(super) fn of(loaded: &Loaded, name: &str, named: Span, root: &Node) -> Found {
     let mut places = Places {
         loaded,
         found: Vec::new(),
         calls: BTreeMap::new(),
     };
-    match places.tree(&test.tree.name.name) {
+    match places.tree(name) {
         Some(tree) => places.node(&tree.root, root),
-        None => places.all(root, test.tree.span),
+        None => places.all(root, named),
     }
     Found {
         spans: places.found,
         calls: places.calls,
     }
+}
+
+impl Found {
+    /// What has been ticked of a tree, under the name that it has there.
+    pub(super) fn covered(
+        &self,
+        loaded: &Loaded,
+        (tree, root): (&str, &Node),
+        answers: &[Answers],
+    ) -> Coverage {
+        let written = |at: usize| {
+            let called = self.calls.get(&at);
+            let span = called.map(|(span, _)| *span);
+            let span = span.or_else(|| self.spans.get(at).copied());
+            let place = span.and_then(|span| place(loaded, span));
+            (place, called.map(|(_, text)| text.clone()))
+        };
+        Coverage::of(&loaded.program, tree, root, answers, written)
+    }
+}
+
+/// The file, the line and the column, counted from one.
+fn place(loaded: &Loaded, span: Span) -> Option<Place> {
+    let source = loaded.sources.get(span.file)?;
+    let (line, column) = source.position(span.start);
+    Some(Place {
+        file: source.name.clone(),
+        line: line + 1,
+        column: column + 1,
+    })
 }
 
 struct Places<'l> {
