@@ -180,7 +180,7 @@ the policy, of the smallest that a search finds from there (exact), and of the g
 for seed in $SEEDS; do
     report "large_$seed" '
         $1 == "tree" { exact = $2; alone = $(NF - 1) }
-        $1 == "grown" { simple = $2 }
+        $1 == "grown" { simple = $2 == "no" ? "the exact one" : $2 }
         END { printf "| '"$seed | $(guards "$runs/large_$seed.bt")"' | %s | %s | %s |\n", alone, exact, simple }'
 done
 echo
@@ -213,9 +213,10 @@ for seed in $SEEDS; do
     report "large_$seed" '
         $1 == "learned" { seen = $2 }
         $1 == "proved" { reached = $3; closed = /not closed/ ? "no" : "yes" }
-        $1 == "grown" { nodes = $5 " / " $2; sub(/,/, "", nodes) }
-        part == 2 && $1 == "return" { gained = $4 " / " $2; sub(/,/, "", gained) }
-        part == 2 && $1 == "dropoff" { rate = $4 " / " $2; share = sprintf("%.1f %% / %.1f %%", 100 * $4 / '"$best"', 100 * $2 / '"$best"') }
-        part == 2 && $1 == "ended" { deaths = $4 " / " $2 " of " $6 }
+        $1 == "tree" { exact = $2 }
+        $1 == "grown" { nodes = exact " / " ($2 == "no" ? exact : $2) }
+        part == 2 && $1 == "return" { gained = $6 " / " $2; gsub(/,/, "", gained) }
+        part == 2 && $1 == "dropoff" { rate = $9 " / " $2; share = sprintf("%.1f %% / %.1f %%", 100 * $9 / '"$best"', 100 * $2 / '"$best"') }
+        part == 2 && $1 == "ended" { deaths = $NF " / " $2 " of " $4 }
         END { printf "| '"$seed"' | %s / %s | %s | %s | %s | %s | %s | %s |\n", seen, reached, closed, nodes, gained, rate, share, deaths }'
 done

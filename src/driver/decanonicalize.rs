@@ -314,6 +314,12 @@ pub fn decanonicalize(asked: Asked, options: &Options) -> Result<Made, Refused> 
                 let file = file.map_or_else(String::new, |file| called(&file.name));
                 tree = export::named_after(&file, &tree);
             }
+            let legend = inputs.as_ref().filter(|_| form.is_for_robots());
+            let legend = legend.map(|inputs| inputs.legend(&program, &tree));
+            if let Some(legend) = legend.filter(|lines| !lines.is_empty()) {
+                tree.docs.push(String::new());
+                tree.docs.extend(legend);
+            }
             let written = export::tree(&program, &tree, form, |_| Span::default());
             written.map_err(|mistake| Refused::text(nothing(&source), |_| vec![mistake]))?
         }

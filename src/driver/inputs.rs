@@ -142,6 +142,29 @@ impl Inputs {
         bt::defined(program, definition, docs)
     }
 
+    /// What each comparison that a tree asks is called there, a line each: who runs the tree elsewhere has to know.
+    pub fn legend(&self, program: &Program, tree: &Tree) -> Vec<String> {
+        let asked = atoms(&tree.root).into_iter().filter_map(|atom| match atom {
+            Atom::Predicate(id) => Some(program.predicates[id].name.bare()),
+            Atom::Done(_) | Atom::Failed(_) => None,
+        });
+        let lines = asked.filter_map(|called| {
+            let comparison = self.comparisons.get(&called)?;
+            let column = self.values.columns.get(comparison.column)?;
+            match self.definition(column, *comparison) {
+                Definition::AtMost { name, number, unit } => {
+                    let number = format!("{number} {unit}");
+                    Some(format!("`{called}` is `{name} <= {}`.", number.trim_end()))
+                }
+                Definition::Is { name, value } => {
+                    Some(format!("`{called}` is `{name} == {value}`."))
+                }
+                Definition::None | Definition::Unused => None,
+            }
+        });
+        lines.collect()
+    }
+
     fn definition(&self, column: &Column, comparison: Comparison) -> Definition {
         let name = column.name.clone();
         match (comparison.asks, &column.kind) {

@@ -26,12 +26,10 @@ pub(super) fn read(text: &[u8], units: Units) -> Result<Valued, Vec<TableError>>
             break;
         }
         let place = line.whole();
-        let object = match serde_json::from_slice::<Object>(line.text) {
+        let object = match line.object() {
             Ok(object) => object,
             Err(error) => {
-                let why = error.to_string();
-                let why = why.split(" at line ").next().unwrap_or_default().to_owned();
-                builder.report(&place, TableErrorKind::Malformed(why));
+                builder.mistake(error);
                 continue;
             }
         };
@@ -50,12 +48,8 @@ pub(super) fn read(text: &[u8], units: Units) -> Result<Valued, Vec<TableError>>
                 break;
             }
         }
-        row(
-            &object,
-            &line,
-            roles.as_deref().unwrap_or_default(),
-            &mut builder,
-        );
+        let roles = roles.as_deref().unwrap_or_default();
+        row(&object, &line, (roles, &assumed), &mut builder);
     }
     builder.finish(header)
 }
@@ -76,7 +70,7 @@ fn lines(text: &[u8]) -> impl Iterator<Item = Line<'_>> {
 fn assumed(text: &[u8]) -> BTreeMap<String, Assumed> {
     let mut found = BTreeMap::new();
     for line in lines(text) {
-        let Ok(object) = serde_json::from_slice::<Object>(line.text) else {
+        let Ok(object) = line.object() else {
             continue;
         };
         for (name, value) in object.fields() {
@@ -94,7 +88,12 @@ fn assumed(text: &[u8]) -> BTreeMap<String, Assumed> {
     found
 }
 
-fn row(object: &Object, line: &Line, roles: &[(Role, String)], builder: &mut Builder) {
+fn row(
+    object: &Object,
+    line: &Line,
+    (roles, assumed): (&[(Role, String)], &BTreeMap<String, Assumed>),
+    builder: &mut Builder,
+) {
     builder.begin();
     for (name, value) in object.fields().filter(|(name, _)| *name != "q") {
         let place = &line.place(name);
@@ -106,6 +105,15 @@ fn row(object: &Object, line: &Line, roles: &[(Role, String)], builder: &mut Bui
         };
         match (role, value) {
             (Role::State(column), Value::Null) => builder.leave_open(*column),
+            // Elsewhere the same key has words, or numbers.
+            (Role::State(_), Value::Bool(_)) if assumed.contains_key(name) => {
+                let expected = match assumed.get(name) {
+                    Some(Assumed::Number) => "a number, as in other lines",
+                    _ => "a word, as in other lines",
+                };
+                let found = value.to_string();
+                builder.report(place, TableErrorKind::UnknownValue { found, expected });
+            }
             (Role::State(column), Value::Bool(truth)) => {
                 let digit = if *truth { "1" } else { "0" };
                 builder.cell(*column, digit, place);

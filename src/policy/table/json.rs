@@ -27,21 +27,14 @@ pub(super) fn read(text: &[u8], reading: &mut Reading) {
         if line.is_empty() {
             continue;
         }
-        let object = match serde_json::from_slice::<Object>(line) {
+        let line = Line { text: line, start };
+        let object = match line.object() {
             Ok(object) => object,
             Err(error) => {
-                let column = error.column().clamp(1, line.len());
-                // The message of the library ends in a line and a column of its own.
-                let why = error.to_string();
-                let why = why.split(" at line ").next().unwrap_or_default().to_owned();
-                reading.mistake(TableError {
-                    span: start + records::character(line, column - 1)..start + line.len(),
-                    kind: TableErrorKind::Malformed(why),
-                });
+                reading.mistake(error);
                 continue;
             }
         };
-        let line = Line { text: line, start };
         let keys = keys.get_or_insert_with(|| Keys::of(&object, &line, reading));
         if reading.is_full() {
             return;
@@ -49,6 +42,9 @@ pub(super) fn read(text: &[u8], reading: &mut Reading) {
         line.row(&object, keys, reading);
     }
 }
+
+/// What other languages write for numbers and truth values.
+const UNKNOWN: [&str; 6] = ["NaN", "Infinity", "-Infinity", "True", "False", "None"];
 
 /// A line of the text.
 pub(in crate::policy) struct Line<'t> {
@@ -111,6 +107,32 @@ impl Keys {
 }
 
 impl Line<'_> {
+    /// What stands in the line.
+    ///
+    /// # Errors
+    /// It is no object, from the place on where that shows.
+    pub(in crate::policy) fn object(&self) -> Result<Object<'_>, TableError> {
+        serde_json::from_slice(self.text).map_err(|error| {
+            let column = error.column().clamp(1, self.text.len());
+            let at = records::character(self.text, column - 1);
+            let rest = self.text.get(at..).unwrap_or_default();
+            // The message of the library ends in a line and a column of its own.
+            let why = error.to_string();
+            let why = why.split(" at line ").next().unwrap_or_default();
+            let why = match UNKNOWN
+                .iter()
+                .find(|word| rest.starts_with(word.as_bytes()))
+            {
+                Some(word) => format!("JSON has no `{word}`"),
+                None => why.to_owned(),
+            };
+            TableError {
+                span: self.start + at..self.start + self.text.len(),
+                kind: TableErrorKind::Malformed(why),
+            }
+        })
+    }
+
     pub(in crate::policy) fn whole(&self) -> Range<usize> {
         self.start..self.start + self.text.len()
     }
