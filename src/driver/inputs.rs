@@ -153,8 +153,12 @@ impl Inputs {
             let column = self.values.columns.get(comparison.column)?;
             match self.definition(column, *comparison) {
                 Definition::AtMost { name, number, unit } => {
-                    let number = format!("{number} {unit}");
-                    Some(format!("`{called}` is `{name} <= {}`.", number.trim_end()))
+                    let blank = if matches!(unit.as_str(), "" | "%") {
+                        ""
+                    } else {
+                        " "
+                    };
+                    Some(format!("`{called}` is `{name} <= {number}{blank}{unit}`."))
                 }
                 Definition::Is { name, value } => {
                     Some(format!("`{called}` is `{name} == {value}`."))

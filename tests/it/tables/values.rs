@@ -156,6 +156,9 @@ fn a_grid_world_becomes_a_tree() {
         };
         let exported = made(table, None, &quick).unwrap().text;
         assert!(exported.contains("battery_at_most_30"), "{exported}");
+        // Who runs it has to know what is asked.
+        let says = "`battery_at_most_30` is `battery <= 30%`.";
+        assert!(exported.contains(says), "{exported}");
     }
 }
 
