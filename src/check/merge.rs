@@ -35,7 +35,7 @@ pub fn merge(sorted: &mut Vec<Diagnostic>, declared: impl Fn(Span) -> Option<Spa
                 String::new()
             }
             Code::E0202 | Code::E0406 | Code::W0603 => found.message.clone(),
-            Code::E0305 if of_parameters(&found.message) => found.message.clone(),
+            Code::E0305 if comes_with_each_use(&found.message) => found.message.clone(),
             Code::E0407 | Code::W0301 => String::new(),
             // What the world, or the length of an episode or of a tick, makes of several things.
             Code::W0512 => found.notes.concat(),
@@ -193,8 +193,8 @@ fn lack_units(found: &Diagnostic) -> bool {
     found.code == Code::E0301 && fixes.any(|fix| fix.title.starts_with("give "))
 }
 
-/// Whether every use without an argument, or with one, makes the same mistake.
-fn of_parameters(message: &str) -> bool {
+/// Whether a mistake with arguments comes with each use of what is called.
+fn comes_with_each_use(message: &str) -> bool {
     message.contains(" needs its argument ") || message.ends_with(" takes no arguments")
 }
 

@@ -16,7 +16,7 @@ use crate::policy::table::{AtomName, Table};
 use crate::policy::valued::{Asks, Column, Columns, Comparison, Holds, Kind, Test, Valued};
 use crate::report::decanonicalised::Values;
 use crate::tree::atoms::atoms;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 /// A table of values with the comparisons that tell its rows apart.
@@ -126,47 +126,33 @@ impl Inputs {
     /// The program as a file: its inputs, its predicates as far as the tree asks them or the table has them, and the tree.
     pub fn written(&self, program: &Program, tree: &Tree, docs: &[String]) -> String {
         let asked = atoms(&tree.root);
-        let definition = |id: Id<Predicate>| {
-            let name = program.predicates[id].name.bare();
-            let Some(comparison) = self.comparisons.get(&name) else {
-                return Definition::None;
-            };
-            if !asked.contains(&Atom::Predicate(id)) {
-                return Definition::Unused;
-            }
-            let Some(column) = self.values.columns.get(comparison.column) else {
-                return Definition::Unused;
-            };
-            self.definition(column, *comparison)
-        };
-        bt::defined(program, definition, docs)
+        bt::defined(program, |id| self.defined(program, &asked, id), docs)
     }
 
     /// What each comparison that a tree asks is called there, a line each: who runs the tree elsewhere has to know.
     pub fn legend(&self, program: &Program, tree: &Tree) -> Vec<String> {
-        let asked = atoms(&tree.root).into_iter().filter_map(|atom| match atom {
-            Atom::Predicate(id) => Some(program.predicates[id].name.bare()),
-            Atom::Done(_) | Atom::Failed(_) => None,
-        });
-        let lines = asked.filter_map(|called| {
-            let comparison = self.comparisons.get(&called)?;
-            let column = self.values.columns.get(comparison.column)?;
-            match self.definition(column, *comparison) {
-                Definition::AtMost { name, number, unit } => {
-                    let blank = if matches!(unit.as_str(), "" | "%") {
-                        ""
-                    } else {
-                        " "
-                    };
-                    Some(format!("`{called}` is `{name} <= {number}{blank}{unit}`."))
-                }
-                Definition::Is { name, value } => {
-                    Some(format!("`{called}` is `{name} == {value}`."))
-                }
-                Definition::None | Definition::Unused => None,
-            }
+        let asked = atoms(&tree.root);
+        let predicates = program.predicates.iter();
+        let lines = predicates.filter_map(|(id, predicate)| {
+            let asks = bt::meaning(&self.defined(program, &asked, id))?;
+            Some(format!("`{}` is `{asks}`.", predicate.name.bare()))
         });
         lines.collect()
+    }
+
+    /// How a predicate is defined in the file of a tree that asks these atoms.
+    fn defined(&self, program: &Program, asked: &BTreeSet<Atom>, id: Id<Predicate>) -> Definition {
+        let name = program.predicates[id].name.bare();
+        let Some(comparison) = self.comparisons.get(&name) else {
+            return Definition::None;
+        };
+        if !asked.contains(&Atom::Predicate(id)) {
+            return Definition::Unused;
+        }
+        match self.values.columns.get(comparison.column) {
+            Some(column) => self.definition(column, *comparison),
+            None => Definition::Unused,
+        }
     }
 
     fn definition(&self, column: &Column, comparison: Comparison) -> Definition {

@@ -63,24 +63,11 @@ pub fn defined(
         }))
     });
     let predicates = program.predicates.iter().filter_map(|(id, predicate)| {
-        let value = match definition(id) {
-            Definition::Unused => return None,
-            Definition::None => None,
-            Definition::AtMost { name, number, unit } => {
-                let unit = Some(unit.as_str()).filter(|unit| !unit.is_empty());
-                let number = match number.strip_prefix('-') {
-                    None => literal(number, unit),
-                    Some(number) => expr(ExprKind::Unary {
-                        op: spanned(UnaryOp::Neg),
-                        operand: Box::new(literal(number, unit)),
-                    }),
-                };
-                Some(compared(&name, BinaryOp::Le, number))
-            }
-            Definition::Is { name, value } => {
-                Some(compared(&name, BinaryOp::Eq, reference(&Name::word(value))))
-            }
-        };
+        let definition = definition(id);
+        if definition == Definition::Unused {
+            return None;
+        }
+        let value = asked(&definition);
         Some(item(ItemKind::Predicate(ast::Predicate {
             name: ident(&predicate.name.bare()),
             params: None,
@@ -105,6 +92,33 @@ pub fn defined(
     };
     let docs: String = docs.iter().map(|line| format!("//! {line}\n")).collect();
     format!("{docs}\n{}", print::file(&file, None))
+}
+
+/// What a predicate asks by its definition, on one line; `None` where its name alone is printed, or nothing.
+pub fn meaning(definition: &Definition) -> Option<String> {
+    asked(definition).map(|value| print::expr(&value))
+}
+
+fn asked(definition: &Definition) -> Option<Expr> {
+    match definition {
+        Definition::Unused | Definition::None => None,
+        Definition::AtMost { name, number, unit } => {
+            let unit = Some(unit.as_str()).filter(|unit| !unit.is_empty());
+            let number = match number.strip_prefix('-') {
+                None => literal(number, unit),
+                Some(number) => expr(ExprKind::Unary {
+                    op: spanned(UnaryOp::Neg),
+                    operand: Box::new(literal(number, unit)),
+                }),
+            };
+            Some(compared(name, BinaryOp::Le, number))
+        }
+        Definition::Is { name, value } => Some(compared(
+            name,
+            BinaryOp::Eq,
+            reference(&Name::word(value.clone())),
+        )),
+    }
 }
 
 /// What an input may be.

@@ -267,9 +267,10 @@ fn confirmed<W: World>(
             entrants.sort_by(|a, b| gain(b).total_cmp(&gain(a)));
             // The best tree of the file is what others are held against.
             let leave = entrants.split_off(stay.min(entrants.len()));
-            let (stays, leave) = leave.into_iter().partition(|it| it.root == best.root);
-            entrants.extend::<Vec<Entrant>>(stays);
-            out.extend::<Vec<Entrant>>(leave);
+            let is_best = |entrant: &Entrant| entrant.root == best.root;
+            let (stays, leave): (Vec<_>, Vec<_>) = leave.into_iter().partition(is_best);
+            entrants.extend(stays);
+            out.extend(leave);
         }
     }
     entrants.extend(out);

@@ -63,6 +63,32 @@ pub fn tokens(text: &str) -> Vec<Token> {
     tokens
 }
 
+/// The most words behind a mark that are looked at.
+const JOINED: usize = 8;
+
+/// The words that a mark joins to what ends at a byte, without a blank: `to` and `do` behind `nothing` of `nothing-to-do`, a few
+/// at most. `behind` are the tokens from there on.
+pub fn joined_by<'t>(
+    text: &str,
+    mark: &str,
+    mut end: usize,
+    behind: &'t [Token],
+) -> impl Iterator<Item = &'t Token> {
+    let pairs = behind.chunks(2).take(JOINED);
+    pairs.map_while(move |pair| match pair {
+        [again, word]
+            if again.of(text) == mark
+                && again.start == end
+                && word.start == again.end
+                && word.kind == Kind::Word =>
+        {
+            end = word.end;
+            Some(word)
+        }
+        _ => None,
+    })
+}
+
 /// The kind and the length of the token that `rest` begins with.
 fn first(rest: &str) -> (Kind, usize) {
     let letter = rest.chars().next().unwrap_or(' ');

@@ -152,7 +152,7 @@ fn reduced(node: &Node) -> Vec<Node> {
 }
 
 /// The node with its `at`-th child replaced.
-fn with_child(node: &Node, at: usize, new: Node) -> Node {
+pub(super) fn with_child(node: &Node, at: usize, new: Node) -> Node {
     let mut node = node.clone();
     match &mut node {
         Node::Condition(_) | Node::Behavior(_) => {}

@@ -1,7 +1,7 @@
 //! Trees and policies at work in the world of a task, on seeds that several of them may share.
 //!
-//! [`play`] plays episodes under a tree or a policy, [`reached`] counts what the nodes of a tree do in them, [`learned`] measures a learned tree, [`claim`] tests claims on
-//! events, until [`anytime`] says enough. [`paired`] compares trees on common seeds; what they do alike there is not played twice,
+//! [`play`] plays episodes under a tree or a policy, [`reached`] counts what the nodes of a tree answer in them, [`learned`]
+//! measures a learned tree, [`claim`] tests claims on events, until [`anytime`] says enough. [`paired`] compares trees on common seeds; what they do alike there is not played twice,
 //! see [`trace`]; what their decisions led to is noted, see [`decisions`]. [`mod@test`] ticks a tree without a world. [`duel`] does so for two trees in different worlds.
 
 pub mod anytime;

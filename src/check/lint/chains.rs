@@ -78,17 +78,15 @@ impl<'a> Checker<'a> {
                 });
                 !own.is_never() && own != Cases::Unknown && rest.is_never()
             };
+            let reads_a_robot = |link: &Link| {
+                let mut asked = link.asks.iter().chain(&link.before);
+                asked.any(|asks| is_of_a_robot(&program.pool, *asks))
+            };
             let unsure = |link: &Link| {
                 let constant = |id| program.pool.constant(id).is_some();
                 link.asks.is_some_and(constant)
                     || link.before.iter().any(|asks| constant(*asks))
-                    || link.of_any_robot
-                        && !alone
-                        && link
-                            .asks
-                            .iter()
-                            .chain(&link.before)
-                            .any(|asks| is_of_a_robot(&program.pool, *asks))
+                    || link.of_any_robot && !alone && reads_a_robot(link)
             };
             if links.iter().any(unsure) || !links.iter().all(never) {
                 continue;

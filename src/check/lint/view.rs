@@ -5,7 +5,6 @@ use crate::geometry::Shape;
 use crate::ir::expr::{Expr, ExprId};
 use crate::ir::world::{Robot, World};
 use crate::ir::{Id, Name, Pool, Program};
-use std::collections::BTreeSet;
 
 /// A program, and the robot that reads what it says: heading, distances, sensors.
 #[derive(Clone, Copy, Debug)]
@@ -53,37 +52,21 @@ impl<'p> From<&'p Program> for View<'p> {
     }
 }
 
-/// Whether an expression reads where a robot is, or what it sees: of another robot the same text may say another thing.
+/// Whether an expression reads something of the world that another robot may read otherwise.
 pub fn is_of_a_robot(pool: &Pool, id: ExprId) -> bool {
-    let mut seen = BTreeSet::from([id]);
-    let mut open = vec![id];
-    while let Some(id) = open.pop() {
-        let parts = match pool.get(id) {
+    pool.any(id, &mut |expr| {
+        matches!(
+            expr,
             Expr::Pose(_)
-            | Expr::Robot(..)
-            | Expr::Visible(..)
-            | Expr::NearestWall(_)
-            | Expr::Wall(..)
-            | Expr::Sensor(..)
-            | Expr::Inside(_)
-            | Expr::Ended(..)
-            | Expr::Event(_)
-            | Expr::Draw(..) => return true,
-            Expr::Unary(_, of) => vec![of],
-            Expr::Binary(_, a, b) => vec![a, b],
-            Expr::Select(is, a, b) => vec![is, a, b],
-            Expr::Num(_)
-            | Expr::Bool(_)
-            | Expr::State(_)
-            | Expr::Input(_)
-            | Expr::Local(_)
-            | Expr::Temp(_)
-            | Expr::Touching
-            | Expr::Elapsed
-            | Expr::Visits
-            | Expr::Progress => continue,
-        };
-        open.extend(parts.into_iter().filter(|part| seen.insert(*part)));
-    }
-    false
+                | Expr::Robot(..)
+                | Expr::Visible(..)
+                | Expr::NearestWall(_)
+                | Expr::Wall(..)
+                | Expr::Sensor(..)
+                | Expr::Inside(_)
+                | Expr::Ended(..)
+                | Expr::Event(_)
+                | Expr::Draw(..)
+        )
+    })
 }

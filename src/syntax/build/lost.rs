@@ -3,7 +3,7 @@
 use super::Builder;
 use crate::source::Span;
 use crate::spelling::RESERVED;
-use crate::syntax::tokens::{Kind, Token};
+use crate::syntax::tokens::{Kind, Token, joined_by};
 
 /// The words that declare the name after them.
 const DECLARING: [&str; 16] = [
@@ -100,20 +100,14 @@ impl Builder<'_> {
             let joined = [self.bare(&left), self.bare(&right)].join(mark);
             self.lost.names.push(joined);
         }
-        // `nothing-to-do`
         let mut joined = [self.bare(&left), self.bare(&right)].join("_");
-        let mut end = right.end;
         let behind = self.tokens.get(index + 2..).unwrap_or_default();
-        for pair in behind.chunks(2) {
-            let [again, word] = pair else { break };
-            let same = again.of(self.text) == mark.of(self.text) && again.start == end;
-            if !same || word.start != again.end || word.kind != Kind::Word {
-                break;
-            }
+        let names = joined_by(self.text, mark.of(self.text), right.end, behind).map(|word| {
             joined = format!("{joined}_{}", self.bare(word));
-            end = word.end;
-            self.lost.names.push(joined.clone());
-        }
+            joined.clone()
+        });
+        let names: Vec<String> = names.collect();
+        self.lost.names.extend(names);
     }
 
     fn line_end(&self, at: usize) -> usize {

@@ -6,13 +6,10 @@ use crate::diagnostic::{Applicability, Diagnostic};
 use crate::source::Span;
 use crate::spelling::RESERVED;
 use crate::syntax::grammar::Rule;
-use crate::syntax::tokens::{Kind, Token};
+use crate::syntax::tokens::{Kind, Token, joined_by};
 use crate::syntax::words::{
     CALLED, CHOICE, FUNCTIONS, NODES, RANGING, RATE, SWITCHES, name_of_words,
 };
-
-/// The most words that are joined to a name with marks in it.
-const WORDS: usize = 8;
 
 /// Whether a word comes next.
 fn is_word_next(next: Option<Token>) -> bool {
@@ -551,23 +548,6 @@ impl Place<'_> {
         RANGING.contains(&self.before()) && is_word(self.found) && self.same_line_as_before()
     }
 
-    /// A name that ends with this token, with the words behind it that the mark at the mistake joins.
-    fn joined(&self, mut name: String, last: Token) -> String {
-        let next = self.tokens.partition_point(|token| token.end <= last.end);
-        let rest = self.tokens.get(next..).unwrap_or_default();
-        let mut end = last.end;
-        for pair in rest.chunks(2).take(WORDS) {
-            let [mark, word] = pair else { break };
-            let touching = mark.start == end && mark.end == word.start;
-            if !touching || mark.of(self.text) != self.found() || !is_word(*word) {
-                break;
-            }
-            name = format!("{name}_{}", word.of(self.text));
-            end = word.end;
-        }
-        name
-    }
-
     /// Advice on names with marks in them, and on calls without parentheses.
     fn advised_on_names(&self, diagnostic: Diagnostic) -> Diagnostic {
         let (Some(before), Some(next)) = (self.before.filter(|token| is_word(*token)), self.next())
@@ -581,8 +561,12 @@ impl Place<'_> {
             if left == "std" {
                 return diagnostic.help("the library is used as a whole: `use std`");
             }
-            let joined = self.joined(format!("{left}_{right}"), next);
-            return diagnostic.help(name_of_words(&joined));
+            let behind = self.tokens.partition_point(|token| token.end <= next.end);
+            let behind = self.tokens.get(behind..).unwrap_or_default();
+            let rest = joined_by(self.text, found, next.end, behind);
+            let rest = rest.map(|word| word.of(self.text));
+            let words: Vec<&str> = [left, right].into_iter().chain(rest).collect();
+            return diagnostic.help(name_of_words(&words.join("_")));
         }
         let is_argument = matches!(self.found.kind, Kind::Word | Kind::Name)
             && !RESERVED.contains(&found)

@@ -6,7 +6,9 @@ use super::share::shared;
 use crate::ir::tree::{Composite, Guard, Node};
 use crate::tree::Size;
 use crate::tree::guard::{and, not};
+use crate::tree::prune::with_child;
 use crate::tree::unit::{Unit, selector};
+use std::collections::BTreeSet;
 
 /// The most nodes of a tree whose sides are exchanged.
 const LARGE: usize = 200;
@@ -23,32 +25,27 @@ pub(super) fn exchanged(problem: &Problem, root: &Node) -> Option<Node> {
     }
     let mut seen: Vec<(Size, Node)> = vec![(first, root.clone())];
     let mut least = first;
-    let mut tried = 0;
     // The smallest first, then the first found; none larger than the smallest by more than a node.
-    let mut open: Vec<usize> = vec![0];
-    while tried < TRIED && seen.len() < KEPT {
-        let next = open.iter().enumerate();
-        let next = next.min_by_key(|(_, at)| (seen.get(**at).map(|(size, _)| *size), **at));
-        let Some((place, _)) = next else { break };
-        let at = open.remove(place);
+    let mut open = BTreeSet::from([(first, 0)]);
+    for _ in 0..TRIED {
+        let next = open.pop_first();
+        let Some((_, at)) = next.filter(|(size, _)| size.nodes <= least.nodes + 1) else {
+            break;
+        };
         let Some((_, tree)) = seen.get(at).cloned() else {
             break;
         };
-        tried += 1;
         let exchanged = exchanges(&tree).into_iter();
         for new in exchanged.flat_map(|new| [shared(new.clone()), new]) {
             let size = Size::of(&new);
-            if size.nodes > least.nodes + 1 || seen.iter().any(|(_, known)| *known == new) {
+            let is_known = || seen.iter().any(|(_, known)| *known == new);
+            if size.nodes > least.nodes + 1 || seen.len() >= KEPT || is_known() {
                 continue;
             }
             least = least.min(size);
-            open.push(seen.len());
+            open.insert((size, seen.len()));
             seen.push((size, new));
         }
-        open.retain(|at| {
-            let size = seen.get(*at).map_or(usize::MAX, |(size, _)| size.nodes);
-            size <= least.nodes + 1
-        });
     }
     let best = seen.into_iter().min_by_key(|(size, _)| *size)?;
     (best.0 < first).then_some(best.1)
@@ -90,29 +87,14 @@ fn exchanged_at(children: &[Node], at: usize) -> Option<Node> {
 
 /// A node with another child in the place of one; a selector in a selector is a part of it.
 fn with(node: &Node, at: usize, new: Node) -> Node {
-    let mut node = node.clone();
-    match &mut node {
+    match with_child(node, at, new) {
         Node::Composite {
-            kind,
-            memory,
+            kind: Composite::Selector,
+            memory: false,
             children,
-        } => {
-            if let Some(child) = children.get_mut(at) {
-                *child = new;
-            }
-            if (*kind, *memory) == (Composite::Selector, false) {
-                return selector(std::mem::take(children));
-            }
-        }
-        Node::Parallel { children, .. } => {
-            if let Some(child) = children.get_mut(at) {
-                *child = new;
-            }
-        }
-        Node::Decorator { child, .. } => **child = new,
-        Node::Condition(_) | Node::Behavior(_) => {}
+        } => selector(children),
+        node => node,
     }
-    node
 }
 
 #[cfg(test)]
@@ -121,10 +103,10 @@ mod tests {
     use crate::ir::Id;
     use crate::ir::tree::{Atom, Guard, Node};
     use crate::policy::{Minterm, Policy, Row};
-    use crate::tree::Size;
     use crate::tree::decanonicalise::problem::Problem;
     use crate::tree::guard::{and, not, or};
     use crate::tree::unit::{guarded, selector};
+    use crate::tree::{Runner, Size};
 
     fn atom(at: usize) -> Guard {
         Guard::Atom(Atom::Predicate(Id::new(at)))
@@ -137,7 +119,7 @@ mod tests {
     /// The decisions of a tree in all minterms of five atoms.
     fn table(root: &Node) -> Policy {
         let atoms: Vec<Atom> = (0..5).map(|i| Atom::Predicate(Id::new(i))).collect();
-        let mut runner = crate::tree::Runner::new(root, &atoms).unwrap();
+        let mut runner = Runner::new(root, &atoms).unwrap();
         let rows = (0..32_u64).map(|key| Row {
             minterm: Minterm::new((0..5).map(|atom| key >> atom & 1 == 1)),
             free: None,

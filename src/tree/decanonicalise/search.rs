@@ -227,8 +227,8 @@ fn regrouped(
     }
 }
 
-/// The smallest of these that is proved. What a tree asks twice in a tick it asks once; and where no order is wanted, as `free` says, the sides of choices
-/// are exchanged.
+/// The smallest of these that is proved. What a tree asks twice in a tick it asks once; and where no order is wanted, as `free`
+/// says, the sides of choices are exchanged.
 fn smallest(problem: &Problem, found: Vec<(Size, Node)>, free: bool) -> Option<(Node, Proof)> {
     let once = found.iter().map(|(_, node)| {
         let once = asked_once(node);
