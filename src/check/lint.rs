@@ -19,6 +19,7 @@ mod geometry;
 mod idle;
 mod interval;
 mod lasting;
+mod locals;
 mod mentions;
 mod moments;
 mod overwritten;
@@ -28,6 +29,7 @@ mod reads;
 mod redundant;
 mod regions;
 mod repaid;
+mod resets;
 mod rewards;
 mod same;
 mod settings;
@@ -36,9 +38,11 @@ mod starts;
 mod stays;
 mod subtrees;
 mod tests;
+mod timers;
 mod tree;
 mod unused;
 mod view;
+mod widening;
 mod world;
 
 use super::{Checker, Input};
@@ -80,6 +84,7 @@ impl<'a> Checker<'a> {
             return;
         }
         let stay = self.values_of_states(items());
+        self.values_of_locals(items());
         self.unread_names();
         self.unused_declarations(files);
         if self.kind_misspelt {
@@ -87,8 +92,10 @@ impl<'a> Checker<'a> {
         }
         self.same_on_both_sides();
         self.values_overwritten(items());
+        self.read_after_reset(items());
         self.effects_without_effect();
         self.bounds_on_the_wrong_side(items());
+        self.times_that_do_not_run(items());
         let kept = self.bound_by_episodes(&stay);
         self.find_constant_predicates();
         self.conditions_without_effect();

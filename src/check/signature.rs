@@ -185,7 +185,7 @@ impl<'a> Checker<'a> {
                 self.names.lose(&name.name);
                 self.error(Code::E0305, arg.span, format!("{owner} takes no `in`"))
                 .label("nothing ranges over a kind here")
-                .help("`any`, `all`, `count`, `nearest` range over a kind, and so do the lines of `observe`, `choose` and `reward`")
+                .help("`any`, `all`, `count`, `nearest` range over a kind, and so do the lines of `observe`, `choose` and `reward`, and states in those of `start`")
                 .none()
             }
             (ArgKind::Range(low, high), _) => {

@@ -180,6 +180,8 @@ codes! {
     W0309 "a start that reads what it sets later",
     W0310 "a start that may be shut in",
     W0311 "a bound on the wrong side",
+    W0312 "a value that is read after its reset",
+    W0313 "a time that does not run",
 
     W0401 "a part of the world that does nothing",
     W0402 "a size out of proportion",

@@ -7,7 +7,7 @@ use super::input::Input;
 use super::law::Behavior;
 use super::name::Name;
 pub use super::operator::{Binary, Kind, Unary};
-use super::program::{Event, State};
+use super::program::{Event, State, Stays};
 use super::table::Id;
 use super::tree::Status;
 use super::world::{Place, Robot, Sensor, Wall};
@@ -20,6 +20,8 @@ pub struct Local {
     pub name: Name,
     /// Its value when the behaviour starts; later ones may read earlier ones.
     pub initial: ExprId,
+    /// The values that it may have, as far as the text shows.
+    pub stays: Stays,
 }
 
 /// A name that a statement binds.

@@ -6,6 +6,7 @@ use crate::check::types::{Type, Value};
 use crate::diagnostic::Code;
 use crate::ir::expr::{Expr, Local};
 use crate::ir::law::{Behavior, Law};
+use crate::ir::program::Stays;
 use crate::ir::table::Table;
 use crate::ir::{Id, Name};
 use crate::syntax::ast::{self, BehaviorBody, Ref};
@@ -59,6 +60,7 @@ impl<'a> Checker<'a> {
                 let local = locals.push(Local {
                     name: Name::word(&binding.name.name),
                     initial: id,
+                    stays: Stays::ANY,
                 });
                 self.program.pool.leaf(Expr::Local(local))
             });

@@ -8,6 +8,7 @@ use crate::diagnostic::Code;
 use crate::ir::Name;
 use crate::ir::expr::{Expr, Local};
 use crate::ir::law::{Block, Law};
+use crate::ir::program::Stays;
 use crate::ir::table::Table;
 use crate::source::Span;
 use crate::syntax::ast::{self, Clause, ClauseKind};
@@ -116,7 +117,11 @@ impl<'a> Checker<'a> {
         let mut leaves = Vec::new();
         for initial in self.held_parts(&typed.value) {
             let name = Name::word(&name.name);
-            let id = locals.push(Local { name, initial });
+            let id = locals.push(Local {
+                name,
+                initial,
+                stays: Stays::ANY,
+            });
             ids.push(id);
             leaves.push(self.program.pool.leaf(Expr::Local(id)));
         }

@@ -1,13 +1,12 @@
 //! Bounds on the wrong side: `min` where a value falls, and `max` where it rises.
 
 use super::ranges::range;
-use super::stays::{Set, set_at_starts};
+use super::stays::{Set, begins};
 use super::view::View;
 use crate::check::Checker;
 use crate::diagnostic::{Applicability, Code};
 use crate::ir::expr::{Binary, Expr, ExprId};
 use crate::ir::program::{State, Stays};
-use crate::ir::world::World;
 use crate::ir::{Id, Pool};
 use crate::source::Span;
 use crate::syntax::ast::{self, Block, ExprKind, Item, ItemKind, StmtKind};
@@ -15,6 +14,14 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// The values, bounded from one side, that statements set states to, by where the statements stand.
 pub type Bounded = BTreeMap<Span, Vec<(Id<State>, ExprId)>>;
+
+/// A bound on the wrong side.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Wrong {
+    side: Side,
+    /// Whether the value never is where the bound would hold it.
+    idle: bool,
+}
 
 /// A bound from one side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,14 +42,14 @@ impl<'a> Checker<'a> {
     }
 
     /// Warns of states that fall and are bounded from above, or rise and are bounded from below, where that takes them past the bound
-    /// at once: in every tick where they begin beyond it, and wherever something happens where it is what they begin with.
+    /// at once: in every tick where they begin beyond it, and wherever something happens where it is what they begin with. And
+    /// in every tick where they never get to the bound.
     pub fn bounds_on_the_wrong_side(&mut self, items: impl Iterator<Item = &'a Item>) {
         let bounded = std::mem::take(&mut self.bounded);
         if bounded.is_empty() || self.values_are_unsure() {
             return;
         }
-        let mut begins = Set::new();
-        set_at_starts(&self.program, &mut begins);
+        let begins = begins(&self.program);
         let mut told = BTreeSet::new();
         for item in items {
             let (block, in_ticks) = match &item.kind {
@@ -58,8 +65,8 @@ impl<'a> Checker<'a> {
                     .iter()
                     .map(|it| self.wrong_side(*it, &begins, in_ticks));
                 let first = sides.next().flatten();
-                if let Some(side) = first.filter(|_| sides.all(|side| side == first)) {
-                    self.bounded_on_the_wrong(side, noted.first(), value);
+                if let Some(wrong) = first.filter(|_| sides.all(|side| side == first)) {
+                    self.bounded_on_the_wrong(wrong, noted.first(), value);
                 }
             }
         }
@@ -67,13 +74,13 @@ impl<'a> Checker<'a> {
 
     fn bounded_on_the_wrong(
         &mut self,
-        side: Side,
+        wrong: Wrong,
         noted: Option<&(Id<State>, ExprId)>,
         call: &ast::Ref,
     ) {
         let Some((state, _)) = noted else { return };
         let name = self.program.states[*state].name.family.clone();
-        let (message, label, right) = match side {
+        let (message, label, right) = match wrong.side {
             Side::Most => (
                 format!("`{name}` falls, and `min` bounds it from above"),
                 "so it jumps down to its bound, and falls on",
@@ -86,6 +93,16 @@ impl<'a> Checker<'a> {
             ),
         };
         let word = call.name.span;
+        if wrong.idle {
+            let help = match wrong.side {
+                Side::Most => "let it rise, or bound it from below by `max`",
+                Side::Least => "let it fall, or bound it from above by `min`",
+            };
+            self.warning(Code::W0311, word, message)
+                .label("it never gets to this bound, which changes nothing")
+                .help(help);
+            return;
+        }
         self.warning(Code::W0311, word, message).label(label).fix(
             format!("`{right}` stops it there"),
             word,
@@ -100,7 +117,7 @@ impl<'a> Checker<'a> {
         (state, value): (Id<State>, ExprId),
         begins: &Set,
         in_ticks: bool,
-    ) -> Option<Side> {
+    ) -> Option<Wrong> {
         let pool = &self.program.pool;
         let Expr::Binary(op, a, b) = pool.get(value) else {
             return None;
@@ -111,9 +128,8 @@ impl<'a> Checker<'a> {
             _ => return None,
         };
         let initial = self.program.states[state].initial;
-        let mut first = begins.get(&state).cloned().unwrap_or_default();
-        first.push((World::acting(), initial));
-        let Stays::Within(first) = self.one_of_these(state, &first) else {
+        let first = begins.get(&state).map_or(&[][..], Vec::as_slice);
+        let Stays::Within(first) = self.one_of_these(state, first) else {
             return None;
         };
         let (low, high) = change(pool, moved, state)
@@ -122,9 +138,22 @@ impl<'a> Checker<'a> {
                 if sign { (low, high) } else { (-high, -low) }
             })
             .filter(|(low, high)| low < high || *low != 0.0)?;
-        let (side, beyond) = match op {
-            Binary::Min if high <= 0.0 => (Side::Most, *first.start() > bound),
-            Binary::Max if low >= 0.0 => (Side::Least, *first.end() < bound),
+        let Stays::Within(all) = &self.program.states[state].stays else {
+            return None;
+        };
+        // What begins with nothing and falls is less than nothing in the next tick.
+        let nothing = bound == 0.0;
+        let (side, beyond, idle) = match op {
+            Binary::Min if high <= 0.0 => (
+                Side::Most,
+                *first.start() > bound || nothing && *first.start() == bound,
+                *all.end() <= bound,
+            ),
+            Binary::Max if low >= 0.0 => (
+                Side::Least,
+                *first.end() < bound || nothing && *first.end() == bound,
+                *all.start() >= bound,
+            ),
             _ => return None,
         };
         // Where it happens now and then, it may be meant to jump to another value than the first.
@@ -134,8 +163,9 @@ impl<'a> Checker<'a> {
                 Side::Most => *first.start() >= bound,
                 Side::Least => *first.end() <= bound,
             };
-        let wrong = if in_ticks { beyond } else { from_there };
-        wrong.then_some(side)
+        let wrong = if in_ticks { beyond || idle } else { from_there };
+        let idle = in_ticks && idle;
+        wrong.then_some(Wrong { side, idle })
     }
 }
 

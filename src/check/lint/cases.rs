@@ -318,9 +318,9 @@ impl Reader<'_> {
                 let is = truth(pool, b) == Some(op == Binary::Eq);
                 of(a, wanted == is)
             }
-            Expr::State(state) => match self.view.program.states[state].stays {
-                Stays::Among(FALSE) => Cases::constant(!wanted),
-                Stays::Among(TRUE) => Cases::constant(wanted),
+            variable @ (Expr::State(_) | Expr::Local(_)) => match self.view.stays(variable) {
+                Some(Stays::Among(FALSE)) => Cases::constant(!wanted),
+                Some(Stays::Among(TRUE)) => Cases::constant(wanted),
                 _ => Cases::one(About::Truth(id), Says::Is(wanted)),
             },
             Expr::Inside(place) if self.is_in(place) => Cases::constant(wanted),

@@ -4,7 +4,7 @@ use crate::check::Checker;
 use crate::ir::expr::{Expr, ExprId};
 use crate::ir::program::{State, Stays, ValueKind};
 use crate::ir::tree::{Atom, Guard};
-use crate::ir::{Id, Program};
+use crate::ir::{Id, Name, Program};
 use crate::source::Span;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -14,12 +14,72 @@ const MOST: usize = 64;
 /// How many places a warning shows beside its own.
 const SHOWN: usize = 3;
 
-/// What a state, or one of a family, would have to be.
+/// What a state, one of a family, or a local would have to be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Lacks {
+pub enum Lacks {
+    /// Less than it ever is.
     Less,
+    /// Greater than it ever is.
     Greater,
+    /// This value.
     Value(u32),
+}
+
+impl Lacks {
+    /// What a variable lacks that has these values, which are `count` where they are not numbers.
+    pub fn of(stays: &Stays, count: usize) -> Vec<Self> {
+        match stays {
+            Stays::Within(ends) => {
+                let less = ends.start().is_finite().then_some(Self::Less);
+                let greater = ends.end().is_finite().then_some(Self::Greater);
+                less.into_iter().chain(greater).collect()
+            }
+            Stays::Among(among) => {
+                let values = 0..count.min(u64::BITS as usize) as u32;
+                let lacking = values.filter(|value| among & 1 << value == 0);
+                lacking.map(Self::Value).collect()
+            }
+        }
+    }
+
+    /// These values with what lacks.
+    pub fn free(self, stays: &Stays) -> Stays {
+        match (self, stays) {
+            (Self::Less, stays) => stays.endless(true, false),
+            (Self::Greater, stays) => stays.endless(false, true),
+            (Self::Value(value), Stays::Among(among)) => Stays::Among(among | 1 << value),
+            (Self::Value(_), Stays::Within(_)) => Stays::ANY,
+        }
+    }
+
+    /// That nothing makes a variable so, which has these values, and is `first` as it is declared; `variants` are those of its enum.
+    pub fn in_words(
+        self,
+        name: &str,
+        stays: &Stays,
+        first: Option<f64>,
+        variants: &[Name],
+    ) -> String {
+        let is_first = match (stays, self) {
+            (Stays::Within(ends), Self::Less) => first == Some(*ends.start()),
+            (Stays::Within(ends), Self::Greater) => first == Some(*ends.end()),
+            _ => false,
+        };
+        match self {
+            Self::Less if is_first => {
+                format!("in an episode nothing makes `{name}` less than it is declared")
+            }
+            Self::Less => format!("nothing that sets `{name}` makes it small enough"),
+            Self::Greater if is_first => {
+                format!("in an episode nothing makes `{name}` greater than it is declared")
+            }
+            Self::Greater => format!("nothing that sets `{name}` makes it great enough"),
+            Self::Value(value) => match variants.get(value as usize) {
+                Some(variant) => format!("nothing sets `{name}` to `{variant}`"),
+                None => format!("nothing sets `{name}` to `{}`", value == 1),
+            },
+        }
+    }
 }
 
 /// A value that a state never has.
@@ -77,36 +137,16 @@ impl Checker<'_> {
         };
         let state = &self.program.states[cause.state];
         let name = &state.name.family;
-        let note = match (cause.lacks, &state.kind) {
-            (Lacks::Less, _) => match self.is_first(cause) {
-                true => format!("in an episode nothing makes `{name}` less than it is declared"),
-                false => format!("nothing that sets `{name}` makes it small enough"),
-            },
-            (Lacks::Greater, _) => match self.is_first(cause) {
-                true => format!("in an episode nothing makes `{name}` greater than it is declared"),
-                false => format!("nothing that sets `{name}` makes it great enough"),
-            },
-            (Lacks::Value(value), ValueKind::Enum(variants)) => {
-                let variant = variants.get(value as usize).map(ToString::to_string);
-                format!("nothing sets `{name}` to `{}`", variant.unwrap_or_default())
-            }
-            (Lacks::Value(value), _) => format!("nothing sets `{name}` to `{}`", value == 1),
+        let variants = match &state.kind {
+            ValueKind::Enum(variants) => variants.as_slice(),
+            ValueKind::Bool | ValueKind::Quantity => &[],
         };
+        let first = self.program.pool.constant(state.initial);
+        let note = cause.lacks.in_words(name, &state.stays, first, variants);
         if let Some(told) = self.diagnostics.get_mut(last) {
             *told = told.clone().note(note);
         }
         self.causes.insert(cause, (last, 0));
-    }
-
-    /// Whether the least of a state, or the greatest, is what it begins with.
-    fn is_first(&self, cause: Cause) -> bool {
-        let state = &self.program.states[cause.state];
-        let first = self.program.pool.constant(state.initial);
-        match (&state.stays, cause.lacks) {
-            (Stays::Within(ends), Lacks::Less) => first == Some(*ends.start()),
-            (Stays::Within(ends), Lacks::Greater) => first == Some(*ends.end()),
-            _ => false,
-        }
     }
 
     /// The values that a state never has, as far as they may make a difference.
@@ -116,29 +156,13 @@ impl Checker<'_> {
             ValueKind::Enum(variants) => variants.len(),
             _ => 2,
         };
-        match stays {
-            Stays::Within(ends) => {
-                let less = ends.start().is_finite().then_some(Lacks::Less);
-                let greater = ends.end().is_finite().then_some(Lacks::Greater);
-                less.into_iter().chain(greater).collect()
-            }
-            Stays::Among(among) => {
-                let values = 0..count.min(u64::BITS as usize) as u32;
-                let lacking = values.filter(|value| among & 1 << value == 0);
-                lacking.map(Lacks::Value).collect()
-            }
-        }
+        Lacks::of(stays, count)
     }
 
     /// Lets a state have what it lacks; gives what it had.
     fn free(&mut self, state: Id<State>, lacks: Lacks) -> Stays {
         let stays = &mut self.program.states[state].stays;
-        let freed = match (lacks, &*stays) {
-            (Lacks::Less, stays) => stays.endless(true, false),
-            (Lacks::Greater, stays) => stays.endless(false, true),
-            (Lacks::Value(value), Stays::Among(among)) => Stays::Among(among | 1 << value),
-            (Lacks::Value(_), Stays::Within(_)) => Stays::ANY,
-        };
+        let freed = lacks.free(stays);
         std::mem::replace(stays, freed)
     }
 

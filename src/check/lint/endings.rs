@@ -21,6 +21,16 @@ pub struct Asked {
 }
 
 impl Checker<'_> {
+    /// The name of a behaviour that is run and does what this one does, for the same robot: an alias of it.
+    fn runs_as(&self, asked: Id<Behavior>, run: Option<&BTreeSet<Id<Behavior>>>) -> Option<&Name> {
+        let asked = &self.program.behaviors[asked];
+        let mut run = run?.iter().map(|id| &self.program.behaviors[*id]);
+        let same = run.find(|it| {
+            it.law.is_some() && it.law == asked.law && it.name.robot() == asked.name.robot()
+        });
+        same.map(|it| &it.name)
+    }
+
     /// The behaviours that the robots beside the learning one run.
     pub fn run_by_others(&self) -> BTreeSet<Id<Behavior>> {
         by_others(&self.program)
@@ -77,6 +87,12 @@ impl Checker<'_> {
                 let alike = |run: &&&&Name| run.arguments.first() == name.arguments.first();
                 let relative = relatives.iter().find(alike).or(relatives.first());
                 let help = match (elsewhere, relative, name.robot()) {
+                    _ if let Some(same) = self.runs_as(behavior, run.as_ref()) => {
+                        format!(
+                            "`{}` is run, which does the same: ask that",
+                            same.of_acting()
+                        )
+                    }
                     (Some(robot), ..) => {
                         format!("the robot `{robot}` runs it: that is asked with `by = {robot}`")
                     }

@@ -206,7 +206,8 @@ impl<'a> Mentions<'a> {
         }
     }
 
-    fn block(&mut self, block: &'a Block) {
+    /// Takes in what a block mentions.
+    pub fn block(&mut self, block: &'a Block) {
         block.stmts.iter().for_each(|stmt| self.statement(stmt));
     }
 
@@ -234,7 +235,8 @@ impl<'a> Mentions<'a> {
         }
     }
 
-    fn branch(&mut self, branch: &'a Branch) {
+    /// Takes in what a branch mentions.
+    pub fn branch(&mut self, branch: &'a Branch) {
         self.expr(&branch.cond);
         self.block(&branch.then);
         match branch.otherwise.as_deref() {

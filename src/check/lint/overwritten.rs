@@ -175,7 +175,7 @@ fn reads_of<'a>(stmt: &'a Stmt, mentions: &mut Mentions<'a>) {
 }
 
 /// What an effect waits for, as it is written.
-fn trigger(on: &On) -> String {
+pub fn trigger(on: &On) -> String {
     match &on.trigger {
         Trigger::Expr(event) => print::expr(event),
         Trigger::Family { name, params } => {

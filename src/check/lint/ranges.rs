@@ -85,9 +85,9 @@ impl Ranges<'_> {
         self.left = left;
         match self.view.program.pool.get(id) {
             Expr::Num(value) => hull([value]),
-            Expr::State(state) => match &self.view.program.states[state].stays {
-                Stays::Within(within) => hull([*within.start(), *within.end()]),
-                Stays::Among(_) => Interval::ALL,
+            variable @ (Expr::State(_) | Expr::Local(_)) => match self.view.stays(variable) {
+                Some(Stays::Within(within)) => hull([*within.start(), *within.end()]),
+                Some(Stays::Among(_)) | None => Interval::ALL,
             },
             Expr::Draw(_, Draw::Uniform(a, b)) => {
                 let ((a, b), (c, d)) = (self.of(a).ends(), self.of(b).ends());

@@ -10,7 +10,7 @@ use crate::diagnostic::Code;
 use crate::ir::expr::{Expr, ExprId, Local};
 use crate::ir::law::{Behavior, Law};
 use crate::ir::tree::Node;
-use crate::ir::{Id, Name, Pool};
+use crate::ir::{Id, Name, Pool, Program};
 use crate::source::Span;
 use crate::syntax::ast::{AspectKind, BehaviorBody, Clause, ClauseKind, Item, ItemKind, Ref};
 use std::collections::{BTreeMap, BTreeSet};
@@ -100,7 +100,7 @@ impl<'a> Checker<'a> {
         let starting = Starting::of(&self.program.pool);
         for (at, id) in std::mem::take(&mut self.library_calls) {
             let behavior = &self.program.behaviors[id];
-            let view = View::of(&self.program, &behavior.name);
+            let view = View::of_behavior(&self.program, behavior);
             let law = behavior.law.as_ref();
             let never = law.filter(|law| {
                 succeeds_never(view, law, &starting) && !choices.contains(&law.succeed)
@@ -187,18 +187,18 @@ impl<'a> Checker<'a> {
             let BehaviorBody::Clauses(clauses) = &behavior.body else {
                 continue;
             };
-            let behaviors = self.program.behaviors.values();
-            let laws: Vec<(Name, Law)> = behaviors
-                .filter(|other| other.name.family == behavior.name.name)
-                .filter_map(|other| Some((other.name.clone(), other.law.clone()?)))
-                .collect();
-            if !laws.is_empty() {
-                self.regions_of(clauses, &laws, &starting);
+            let behaviors = self.program.behaviors.iter();
+            let own = behaviors.filter(|(_, other)| {
+                other.name.family == behavior.name.name && other.law.is_some()
+            });
+            let own: Vec<Id<Behavior>> = own.map(|(id, _)| id).collect();
+            if !own.is_empty() {
+                self.regions_of(clauses, &own, &starting);
             }
         }
     }
 
-    fn regions_of(&mut self, clauses: &'a [Clause], laws: &[(Name, Law)], starting: &Starting) {
+    fn regions_of(&mut self, clauses: &'a [Clause], own: &[Id<Behavior>], starting: &Starting) {
         // What never or always holds within a clause says enough of it.
         let first = |wanted: fn(&ClauseKind) -> bool| {
             let mut clauses = clauses.iter();
@@ -211,12 +211,11 @@ impl<'a> Checker<'a> {
         let drives =
             first(|kind| matches!(kind, ClauseKind::Control(block) if !block.stmts.is_empty()));
         let program = &self.program;
-        let every = |test: &dyn Fn(View, &Law) -> bool| {
-            let mut laws = laws.iter();
-            laws.all(|(name, law)| test(View::of(program, name), law))
-        };
+        let every = |test: &dyn Fn(View, &Law) -> bool| own.iter().all(|id| of(program, *id, test));
         let requires_never = every(&|view, law| of_expr(view, law.requires, true).is_never());
+        // What follows from the values of locals is told of how they start.
         let at_once = every(&|view, law| {
+            let view = View { law: None, ..view };
             let allowed = of_expr(view, law.requires, true);
             allowed.implies(&of_expr(view, law.succeed, true))
         });
@@ -224,12 +223,10 @@ impl<'a> Checker<'a> {
             let fails = of_expr(view, law.fail, true);
             fails.implies(&of_expr(view, law.succeed, true))
         });
-        let fails_never = every(&|view, law| {
-            let waits = view.program.pool.constant(law.fail).is_none();
-            waits && of_expr(view, law.fail, true).is_never()
-        });
+        let fails_never = every(&never_fails);
         let never_succeeds = every(&|view, law| succeeds_never(view, law, starting));
         let fails_at_once = every(&|view, law| {
+            let view = View { law: None, ..view };
             let allowed = of_expr(view, law.requires, true);
             let goes_on = allowed.and(&of_expr(view, law.succeed, false));
             goes_on.implies(&of_expr(view, law.fail, true))
@@ -264,8 +261,10 @@ impl<'a> Checker<'a> {
         } else if let (true, Some(at)) = (succeeds_as_it_starts, succeed) {
             self.over_as_it_starts("succeeds", at);
         } else if let (true, Some(at)) = (fails_never, fail) {
+            let why = self.lacking_local(own, &|program, id| of(program, id, &never_fails));
             self.warning(Code::W0302, at, "this behaviour never fails here")
-                .label("what it waits for never holds");
+                .label("what it waits for never holds")
+                .note_if(why);
         } else if let (true, Some(at), Some(before)) = (shadowed, fail, succeed) {
             self.warning(Code::W0302, at, "this behaviour never fails here")
                 .label("wherever this holds, it has succeeded already")
@@ -278,14 +277,19 @@ impl<'a> Checker<'a> {
                     "this holds from the start, so the behaviour fails at once",
                 );
         } else if let (true, Some(fail)) = (fails_as_it_starts, fail) {
-            let at = self.failing(clauses, laws, starting).unwrap_or(fail);
+            let at = self.failing(clauses, own, starting).unwrap_or(fail);
             self.over_as_it_starts("fails", at);
         } else if let (true, Some(at)) = (never_succeeds, succeed) {
-            let law = laws.first();
-            let why = law.and_then(|(name, law)| because(View::of(program, name), law.succeed));
-            let holds = laws
-                .iter()
-                .any(|(name, law)| !of_expr(View::of(program, name), law.succeed, true).is_never());
+            let near = |id: &Id<Behavior>| {
+                let behavior = &program.behaviors[*id];
+                let view = View::of_behavior(program, behavior);
+                because(view, behavior.law.as_ref()?.succeed)
+            };
+            let holds = !every(&|view, law| of_expr(view, law.succeed, true).is_never());
+            let why = own.first().and_then(near).or_else(|| {
+                let never = |view: View, law: &Law| succeeds_never(view, law, starting);
+                self.lacking_local(own, &|program, id| of(program, id, &never))
+            });
             let label = match holds {
                 true => "where this holds, it has failed",
                 false => "what it waits for never holds",
@@ -302,11 +306,12 @@ impl<'a> Checker<'a> {
     fn failing(
         &self,
         clauses: &[Clause],
-        laws: &[(Name, Law)],
+        own: &[Id<Behavior>],
         starting: &Starting,
     ) -> Option<Span> {
-        let (name, law) = laws.first()?;
-        let starts = starting.case(View::of(&self.program, name), law);
+        let behavior = &self.program.behaviors[*own.first()?];
+        let view = View::of_behavior(&self.program, behavior);
+        let starts = starting.case(view, behavior.law.as_ref()?);
         let holds = |clause: &&Clause| {
             let ClauseKind::Fail(test) = &clause.kind else {
                 return false;
@@ -368,20 +373,32 @@ impl<'a> Checker<'a> {
             for (place, id) in checked.written.choose.iter().zip(&checked.choose) {
                 let behavior = &self.program.behaviors[*id];
                 let law = behavior.law.as_ref();
-                let view = View::from(&self.program);
+                let view = View::of_behavior(&self.program, behavior);
                 let law = law.filter(|law| succeeds_never(view, law, &starting));
                 let at = list.and_then(|list| list.get(*place));
                 let learners = self.program.learners.values();
                 let learners = learners.filter(|learner| learner.task == task_id);
                 let longest = learners.map(|learner| learner.episode_ticks);
                 let longest = longest.fold(checked.end_after, u64::max);
-                let calls_library = !is_own(&behavior.name.family);
+                // Of its own clauses it is told where no instance of it succeeds.
+                let another_succeeds = || {
+                    let behaviors = self.program.behaviors.iter();
+                    let mut family =
+                        behaviors.filter(|(_, it)| it.name.family == behavior.name.family);
+                    family.any(|(id, _)| {
+                        of(&self.program, id, &|view, law| {
+                            !succeeds_never(view, law, &starting)
+                        })
+                    })
+                };
                 if let (None, Some(at), Some(written)) = (law, at, behavior.law.as_ref())
                     && succeeds_after(view, written, longest, &starting)
                 {
                     late.push((at.span, behavior.name.bare(), longest));
                 }
-                if let (Some(law), Some(at), true) = (law, at, calls_library) {
+                if let (Some(law), Some(at)) = (law, at)
+                    && (!is_own(&behavior.name.family) || another_succeeds())
+                {
                     let why = because(view, law.succeed);
                     told.insert(law.succeed);
                     found.push((at.span, behavior.name.bare(), why));
@@ -423,7 +440,7 @@ impl<'a> Checker<'a> {
             About::Number(elapsed),
             Says::Within(within),
         )])]);
-        let view = View::of(program, &behavior.name);
+        let view = View::of_behavior(program, behavior);
         let ends = of_expr(view, law.succeed, true).or(&of_expr(view, law.fail, true));
         let never = of_expr(view, law.requires, false).is_never() && ends.and(&in_time).is_never();
         if ends.is_never() || !never {
@@ -434,6 +451,19 @@ impl<'a> Checker<'a> {
             .label("this always fails, whatever happens");
         true
     }
+}
+
+/// Whether this is so of the law of a behaviour, read as its robot does.
+fn of(program: &Program, id: Id<Behavior>, test: &dyn Fn(View, &Law) -> bool) -> bool {
+    let behavior = &program.behaviors[id];
+    let law = behavior.law.as_ref();
+    law.is_some_and(|law| test(View::of_behavior(program, behavior), law))
+}
+
+/// Whether a behaviour that is to fail at some time never does.
+fn never_fails(view: View, law: &Law) -> bool {
+    let waits = view.program.pool.constant(law.fail).is_none();
+    waits && of_expr(view, law.fail, true).is_never()
 }
 
 /// Whether a behaviour that is to succeed at some time never does: what it waits for never holds, or only where it has failed.

@@ -7,10 +7,10 @@ use super::stays::{Set, of_block, set_in_ticks};
 use super::tree::at_success;
 use super::view::View;
 use crate::check::Checker;
-use crate::diagnostic::Code;
-use crate::ir::expr::{Expr, ExprId};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::ir::expr::{Expr, ExprId, Unary};
 use crate::ir::law::Behavior;
-use crate::ir::program::{State, Stays};
+use crate::ir::program::{State, Stays, ValueKind};
 use crate::ir::task::Task;
 use crate::ir::tree::Status;
 use crate::ir::world::World;
@@ -68,6 +68,12 @@ impl Checker<'_> {
         let Some((behavior, asks_states)) = stands else {
             return;
         };
+        // What the event is to change is set to what it is, and that is told.
+        let mut told = self.diagnostics.iter();
+        let is_idle = |found: &Diagnostic| matches!(found.code, Code::W0303 | Code::W0308);
+        if asks_states && told.any(is_idle) {
+            return;
+        }
         let name = self.program.behaviors[behavior].name.bare();
         let message = "this is paid again in every tick that the robot stays".to_owned();
         self.warning(Code::W0519, at, message)
@@ -100,7 +106,7 @@ impl Checker<'_> {
         let lines = lines.filter(|(of, _)| **of == place).map(|(_, line)| line);
         for line in lines {
             let pays = self.program.pool.constant(line.value);
-            if pays.is_some_and(|pays| pays != 0.0) && self.goes_on(line.event, setters) {
+            if pays != Some(0.0) && self.goes_on(line.event, setters) {
                 self.warning(Code::W0519, at, "this is paid in every tick in which it holds")
                     .label("once it holds, nothing that it brings about changes that")
                     .help("let it end the episode, `end on …`, or let it change what it asks, `on … { … }`");
@@ -117,6 +123,10 @@ impl Checker<'_> {
         for id in conjuncts(program, condition) {
             match program.pool.get(id) {
                 Expr::Ended(behavior, Status::Success) if found.is_none() => {
+                    // What another robot does next, its tree says.
+                    if program.behaviors[behavior].name.robot().is_some() {
+                        return None;
+                    }
                     let law = program.behaviors[behavior].law.as_ref()?;
                     let waits = program.pool.constant(law.succeed).is_none();
                     let stays = lasts(program, law.requires) && lasts(program, law.succeed);
@@ -204,7 +214,11 @@ impl Checker<'_> {
         }
         match bound(program, id) {
             _ if set.is_empty() => true,
-            Some((state, within)) => self.stays_within(state, within, &set),
+            Some((state, Bound::Within(within))) => self.stays_within(state, within, &set),
+            Some((state, Bound::Among(among))) => {
+                let settings = set.get(&state).map_or(&[][..], Vec::as_slice);
+                matches!(self.one_of_these(state, settings), Stays::Among(to) if to & !among == 0)
+            }
             None => false,
         }
     }
@@ -230,17 +244,41 @@ impl Checker<'_> {
     }
 }
 
-/// A comparison of a state with a constant: where the state has to be.
-fn bound(program: &Program, id: ExprId) -> Option<(Id<State>, Interval)> {
-    let Expr::Binary(op, a, b) = program.pool.get(id) else {
-        return None;
-    };
-    let (of, [one, other]) = comparison(&program.pool, op, a, b, true)?;
-    let Expr::State(state) = program.pool.get(of) else {
-        return None;
-    };
-    one.filter(|_| other.is_none())
-        .map(|within| (state, within))
+/// What a condition asks a state to be.
+enum Bound {
+    /// A number within an interval.
+    Within(Interval),
+    /// One of the values with these bits.
+    Among(u64),
+}
+
+/// A state that is asked by itself, or compared with a constant, and what it has to be.
+fn bound(program: &Program, id: ExprId) -> Option<(Id<State>, Bound)> {
+    let pool = &program.pool;
+    match pool.get(id) {
+        Expr::State(state) => Some((state, Bound::Among(0b10))),
+        Expr::Unary(Unary::Not, of) => match bound(program, of)? {
+            (state, Bound::Among(among)) => Some((state, Bound::Among(!among))),
+            (_, Bound::Within(_)) => None,
+        },
+        Expr::Binary(op, a, b) => {
+            let (of, within) = comparison(pool, op, a, b, true)?;
+            let Expr::State(state) = pool.get(of) else {
+                return None;
+            };
+            let holds = |value: f64| within.iter().flatten().any(|part| part.contains(value));
+            match (&program.states[state].kind, within) {
+                (ValueKind::Quantity, [Some(within), None]) => Some((state, Bound::Within(within))),
+                (ValueKind::Enum(variants), _) if variants.len() <= u64::BITS as usize => {
+                    let values = (0..variants.len()).filter(|index| holds(*index as f64));
+                    let among = values.fold(0, |bits, index| bits | 1 << index);
+                    Some((state, Bound::Among(among)))
+                }
+                _ => None,
+            }
+        }
+        _ => None,
+    }
 }
 
 /// Whether an expression keeps its value as long as the robot stands: it reads nothing but where that is.

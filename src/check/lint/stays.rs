@@ -1,8 +1,8 @@
 //! Which values states may have: what they start with, and what anything sets them to.
 
 use super::cases::of_expr;
-use super::ranges::range;
 use super::view::View;
+use super::widening::{one_of_these, settle};
 use crate::check::Checker;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::expr::{Expr, ExprId};
@@ -34,6 +34,7 @@ impl<'a> Checker<'a> {
         if self.values_are_unsure() {
             return Vec::new();
         }
+        let begins = begins(&self.program);
         let mut always = set_in_ticks(&self.program);
         set_at_starts(&self.program, &mut always);
         let mut all = always.clone();
@@ -54,7 +55,7 @@ impl<'a> Checker<'a> {
         let (never, mut waiting): (Vec<(ExprId, Set)>, Vec<_>) = (never, may);
         never.iter().for_each(|(_, more)| add(&mut set, more));
         for round in 0.. {
-            self.stay_by(&all, &set);
+            self.stay_by(&begins, &all, &set);
             let (happen, wait) = waiting.into_iter().partition(|(on, _)| {
                 round >= ROUNDS || !of_expr(&self.program, *on, true).is_never()
             });
@@ -68,7 +69,7 @@ impl<'a> Checker<'a> {
         let stay = self.states_that_stay(items, &all, &waiting);
         if !waiting.is_empty() {
             // From what never happens nothing else is to follow.
-            self.stay_by(&all, &all);
+            self.stay_by(&begins, &all, &all);
             for state in &stay {
                 self.program.states[*state].stays = Stays::ANY;
             }
@@ -82,8 +83,8 @@ impl<'a> Checker<'a> {
         self.diagnostics.iter().any(unsure)
     }
 
-    /// Finds out which values the states that `all` sets may have, where only `set` does.
-    fn stay_by(&mut self, all: &Set, set: &Set) {
+    /// Finds out which values the states that `all` sets may have, where only `set` does, and `begins` is what they begin with.
+    fn stay_by(&mut self, begins: &Set, all: &Set, set: &Set) {
         for state in all.keys() {
             self.program.states[*state].stays = Stays::ANY;
         }
@@ -93,7 +94,8 @@ impl<'a> Checker<'a> {
             for state in all.keys() {
                 let settings = set.get(state).map_or(&[][..], Vec::as_slice);
                 let before = self.program.states[*state].stays.clone();
-                let stays = self.stays_of(*state, settings);
+                let first = begins.get(state).map_or(&[][..], Vec::as_slice);
+                let stays = self.stays_of(*state, first, settings);
                 changed |= stays != before;
                 self.program.states[*state].stays = stays;
             }
@@ -103,13 +105,12 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// The values that these settings, and its declaration, give a state.
-    fn stays_of(&mut self, state: Id<State>, settings: &[Setting]) -> Stays {
+    /// The values that these settings give a state, and what it begins with, `first`.
+    fn stays_of(&mut self, state: Id<State>, first: &[Setting], settings: &[Setting]) -> Stays {
         match self.program.states[state].kind {
-            ValueKind::Quantity => self.numbers_of(state, settings),
+            ValueKind::Quantity => self.numbers_of(state, first, settings),
             ValueKind::Bool | ValueKind::Enum(_) => {
-                let initial = (World::acting(), self.program.states[state].initial);
-                self.one_of_these(state, &[settings, &[initial]].concat())
+                self.one_of_these(state, &[settings, first].concat())
             }
         }
     }
@@ -227,10 +228,13 @@ impl<'a> Checker<'a> {
         let kept: Vec<_> = kept.map(|(id, state)| (id, state.stays.clone())).collect();
         let mut given = Set::new();
         of_start(start, &mut given);
+        let sure = set_by(start);
         for (id, stays) in &kept {
-            let initial = [(World::acting(), self.program.states[*id].initial)];
-            let given = given.get(id).map_or(initial.as_slice(), Vec::as_slice);
-            let first = self.one_of_these(*id, given);
+            let mut given = given.remove(id).unwrap_or_default();
+            if !sure.contains(id) {
+                given.push((World::acting(), self.program.states[*id].initial));
+            }
+            let first = self.one_of_these(*id, &given);
             // More than a few changes in a tick may come to anything.
             self.program.states[*id].stays = match changed.get(id).map_or(0, Vec::len) {
                 0..=CHANGES => first,
@@ -252,123 +256,27 @@ impl<'a> Checker<'a> {
 
     /// The values of these settings.
     pub fn one_of_these(&self, state: Id<State>, settings: &[Setting]) -> Stays {
-        match self.program.states[state].kind {
-            ValueKind::Quantity => {
-                let none = f64::INFINITY..=f64::NEG_INFINITY;
-                let ranges = settings.iter().map(|(robot, value)| {
-                    let view = View {
-                        robot: *robot,
-                        ..View::from(&self.program)
-                    };
-                    let (low, high) = range(view, *value).ends();
-                    Stays::Within(low..=high)
-                });
-                ranges.fold(Stays::Within(none), |all, one| all.or(&one))
-            }
-            ValueKind::Bool | ValueKind::Enum(_) => {
-                let mut values = settings.iter().map(|(_, value)| *value);
-                let among = values.try_fold(0, |all, value| {
-                    Some(all | one_of(&self.program, state, value)?)
-                });
-                Stays::Among(among.unwrap_or(u64::MAX))
-            }
-        }
+        let by_bits = match self.program.states[state].kind {
+            ValueKind::Quantity => false,
+            ValueKind::Bool | ValueKind::Enum(_) => true,
+        };
+        let settings = settings.iter().map(|(robot, value)| {
+            let view = View {
+                robot: *robot,
+                ..View::from(&self.program)
+            };
+            (view, *value)
+        });
+        one_of_these(&self.program.pool, Expr::State(state), by_bits, settings)
     }
 
     /// The numbers from the least to the greatest that a state comes to.
-    ///
-    /// An end that a setting moves is moved for ever, unless the bounds that other settings have hold it.
-    fn numbers_of(&mut self, state: Id<State>, settings: &[Setting]) -> Stays {
-        let initial = [(World::acting(), self.program.states[state].initial)];
-        let first = self.one_of_these(state, &initial);
-        let step = |checker: &mut Self, stays: &Stays| {
-            checker.program.states[state].stays = stays.clone();
-            first.clone().or(&checker.one_of_these(state, settings))
-        };
-        let once = step(self, &first);
-        let widened = first.widened(&once);
-        let mut bounded = first.clone();
-        self.program.states[state].stays = widened.clone();
-        for setting in settings {
-            let its = self.one_of_these(state, &[*setting]);
-            bounded = bounded.or_finite(&its);
-        }
-        let halves = [bounded.endless(true, false), bounded.endless(false, true)];
-        for stays in [bounded].into_iter().chain(halves).chain([widened]) {
-            let next = step(self, &stays);
-            if stays.clone().or(&next) == stays {
-                return next;
-            }
-        }
-        step(self, &Stays::ANY)
-    }
-}
-
-impl Stays {
-    /// Whether this is one value.
-    fn is_one(&self) -> bool {
-        match self {
-            Self::Within(ends) => ends.start() == ends.end(),
-            Self::Among(among) => among.count_ones() == 1,
-        }
-    }
-
-    /// One of these, or one of those.
-    #[must_use]
-    fn or(self, other: &Self) -> Self {
-        match (self, other) {
-            (Self::Within(one), Self::Within(other)) => {
-                let low = one.start().min(*other.start());
-                Self::Within(low..=one.end().max(*other.end()))
-            }
-            (Self::Among(one), Self::Among(other)) => Self::Among(one | other),
-            _ => Self::ANY,
-        }
-    }
-
-    /// One of these numbers, or one up to an end of those that is finite.
-    #[must_use]
-    fn or_finite(self, other: &Self) -> Self {
-        let Self::Within(ends) = other else {
-            return Self::ANY;
-        };
-        let ends = [*ends.start(), *ends.end()].into_iter();
-        ends.filter(|end| end.is_finite())
-            .fold(self, |all, end| all.or(&Self::Within(end..=end)))
-    }
-
-    /// These numbers, with all that is less, or all that is greater.
-    #[must_use]
-    pub fn endless(&self, less: bool, greater: bool) -> Self {
-        let Self::Within(ends) = self else {
-            return Self::ANY;
-        };
-        let low = if less {
-            f64::NEG_INFINITY
-        } else {
-            *ends.start()
-        };
-        let high = if greater { f64::INFINITY } else { *ends.end() };
-        Self::Within(low..=high)
-    }
-
-    /// These numbers, without an end in a direction in which the other ones go on.
-    #[must_use]
-    fn widened(&self, other: &Self) -> Self {
-        let (Self::Within(one), Self::Within(other)) = (self, other) else {
-            return Self::ANY;
-        };
-        let low = if other.start() < one.start() {
-            f64::NEG_INFINITY
-        } else {
-            *one.start()
-        };
-        let high = if other.end() > one.end() {
-            f64::INFINITY
-        } else {
-            *one.end()
-        };
-        Self::Within(low..=high)
+    fn numbers_of(&mut self, state: Id<State>, first: &[Setting], settings: &[Setting]) -> Stays {
+        let first = self.one_of_these(state, first);
+        settle(&first, settings.len(), &mut |stays, which| {
+            self.program.states[state].stays = stays.clone();
+            self.one_of_these(state, settings.get(which).unwrap_or_default())
+        })
     }
 }
 
@@ -397,24 +305,6 @@ const PASSES: usize = 3;
 /// The most changes of a state in a tick that are followed.
 const CHANGES: usize = 4;
 
-/// The values that an expression may have, as bits; none of its own for the state itself. `None`: any.
-fn one_of(program: &Program, state: Id<State>, value: ExprId) -> Option<u64> {
-    match program.pool.get(value) {
-        Expr::Num(index) => bit(index),
-        Expr::Bool(value) => bit(f64::from(value)),
-        Expr::State(own) if own == state => Some(0),
-        Expr::Select(_, one, other) => {
-            Some(one_of(program, state, one)? | one_of(program, state, other)?)
-        }
-        _ => None,
-    }
-}
-
-fn bit(index: f64) -> Option<u64> {
-    let fits = index >= 0.0 && index < f64::from(u64::BITS);
-    fits.then(|| 1 << index as u32)
-}
-
 /// What sets each state, whenever that is.
 pub fn all_settings(program: &Program) -> Set {
     let mut all = set_in_ticks(program);
@@ -432,6 +322,34 @@ pub fn set_at_starts(program: &Program, found: &mut Set) {
     tasks
         .chain(learners)
         .for_each(|start| of_start(start, found));
+}
+
+/// The states that a `start` sets, whatever is drawn.
+fn set_by(start: &[StartLine]) -> BTreeSet<Id<State>> {
+    let states = start.iter().flat_map(|line| match line {
+        StartLine::State(values) => values.as_slice(),
+        _ => &[],
+    });
+    states.map(|(state, _)| *state).collect()
+}
+
+/// What each state begins an episode with: what `start` sets it to, and its declaration unless every task sets it.
+pub fn begins(program: &Program) -> Set {
+    let mut begins = Set::new();
+    set_at_starts(program, &mut begins);
+    let mut times: BTreeMap<Id<State>, usize> = BTreeMap::new();
+    for task in program.tasks.values() {
+        for state in set_by(&task.start) {
+            *times.entry(state).or_default() += 1;
+        }
+    }
+    for (id, state) in program.states.iter() {
+        if program.tasks.is_empty() || times.get(&id) != Some(&program.tasks.len()) {
+            let settings = begins.entry(id).or_default();
+            settings.push((World::acting(), state.initial));
+        }
+    }
+    begins
 }
 
 /// What sets each state in a tick, whether or not anything happens in it.

@@ -291,7 +291,7 @@ impl Checker<'_> {
         let Some(law) = &behavior.law else {
             return;
         };
-        let allowed = of_expr(View::of(program, &behavior.name), law.requires, true);
+        let allowed = of_expr(View::of_behavior(program, behavior), law.requires, true);
         if self.recorded || allowed.is_never() || held.is_never() || !held.and(&allowed).is_never()
         {
             return;
@@ -396,7 +396,7 @@ fn where_it_succeeds(program: &Program, id: Id<Behavior>) -> Cases {
     let Some(law) = &behavior.law else {
         return Cases::Unknown;
     };
-    let view = View::of(program, &behavior.name);
+    let view = View::of_behavior(program, behavior);
     let [allowed, succeeds] = [law.requires, law.succeed].map(|id| of_expr(view, id, true));
     let both = match (&allowed, &succeeds) {
         (Cases::Unknown, _) => succeeds,

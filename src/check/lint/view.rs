@@ -3,6 +3,8 @@
 use super::interval::Interval;
 use crate::geometry::Shape;
 use crate::ir::expr::{Expr, ExprId};
+use crate::ir::law::{Behavior, Law};
+use crate::ir::program::Stays;
 use crate::ir::world::{Robot, World};
 use crate::ir::{Id, Name, Pool, Program};
 
@@ -15,6 +17,8 @@ pub struct View<'p> {
     pub robot: Id<Robot>,
     /// Where it is; `None` for anywhere in the arena.
     pub near: Option<[Interval; 2]>,
+    /// The law whose locals are read; `None` where nothing is known of locals.
+    pub law: Option<&'p Law>,
 }
 
 impl<'p> View<'p> {
@@ -27,6 +31,24 @@ impl<'p> View<'p> {
             program,
             robot: at.map_or_else(World::acting, Id::new),
             near: None,
+            law: None,
+        }
+    }
+
+    /// Of the clauses of a behaviour.
+    pub fn of_behavior(program: &'p Program, behavior: &'p Behavior) -> Self {
+        Self {
+            law: behavior.law.as_ref(),
+            ..Self::of(program, &behavior.name)
+        }
+    }
+
+    /// The values that a state or a local may have.
+    pub fn stays(self, variable: Expr) -> Option<&'p Stays> {
+        match variable {
+            Expr::State(state) => Some(&self.program.states[state].stays),
+            Expr::Local(local) => self.law.map(|law| &law.locals[local].stays),
+            _ => None,
         }
     }
 
@@ -48,6 +70,7 @@ impl<'p> From<&'p Program> for View<'p> {
             program,
             robot: World::acting(),
             near: None,
+            law: None,
         }
     }
 }

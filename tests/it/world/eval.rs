@@ -466,6 +466,7 @@ fn invent(seed: u64) -> (Program, Law) {
         locals.push(Local {
             name: Name::default(),
             initial: zero,
+            stays: Stays::ANY,
         });
     }
     let law = Law {
