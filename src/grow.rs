@@ -26,6 +26,7 @@ pub mod reader;
 mod step;
 mod survey;
 mod tested;
+mod trim;
 
 use crate::checkpoint::{Keeper, Part};
 use crate::ir::task::Task;
@@ -164,6 +165,8 @@ fn improve_from<W: World>(
 
 /// The part of the effort of a search that is kept for choosing among its trees, and for testing the one that is chosen.
 const CHOOSING: f64 = 0.2;
+/// The part that looks for smaller trees that cost something, once a tree is found.
+const SHRINKING: f64 = 0.08;
 
 /// The part of the effort of learning that a search for a tree gets, with what the policy has left of its own.
 pub fn growing(effort: u64, improved: &Improved) -> u64 {
@@ -245,14 +248,17 @@ pub fn grow<W: World>(
     }
     let part = Part::new(keeper, "tree");
     let searching = Settings {
-        effort: share(settings.effort, 1.0 - CHOOSING),
+        effort: share(settings.effort, 1.0 - CHOOSING - SHRINKING),
         ..settings.clone()
     };
     let mut grower = Grower::new(ground, &searching, progress);
-    grower.run(starts, &part)?;
-    let mut grown = front::choose(&mut grower, starts, settings)?;
+    let found = grower.run(starts, &part)?;
+    let ways = grower.visited.len();
+    grower.shrink(&found, share(settings.effort, SHRINKING));
+    let candidates = front::candidates(grower.visited.split_at(ways), starts);
+    let mut grown = front::choose(&mut grower, candidates.clone(), starts, settings)?;
     if settings.front && settings.choice == Choice::Knee {
-        grown.front = front::drawn(&mut grower, starts, settings, &grown.root);
+        grown.front = front::drawn(&mut grower, candidates, starts, settings, &grown.root);
         grown.ticks = grower.judge.seen.ticks;
     }
     whole.save(|| &grown);

@@ -3,9 +3,10 @@
 use super::alone::plainest;
 use super::ground::does_more_harm;
 use super::grower::{Grower, Visited};
-use super::race::{Entrant, Judge, Terms};
+use super::race::{Entrant, Judge, SURE, Terms};
 use super::reader;
 use super::tested::{self, Beside, Figures};
+use super::trim::trimmed;
 use super::{Settings, Starts};
 use crate::ir::tree::{Atom, Node};
 use crate::learn::process::World;
@@ -21,11 +22,7 @@ use serde::{Deserialize, Serialize};
 const STAGES: [(usize, usize); 3] = [(60, 7), (160, 3), (500, 3)];
 /// The episodes of the tree that was chosen, before it is taken: in fewer, what seldom goes wrong does not show.
 const VETTED: usize = 1500;
-/// The standard errors by which a tree does surely more harm than another.
-const SURE: f64 = 2.0;
-/// A tree that returns more by this part than the best that was known before may do more harm than that does.
-const MUCH: f64 = 0.5;
-/// The most trees that are looked at for the front.
+/// The most trees that are looked at of those that were found, and of smaller ones.
 const LOOKED_AT: usize = 12;
 /// Fresh episodes that measure the tree that was chosen.
 const FRESH: usize = 500;
@@ -33,8 +30,6 @@ const FRESH: usize = 500;
 const COMPARED: usize = 60;
 /// The episodes of each tree of a front that is shown.
 const DRAWN: usize = 160;
-/// The part of the effort that looks for smaller trees for it.
-const SHRINKING: f64 = 0.1;
 /// The effort that these numbers are for; for less of it they are less.
 const WHOLE: f64 = 36e6;
 /// The fewest episodes, whatever the effort.
@@ -110,10 +105,11 @@ impl Grown {
 /// The exact tree asks an atom that the world does not know.
 pub(super) fn choose<W: World>(
     grower: &mut Grower<'_, '_, '_, W>,
+    trees: Vec<Node>,
     starts: &Starts,
     settings: &Settings,
 ) -> Result<Grown, Atom> {
-    let (trees, price) = (candidates(&grower.visited, starts), grower.price);
+    let price = grower.price;
     let judge = &mut grower.judge;
     let of = episodes(settings);
     let race = judge.fresh();
@@ -153,9 +149,14 @@ pub(super) fn choose<W: World>(
     drop(entrants);
     let root = match root == starts.exact {
         true => root,
-        false => plainest(judge, &trials, root, judge.scaled(of(FRESH))),
+        false => {
+            let with = (root, settings.requirements);
+            let root = trimmed(judge, &trials, with, vetted);
+            plainest(judge, &trials, root, judge.scaled(of(FRESH)))
+        }
     };
     for point in front.iter_mut().filter(|point| point.taken) {
+        point.size = Size::of(&root);
         point.root = root.clone();
     }
     let episodes = [COMPARED, FRESH].map(|episodes| judge.scaled(of(episodes)));
@@ -182,15 +183,14 @@ fn episodes(settings: &Settings) -> impl Fn(usize) -> usize + use<> {
     move |episodes| ((episodes as f64 * part) as usize).max(FEWEST)
 }
 
-/// The front around the tree that was chosen: with smaller trees that cost something, all of them played alike long.
+/// The front around the tree that was chosen, all of whose trees play alike long.
 pub(super) fn drawn<W: World>(
     grower: &mut Grower<'_, '_, '_, W>,
+    mut trees: Vec<Node>,
     starts: &Starts,
     settings: &Settings,
     root: &Node,
 ) -> Vec<Point> {
-    grower.shrink(root, (settings.effort as f64 * SHRINKING) as u64);
-    let mut trees = candidates(&grower.visited, starts);
     for tree in &mut trees {
         *tree = asked_once(tree);
     }
@@ -212,15 +212,18 @@ pub(super) fn drawn<W: World>(
     })
 }
 
-/// The trees that are looked at: those of the file, and of those that were found the later ones, which are the better ones;
-/// of the same size the last.
-fn candidates(visited: &[Visited], starts: &Starts) -> Vec<Node> {
+/// The trees that are looked at: those of the file, and of those that were found, and then of the smaller ones that cost
+/// something, the later ones, which are the better ones; of the same size the last.
+pub(super) fn candidates((found, shrunk): (&[Visited], &[Visited]), starts: &Starts) -> Vec<Node> {
     let mut trees: Vec<Node> = Vec::new();
     let mut sizes: Vec<usize> = Vec::new();
-    for tree in visited.iter().rev() {
-        if !sizes.contains(&tree.nodes) && trees.len() < LOOKED_AT {
-            sizes.push(tree.nodes);
-            trees.push(tree.root.clone());
+    for visited in [found, shrunk] {
+        let most = trees.len() + LOOKED_AT;
+        for tree in visited.iter().rev() {
+            if !sizes.contains(&tree.nodes) && trees.len() < most {
+                sizes.push(tree.nodes);
+                trees.push(tree.root.clone());
+            }
         }
     }
     for (_, other) in &starts.others {
@@ -318,7 +321,7 @@ fn known<W: World>(
     ended: usize,
 ) -> Option<Known> {
     let base = entrants.get(exact)?;
-    let harms = |entrant: &Entrant| judge.ground.harms(&entrant.contender, ended);
+    let harms = |entrant: &Entrant| judge.harms_in(entrant, ended);
     let (mut least, mut best, mut most) = (harms(base), exact, 0.0);
     for (at, entrant) in entrants.iter().enumerate() {
         if !theirs.contains(&&entrant.root) || entrant.contender.episodes() < ended {
@@ -373,13 +376,17 @@ fn chosen<W: World>(
     price: f64,
 ) -> usize {
     let mean = |entrant: &Entrant| entrant.contender.returns().mean;
+    let more_harmful = |entrant: &Entrant| {
+        let best = entrants.get(known.best);
+        best.is_some_and(|best| judge.is_more_harmful(entrant, best))
+    };
     // Those that have played to the end and did no more harm than so much, as far as the episodes can tell.
     let within = |most: u64| {
         let is_safe = |entrant: &Entrant| {
-            let harms = judge.ground.harms(&entrant.contender, known.ended);
+            let harms = judge.harms_in(entrant, known.ended);
             entrant.contender.episodes() >= known.ended
                 && !does_more_harm([harms, most], SURE)
-                && !is_more_harmful(judge, entrant, entrants.get(known.best))
+                && !more_harmful(entrant)
         };
         let safe = entrants.iter().enumerate();
         let safe = safe.filter(|(_, entrant)| is_safe(entrant));
@@ -412,21 +419,6 @@ fn chosen<W: World>(
             best(&good, &|entrant| -(entrant.nodes as f64))
         }
     }
-}
-
-/// Whether a tree does surely more harm than another in the episodes that both have played, and does not return so much more that
-/// this one is no measure.
-fn is_more_harmful<W: World>(
-    judge: &Judge<'_, '_, W>,
-    entrant: &Entrant,
-    other: Option<&Entrant>,
-) -> bool {
-    let Some(other) = other else { return false };
-    let both = [entrant, other].map(|it| &it.contender);
-    let [own, theirs] = both.map(|contender| contender.episodes());
-    let harms = both.map(|contender| judge.ground.harms(contender, own.min(theirs)));
-    let gain = judge.gain(entrant, other, Terms::free()).mean;
-    does_more_harm(harms, SURE) && gain <= MUCH * other.contender.returns().mean.abs()
 }
 
 /// The place of the tree that returns most for its nodes and its harm, of those that are as good as the best that was known before

@@ -4,6 +4,7 @@ mod attempts;
 mod climb;
 mod covers;
 mod detours;
+mod rows;
 mod sprouts;
 
 use super::evidence::{Evidence, Visits};
@@ -29,6 +30,8 @@ const PRICE: f64 = 0.003;
 const COLLECTED: f64 = 0.006;
 /// Episodes that show what a tree does, for pruning without simulation.
 const SHOWN: usize = 64;
+/// What rounding may change of a mean return, as a part of it.
+const ROUNDED: f64 = 1e-9;
 /// The most nodes of a tree that is pruned so.
 const PRUNED: usize = 120;
 
@@ -85,11 +88,11 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
         }
     }
 
-    /// Searches, from where a run before was stopped.
+    /// Searches, from where a run before was stopped; gives the tree that it ends with.
     ///
     /// # Errors
     /// The exact tree asks an atom that the world does not know.
-    pub fn run(&mut self, starts: &Starts, part: &Part) -> Result<(), Atom> {
+    pub fn run(&mut self, starts: &Starts, part: &Part) -> Result<Node, Atom> {
         let (mut base, mut step) = match part.resume::<Halted>() {
             Some(halted) => self.go_on(halted),
             None => {
@@ -112,7 +115,7 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
             part.keep(|| self.halted(&base, &step));
         }
         part.save(|| self.halted(&base, &step));
-        Ok(())
+        Ok(base)
     }
 
     /// Counts what the races have shown.
@@ -196,6 +199,11 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
         let spread = exact.contender.spread();
         let means = singles.iter().map(|single| single.contender.returns().mean);
         let least = means.fold(f64::NEG_INFINITY, f64::max);
+        self.judge.seen.idle = spread == 0.0 && (top - least).abs() <= ROUNDED * top.abs();
+        let rows = match self.judge.seen.idle {
+            true => self.rows(),
+            false => Vec::new(),
+        };
         let scale = (top - least).min(top.abs().max(spread)).max(0.1 * spread);
         self.price = PRICE * scale.max(1e-6);
         self.scale = exact.scale();
@@ -207,13 +215,22 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
                 false => best,
             });
         self.single = best.map(|best| best.root.clone());
+        let theirs = starts.others.iter();
+        let theirs = theirs.filter_map(|(_, other)| self.judge.entrant(&trials, other));
+        let mut theirs: Vec<Entrant> = theirs.collect();
+        let shown = self.judge.scaled(SHOWN);
+        self.judge.play(&trials, &mut theirs, shown, Some(&exact));
+        // What would not be taken in the end leads to more of its kind.
+        theirs.retain(|it| !self.judge.is_more_harmful(it, &exact));
+        let theirs: Vec<Node> = theirs.into_iter().map(|it| it.root).collect();
+        self.attempts.theirs.clone_from(&theirs);
         let pruned = self.pruned(&starts.exact, &exact);
         self.visit(&pruned);
-        let others: Vec<Node> = starts
-            .others
+        let others: Vec<Node> = theirs
             .iter()
-            .map(|(_, other)| other.clone())
+            .cloned()
             .chain(singles.into_iter().map(|s| s.root))
+            .chain(rows)
             .collect();
         let terms = Terms::searching(self.price);
         let found = self.judge.race(&pruned, others, terms);
@@ -221,8 +238,6 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
             Some(found) => self.pruned(&found.root, &found),
             None => pruned.clone(),
         };
-        let theirs = starts.others.iter().map(|(_, other)| other.clone());
-        let theirs: Vec<Node> = theirs.collect();
         let theirs = match theirs.as_slice() {
             [only] => Some(only.clone()),
             _ => self.judge.best(&theirs, terms).map(|best| best.root),

@@ -33,6 +33,11 @@ const USED: f64 = 0.03;
 /// For each stage of a race without a base, the episodes up to which its trees play, and the most that stay after it.
 const WITHOUT_BASE: [(usize, usize); 3] = [(2, 12), (8, 4), (24, 1)];
 
+/// The standard errors by which a tree does surely more harm than another.
+pub const SURE: f64 = 2.0;
+/// A tree that returns more than another by this part of it may do more harm.
+const MUCH: f64 = 0.5;
+
 /// What an episode with harm costs, in returns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Harm {
@@ -131,6 +136,8 @@ pub struct Seen {
     pub harmed: bool,
     /// The mean length of an episode.
     pub length: u64,
+    /// Whether the first tree earns nothing: beside it no tree is stuck in an episode that earns nothing.
+    pub idle: bool,
 }
 
 /// The judge of races.
@@ -158,6 +165,7 @@ impl<'g, 'w, W: World> Judge<'g, 'w, W> {
                 races: 0,
                 harmed: false,
                 length: ground.start.limit,
+                idle: false,
             },
         }
     }
@@ -225,8 +233,26 @@ impl<'g, 'w, W: World> Judge<'g, 'w, W> {
 
     /// What went wrong in a tree's episodes, those among it in which it was stuck.
     pub fn harms(&self, entrant: &Entrant) -> u64 {
-        self.ground
-            .harms(&entrant.contender, entrant.contender.episodes())
+        self.harms_in(entrant, entrant.contender.episodes())
+    }
+
+    /// What went wrong in the first of a tree's episodes.
+    pub fn harms_in(&self, entrant: &Entrant, episodes: usize) -> u64 {
+        let contender = &entrant.contender;
+        if !self.seen.idle {
+            return self.ground.harms(contender, episodes);
+        }
+        let harms = contender.each(|episode| self.ground.harm(episode));
+        harms.into_iter().take(episodes).sum()
+    }
+
+    /// Whether a tree does surely more harm than another in the episodes that both have played, and does not return so much
+    /// more that this one is no measure.
+    pub fn is_more_harmful(&self, entrant: &Entrant, other: &Entrant) -> bool {
+        let [own, theirs] = [entrant, other].map(|it| it.contender.episodes());
+        let harms = [entrant, other].map(|it| self.harms_in(it, own.min(theirs)));
+        let gain = self.gain(entrant, other, Terms::free()).mean;
+        ground::does_more_harm(harms, SURE) && gain <= MUCH * other.contender.returns().mean.abs()
     }
 
     /// The harm of a tree in an episode, on average.

@@ -52,6 +52,8 @@ pub(super) enum Step {
 /// The attempts to find a tree.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Attempts {
+    /// The trees of the file that do no more harm than the exact one.
+    pub(super) theirs: Vec<Node>,
     /// The trees that they begin with, in turn.
     pub(super) starts: Vec<Node>,
     /// The ticks that had been simulated when the one at hand began; none when they are over.

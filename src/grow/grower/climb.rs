@@ -43,7 +43,12 @@ impl<W: World> Grower<'_, '_, '_, W> {
             return (base, Step::Attempted);
         }
         let Some((factor, harm, only, until)) = CLIMBS.get(stage.number) else {
-            return (base, Step::Refine(Stage::default()));
+            // An attempt in a small world ends where there is nothing left to try.
+            let next = match self.is_attempting() {
+                true => Step::Attempted,
+                false => Step::Refine(Stage::default()),
+            };
+            return (base, next);
         };
         if stage.failures >= FAILURES || self.spent(*until) {
             return (base, Step::Climb(Stage::of(stage.number + 1)));

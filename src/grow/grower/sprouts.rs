@@ -47,8 +47,8 @@ impl<'w, W: World> Grower<'_, 'w, '_, W> {
         self.collect(&base, 0.8);
         if round == 0 {
             // Where the other trees go.
-            let others = starts.others.iter().map(|(_, other)| other);
-            for other in others.chain([&starts.exact]) {
+            let others = self.attempts.theirs.clone();
+            for other in others.iter().chain([&starts.exact]) {
                 if *other != base {
                     add(&mut visits, self.collect(other, 0.1));
                 }
