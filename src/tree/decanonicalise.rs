@@ -7,6 +7,7 @@ mod beams;
 mod children;
 mod complements;
 mod core;
+mod deferred;
 mod exchanged;
 mod list;
 mod memory;

@@ -148,8 +148,7 @@ impl<'a, 'p> Core<'a, 'p> {
 
     /// Whether the tree is right on all rows. Else some rows on which it is wrong join the core.
     pub(super) fn adopt(&mut self, tree: &Node, account: &Account) -> bool {
-        let words = 24 + self.problem.columns().rows() as u64 / 64;
-        account.spend(Size::of(tree).nodes as u64 * words);
+        account.spend(Size::of(tree).nodes as u64 * self.problem.words());
         let Some(wrong) = self.problem.wrong(tree) else {
             return false;
         };

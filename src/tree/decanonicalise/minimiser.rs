@@ -1,6 +1,6 @@
 //! Covers and guards for sets of rows, each minimised once, within an effort.
 
-use super::problem::Problem;
+use super::problem::{OPERATION, Problem};
 use crate::ir::tree::{Composite, Guard, Node};
 use crate::logic::{Account, Bits, Cover, Effort, minimise_within};
 use crate::tree::Size;
@@ -18,9 +18,6 @@ const COVERS: usize = 8;
 
 /// The most rows of a table whose covers are improved thoroughly.
 const SMALL: usize = 256;
-
-/// The work of an operation on a set of rows without any words, and what goes with it.
-const OPERATION: u64 = 24;
 
 /// The most rows of a small table. In a larger one covers are not improved once they are right, and Algorithm 1 is not
 /// run as well.
@@ -62,7 +59,7 @@ impl<'a> Minimiser<'a> {
 
     /// The work of one operation on sets of rows.
     pub(super) fn words(&self) -> u64 {
-        OPERATION + self.problem.columns().rows() as u64 / 64
+        self.problem.words()
     }
 
     /// How covers are sought: the larger the table, the less they are improved once they are right.

@@ -3,10 +3,13 @@
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::{Atom, Node};
-use crate::logic::{Bits, Columns};
+use crate::logic::{Account, Bits, Columns};
 use crate::policy::Policy;
 use crate::tree::prove::Prover;
 use rustc_hash::FxHashMap;
+
+/// The work of an operation on a set of rows without any words, and what goes with it.
+pub(super) const OPERATION: u64 = 24;
 
 /// A policy with its care minterms as rows of a table.
 pub(super) struct Problem<'a> {
@@ -62,6 +65,34 @@ impl<'a> Problem<'a> {
     /// The rows in which an atom holds; `None` if the policy does not observe it.
     pub(super) fn column(&self, atom: Atom) -> Option<&Bits> {
         self.prover.column(atom)
+    }
+
+    /// The work of one operation on sets of rows.
+    pub(super) fn words(&self) -> u64 {
+        OPERATION + self.columns().rows() as u64 / 64
+    }
+
+    /// The rows by what these atoms are in them; `None` for too many kinds.
+    pub(super) fn kinds(
+        &self,
+        rows: &Bits,
+        asked: &[Atom],
+        most: usize,
+        account: &Account,
+    ) -> Option<Vec<Bits>> {
+        let mut kinds = vec![rows.clone()];
+        for atom in asked {
+            let column = self.column(*atom)?;
+            account.spend(self.words() * 2 * kinds.len() as u64);
+            let parts = kinds
+                .iter()
+                .flat_map(|kind| [kind.and(column), kind.minus(column)]);
+            kinds = parts.filter(|kind| !kind.is_empty()).collect();
+            if kinds.len() > most {
+                return None;
+            }
+        }
+        Some(kinds)
     }
 
     /// The rows of each behaviour.

@@ -10,6 +10,7 @@ use super::alone::{self, CLEAR};
 use super::beams;
 use super::complements::complemented;
 use super::core::Core;
+use super::deferred;
 use super::exchanged::exchanged;
 use super::memory::configurations;
 use super::minimiser::{LARGE, Minimiser};
@@ -44,6 +45,9 @@ const LOST: usize = 300;
 const SMALLER: usize = 2;
 /// What is allowed for one from the top, in accounts.
 const FURTHER: u64 = 3;
+
+/// One part in so many of an account is for trees that ask some atoms last.
+const CHOICES: usize = 8;
 
 /// What a search came to.
 pub(super) struct Found {
@@ -131,6 +135,15 @@ pub(super) fn tree(problem: &Problem, is_tight: bool, account: &Account) -> Foun
         regrouped(problem, &mut trees, &mut core, &mut known, account);
     }
     let mut tree = smallest(problem, trees, true);
+    if is_tight
+        && !is_small
+        && let Some(other) = with_choices(problem, account)
+        && tree
+            .as_ref()
+            .is_none_or(|(tree, _)| Size::of(&other.0) < Size::of(tree))
+    {
+        tree = Some(other);
+    }
     if tree.is_none() {
         // No partition of rows that leave atoms free.
         let minimiser = Minimiser::new(problem, Account::unlimited());
@@ -144,6 +157,33 @@ pub(super) fn tree(problem: &Problem, is_tight: bool, account: &Account) -> Foun
         paper,
         unfinished,
     }
+}
+
+/// The smallest tree that asks some atoms last. It has a part of the account for itself, whatever the others leave of it: so none of
+/// them finds less than without it.
+fn with_choices(problem: &Problem, account: &Account) -> Option<(Node, Proof)> {
+    let rows = problem.policy.rows.len();
+    if rows > LARGE || !problem.policy.transitions.is_empty() {
+        return None;
+    }
+    let own = account.again(1).part(CHOICES);
+    let part = own.part(2);
+    let configurations = deferred::configurations(problem, &part);
+    own.settle(&part);
+    let parts = configurations.len();
+    let parts: Vec<(&Vec<Subunit>, Account)> = configurations
+        .iter()
+        .map(|subunits| (subunits, own.part(parts)))
+        .collect();
+    let found = parts
+        .par_iter()
+        .map(|(subunits, part)| joined(problem, subunits, part));
+    let found: Vec<Vec<Node>> = found.collect();
+    parts.iter().for_each(|(_, part)| own.settle(part));
+    let mut trees = sized(found.into_iter().flatten().collect());
+    tightened(problem, &mut trees, &own);
+    account.settle(&own);
+    smallest(problem, trees, true)
 }
 
 /// What is found beyond the account: a list for some of the rows that is much smaller than what was found for all of them is made right

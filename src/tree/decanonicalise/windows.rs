@@ -7,7 +7,7 @@
 
 use super::optimum::Division;
 use super::problem::Problem;
-use crate::ir::tree::{Atom, Guard, Node};
+use crate::ir::tree::{Guard, Node};
 use crate::logic::{Account, Bits};
 use crate::tree::Size;
 use crate::tree::atoms::atoms;
@@ -152,7 +152,7 @@ impl<'a, 'p> Windows<'a, 'p> {
                 atoms(&selector(own)).into_iter().collect()
             }
         };
-        let kinds = self.kinds(rows, &asked, most)?;
+        let kinds = self.problem.kinds(rows, &asked, most, self.account)?;
         let kinds_of = |set: &Bits| {
             let kinds = kinds.iter().enumerate();
             let own = kinds.filter(|(_, kind)| !kind.is_disjoint(set));
@@ -177,23 +177,6 @@ impl<'a, 'p> Windows<'a, 'p> {
         let division = Division::new(kinds.len(), columns, bodies);
         self.known.insert(key, division.nodes());
         (division.nodes() < before).then(|| division.children(&asked))
-    }
-
-    /// The rows by what these atoms are in them; `None` for too many kinds.
-    fn kinds(&self, rows: &Bits, asked: &[Atom], most: usize) -> Option<Vec<Bits>> {
-        let mut kinds = vec![rows.clone()];
-        for atom in asked {
-            let column = self.problem.column(*atom)?;
-            self.spend(2 * kinds.len());
-            let parts = kinds
-                .iter()
-                .flat_map(|kind| [kind.and(column), kind.minus(column)]);
-            kinds = parts.filter(|kind| !kind.is_empty()).collect();
-            if kinds.len() > most {
-                return None;
-            }
-        }
-        Some(kinds)
     }
 
     /// The rows that a unit leaves. What decides the others is told, a group that leaves none as it stands.
@@ -253,9 +236,8 @@ impl<'a, 'p> Windows<'a, 'p> {
         }
     }
 
-    fn spend(&self, operations: usize) {
-        let words = 24 + self.problem.columns().rows() as u64 / 64;
-        self.account.spend(words * operations as u64);
+    fn spend(&self, operations: u64) {
+        self.account.spend(self.problem.words() * operations);
     }
 }
 
