@@ -5,6 +5,7 @@ mod alone;
 mod beam;
 mod beams;
 mod children;
+mod choices;
 mod complements;
 mod core;
 mod deferred;
@@ -24,6 +25,7 @@ mod samples;
 mod search;
 mod share;
 mod slack;
+mod subtables;
 mod subunit;
 mod windows;
 

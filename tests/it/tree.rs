@@ -1,6 +1,7 @@
 //! Trees from policies, and what is proved of them.
 mod canonical;
 mod chains;
+mod choices;
 mod cubes;
 mod drawn;
 mod equivalence;

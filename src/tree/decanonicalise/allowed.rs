@@ -186,7 +186,8 @@ fn by_partition(columns: &Columns, classes: &[Bits], account: &Account) -> Optio
     Some(choice)
 }
 
-fn by_parts(columns: &Columns, partition: &Partition, rows: Bits, choice: &mut [usize]) {
+/// The class of each of these rows by a partition, by its number.
+pub(super) fn by_parts(columns: &Columns, partition: &Partition, rows: Bits, choice: &mut [usize]) {
     match partition {
         Partition::Leaf(class) => decide(choice, &rows, *class),
         Partition::Split { atom, parts } => {

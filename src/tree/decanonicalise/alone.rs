@@ -231,7 +231,12 @@ fn divided(problem: &Problem, held: &Held, account: &Account) -> Vec<Node> {
 const TRIED: usize = 4;
 
 /// Trees by all methods at once.
-fn searched(problem: &Problem, known: &mut Known, tight: bool, account: &Account) -> Vec<Node> {
+pub(super) fn searched(
+    problem: &Problem,
+    known: &mut Known,
+    tight: bool,
+    account: &Account,
+) -> Vec<Node> {
     let subunits = behaviors(problem);
     let part = account.part(2);
     let (columns, classes) = (problem.columns(), problem.classes());

@@ -166,7 +166,7 @@ impl<'a, 'p> Core<'a, 'p> {
 }
 
 /// Some rows of a policy, as a policy.
-fn part(whole: &Policy, rows: &Bits) -> Policy {
+pub(super) fn part(whole: &Policy, rows: &Bits) -> Policy {
     let rows = rows.iter();
     Policy {
         atoms: whole.atoms.clone(),

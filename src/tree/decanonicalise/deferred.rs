@@ -12,8 +12,10 @@
 //! Nothing else finds such a list by its parts: no literal and no cube before a group lets one choice through, and each choice holds
 //! several behaviours. The same serves parities: of six atoms, the choices by two of them are two, equal or not.
 //!
-//! Rows that the table does not have are free, so columns whose choices nowhere differ share one.
+//! Rows that the table does not have are free. So columns whose choices nowhere differ share one, and a column that tells little may
+//! be of several: it is given to one of them as a partition finds it best.
 
+use super::allowed::by_parts;
 use super::optimum::Division;
 use super::problem::Problem;
 use super::subunit::Subunit;
@@ -25,7 +27,7 @@ use crate::tree::Size;
 use crate::tree::unit::selector;
 use rustc_hash::FxHashMap;
 use std::cmp::Reverse;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The most kinds of rows by the atoms set aside, and the most choices.
 const KINDS: usize = 8;
@@ -33,7 +35,7 @@ const CHOICES: usize = 24;
 /// The most choices before those that nowhere differ are one.
 const FOUND: usize = 512;
 /// One row in so many stands in a column with another kind of rows, or the table says too little of its choices.
-const TOLD: usize = 2;
+const TOLD: usize = 8;
 /// Sets of atoms to which each other atom is added, and those of which lists are made.
 const WIDTH: usize = 4;
 const LISTED: usize = 4;
@@ -74,14 +76,8 @@ struct Search<'a, 'p> {
 
 impl<'a, 'p> Search<'a, 'p> {
     fn new(problem: &'a Problem<'p>, account: &'a Account) -> Self {
-        let mut classes = vec![0; problem.columns().rows()];
-        for (class, (_, rows)) in problem.on.iter().enumerate() {
-            for row in rows.iter() {
-                if let Some(slot) = classes.get_mut(row) {
-                    *slot = class;
-                }
-            }
-        }
+        let rows = problem.columns().rows();
+        let classes = numbers(rows, problem.on.iter().map(|(_, own)| own));
         Self {
             problem,
             account,
@@ -93,12 +89,12 @@ impl<'a, 'p> Search<'a, 'p> {
     /// as any of them seems better so.
     fn promising(&self) -> Vec<Deferred> {
         let atoms = self.problem.columns().atoms();
-        let Some(mut least) = self.nodes(&self.problem.classes()) else {
+        let Some(parts) = self.partition(&self.problem.classes()) else {
             return Vec::new();
         };
-        least += self.problem.on.len();
+        let least = LEAF * parts.leaves() + self.problem.on.len();
         let mut found: Vec<Deferred> = Vec::new();
-        let mut tried: Vec<Vec<usize>> = Vec::new();
+        let mut tried: BTreeSet<Vec<usize>> = BTreeSet::new();
         let mut open: Vec<Vec<usize>> = vec![Vec::new()];
         while !open.is_empty() {
             let mut grown: Vec<Deferred> = Vec::new();
@@ -107,11 +103,9 @@ impl<'a, 'p> Search<'a, 'p> {
                     let mut with = known.clone();
                     with.push(atom);
                     with.sort_unstable();
-                    if self.account.is_spent() || tried.contains(&with) {
-                        continue;
+                    if !self.account.is_spent() && tried.insert(with.clone()) {
+                        grown.extend(self.deferred(with).filter(|new| new.nodes < least));
                     }
-                    tried.push(with.clone());
-                    grown.extend(self.deferred(with).filter(|new| new.nodes < least));
                 }
             }
             grown.sort_by_key(|new| new.nodes);
@@ -123,17 +117,12 @@ impl<'a, 'p> Search<'a, 'p> {
         found
     }
 
-    /// The nodes of the guards that tell these classes, about; `None` if the account is spent.
-    fn nodes(&self, classes: &[Bits]) -> Option<usize> {
+    /// The rows divided until each part may be of one of these classes; `None` if the account is spent.
+    fn partition(&self, classes: &[Bits]) -> Option<Partition> {
         let columns = self.problem.columns();
         let words = columns.atoms() * columns.rows() / 64;
         self.account.spend((8 * words + columns.rows()) as u64);
-        let classified = Classified::new(columns, classes);
-        let parts = classified.partition(Impurity::Gini, self.account);
-        parts
-            .as_ref()
-            .map(Partition::leaves)
-            .map(|leaves| LEAF * leaves)
+        Classified::new(columns, classes).partition(Impurity::Gini, self.account)
     }
 
     /// What the table comes to with these atoms set aside; `None` where they have too many kinds of rows or make too many choices,
@@ -145,26 +134,41 @@ impl<'a, 'p> Search<'a, 'p> {
             .filter_map(|atom| self.problem.policy.atoms.get(*atom).copied())
             .collect();
         let kinds = self.problem.kinds(&rows, &named, KINDS, self.account)?;
-        let choices = merged(self.choices(&atoms, &kinds)?);
-        if choices.len() > CHOICES {
+        let choices = self.choices(&atoms, &kinds)?;
+        let merged = merged(&choices);
+        if merged.len() > CHOICES {
             return None;
         }
+        let bodies = merged.iter();
+        let bodies = bodies.map(|choice| self.body(choice, &kinds, &named));
+        let bodies = bodies.collect::<Option<Vec<Node>>>()?;
+        let classes = merged.iter().map(|choice| {
+            let own = choices.iter().filter(|(other, _)| tells(choice, other));
+            own.fold(self.problem.none(), |all, (_, rows)| all.or(rows))
+        });
+        let classes: Vec<Bits> = classes.collect();
+        let parts = self.partition(&classes)?;
+        let sets = merged.len() * choices.len() + parts.leaves();
+        self.account.spend(sets as u64 * self.problem.words());
+        let mut of = vec![0; rows.bound()];
+        by_parts(self.problem.columns(), &parts, rows, &mut of);
         let mut subunits: Vec<Subunit> = Vec::new();
-        for (choice, rows) in choices {
-            let body = self.body(&choice, &kinds, &named)?;
+        for (number, body) in bodies.into_iter().enumerate() {
+            let own = of.iter().enumerate().filter(|(_, of)| **of == number);
+            let own = Bits::collect(of.len(), own.map(|(row, _)| row));
             match subunits.iter_mut().find(|subunit| subunit.body == body) {
-                Some(same) => same.rows.unite(&rows),
+                Some(same) => same.rows.unite(&own),
+                None if own.is_empty() => {}
                 None => subunits.push(Subunit {
                     body,
-                    rows,
+                    rows: own,
                     last: None,
                     guards_itself: false,
                 }),
             }
         }
-        let classes: Vec<Bits> = subunits.iter().map(|s| s.rows.clone()).collect();
         let bodies = subunits.iter().map(|s| Size::of(&s.body).nodes);
-        let nodes = self.nodes(&classes)? + bodies.sum::<usize>();
+        let nodes = LEAF * parts.leaves() + bodies.sum::<usize>();
         Some(Deferred {
             atoms,
             subunits,
@@ -177,14 +181,7 @@ impl<'a, 'p> Search<'a, 'p> {
         let rows = &self.problem.policy.rows;
         let words = self.problem.columns().atoms().div_ceil(64);
         self.account.spend((rows.len() * (8 + words)) as u64);
-        let mut kind_of = vec![0; rows.len()];
-        for (kind, own) in kinds.iter().enumerate() {
-            for row in own.iter() {
-                if let Some(slot) = kind_of.get_mut(row) {
-                    *slot = kind;
-                }
-            }
-        }
+        let kind_of = numbers(rows.len(), kinds);
         let mut aside = vec![0_u64; words];
         for atom in atoms {
             if let Some(word) = aside.get_mut(atom / 64) {
@@ -250,32 +247,120 @@ impl<'a, 'p> Search<'a, 'p> {
     }
 }
 
+/// The number of the set of each of so many rows.
+fn numbers<'s>(rows: usize, sets: impl IntoIterator<Item = &'s Bits>) -> Vec<usize> {
+    let mut numbers = vec![0; rows];
+    for (number, set) in sets.into_iter().enumerate() {
+        for row in set.iter() {
+            if let Some(slot) = numbers.get_mut(row) {
+                *slot = number;
+            }
+        }
+    }
+    numbers
+}
+
 /// How many kinds of rows a choice tells of.
 fn known(choice: &Choice) -> usize {
     choice.iter().flatten().count()
 }
 
+/// Whether a choice tells all that another tells, and the same.
+fn tells(choice: &Choice, other: &Choice) -> bool {
+    let mut pairs = choice.iter().zip(other);
+    pairs.all(|(own, other)| other.is_none() || own == other)
+}
+
 /// The choices, those that nowhere differ as one: each joins the first that tells more.
-fn merged(choices: BTreeMap<Choice, Bits>) -> Vec<(Choice, Bits)> {
-    let mut choices: Vec<(Choice, Bits)> = choices.into_iter().collect();
+fn merged(choices: &BTreeMap<Choice, Bits>) -> Vec<Choice> {
+    let mut choices: Vec<(&Choice, usize)> = choices
+        .iter()
+        .map(|(choice, rows)| (choice, rows.count()))
+        .collect();
     // Stable: of those that tell as much of as many rows the first stays first.
-    choices.sort_by_cached_key(|(choice, rows)| (Reverse(known(choice)), Reverse(rows.count())));
-    let mut merged: Vec<(Choice, Bits)> = Vec::new();
-    for (choice, rows) in choices {
+    choices.sort_by_key(|(choice, rows)| (Reverse(known(choice)), Reverse(*rows)));
+    let mut merged: Vec<Choice> = Vec::new();
+    for (choice, _) in choices {
         let agrees = |other: &Choice| {
-            let pairs = other.iter().zip(&choice);
+            let pairs = other.iter().zip(choice);
             let mut both = pairs.filter_map(|(a, b)| a.zip(*b));
             both.all(|(a, b)| a == b)
         };
-        match merged.iter_mut().find(|(other, _)| agrees(other)) {
-            Some((other, own)) => {
-                for (slot, class) in other.iter_mut().zip(&choice) {
+        match merged.iter_mut().find(|other| agrees(other)) {
+            Some(other) => {
+                for (slot, class) in other.iter_mut().zip(choice) {
                     *slot = slot.or(*class);
                 }
-                own.unite(&rows);
             }
-            None => merged.push((choice, rows)),
+            None => merged.push(choice.clone()),
         }
     }
     merged
+}
+
+#[cfg(test)]
+mod tests {
+    use super::configurations;
+    use crate::ir::Id;
+    use crate::ir::tree::{Atom, Guard, Node};
+    use crate::logic::Account;
+    use crate::policy::{Minterm, Policy, Row};
+    use crate::tree::decanonicalise::problem::Problem;
+    use crate::tree::unit::{guarded, selector};
+
+    /// Two numbers from 0 to 4, each compared with 0 to 3, and a door: `up`, `down` and `open` where it is shut, `close` and `wait`.
+    fn elevator() -> Policy {
+        let rows = (0..50_usize).map(|row| {
+            let (from, to, open) = (row / 10, row / 2 % 5, row % 2 == 1);
+            let cuts = |value: usize| (0..4).map(move |cut| value <= cut);
+            let does = match (from.cmp(&to), open) {
+                (std::cmp::Ordering::Equal, _) => 3 + usize::from(open),
+                (_, true) => 2,
+                (std::cmp::Ordering::Less, _) => 0,
+                (std::cmp::Ordering::Greater, _) => 1,
+            };
+            Row {
+                minterm: Minterm::new(cuts(from).chain(cuts(to)).chain([open])),
+                free: None,
+                behavior: Id::new(does),
+                visits: 0,
+                values: Vec::new(),
+            }
+        });
+        let mut rows: Vec<Row> = rows.collect();
+        rows.sort_by(|a, b| a.minterm.cmp(&b.minterm));
+        Policy {
+            atoms: (0..9).map(|i| Atom::Predicate(Id::new(i))).collect(),
+            behaviors: (0..5).map(Id::new).collect(),
+            rows,
+            ..Policy::default()
+        }
+    }
+
+    #[test]
+    fn the_door_is_set_aside() {
+        let policy = elevator();
+        let problem = Problem::new(&policy);
+        let found = configurations(&problem, &Account::unlimited());
+        let door = Guard::Atom(Atom::Predicate(Id::new(8)));
+        let leaf = |behavior| Node::Behavior(Id::new(behavior));
+        let by_door = |open, shut| selector([guarded(door.clone(), leaf(open)), leaf(shut)]);
+        let nodes = |body: &Node| crate::tree::Size::of(body).nodes;
+        let best = found.first().unwrap();
+        assert_eq!(best.len(), 3);
+        assert!(best.iter().all(|subunit| nodes(&subunit.body) == 5));
+        let rows = best.iter().map(|subunit| subunit.rows.count());
+        assert_eq!(rows.sum::<usize>(), 50);
+        // Each in one of its two forms.
+        for (open, shut) in [(2, 0), (2, 1), (4, 3)] {
+            let either = |body: &Node| {
+                let other = selector([
+                    guarded(crate::tree::guard::not(door.clone()), leaf(shut)),
+                    leaf(open),
+                ]);
+                *body == by_door(open, shut) || *body == other
+            };
+            assert!(best.iter().any(|subunit| either(&subunit.body)));
+        }
+    }
 }

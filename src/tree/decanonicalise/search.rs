@@ -8,9 +8,9 @@
 
 use super::alone::{self, CLEAR};
 use super::beams;
+use super::choices;
 use super::complements::complemented;
 use super::core::Core;
-use super::deferred;
 use super::exchanged::exchanged;
 use super::memory::configurations;
 use super::minimiser::{LARGE, Minimiser};
@@ -135,14 +135,14 @@ pub(super) fn tree(problem: &Problem, is_tight: bool, account: &Account) -> Foun
         regrouped(problem, &mut trees, &mut core, &mut known, account);
     }
     let mut tree = smallest(problem, trees, true);
-    if is_tight
-        && !is_small
-        && let Some(other) = with_choices(problem, account)
-        && tree
-            .as_ref()
-            .is_none_or(|(tree, _)| Size::of(&other.0) < Size::of(tree))
-    {
-        tree = Some(other);
+    if is_tight && !is_small {
+        let known = tree.as_ref().map(|(tree, _)| tree);
+        let other = with_choices(problem, known, account);
+        let smaller =
+            |(other, _): &(Node, Proof)| known.is_none_or(|tree| Size::of(other) < Size::of(tree));
+        if let Some(other) = other.filter(smaller) {
+            tree = Some(other);
+        }
     }
     if tree.is_none() {
         // No partition of rows that leave atoms free.
@@ -159,31 +159,20 @@ pub(super) fn tree(problem: &Problem, is_tight: bool, account: &Account) -> Foun
     }
 }
 
-/// The smallest tree that asks some atoms last. It has a part of the account for itself, whatever the others leave of it: so none of
-/// them finds less than without it.
-fn with_choices(problem: &Problem, account: &Account) -> Option<(Node, Proof)> {
-    let rows = problem.policy.rows.len();
-    if rows > LARGE || !problem.policy.transitions.is_empty() {
+/// The smallest tree that asks some atoms last, or of which parts were sought as tables of their own. It has a part of the account for
+/// itself, whatever the others leave of it: so none of them finds less than without it.
+fn with_choices(
+    problem: &Problem,
+    known: Option<&Node>,
+    account: &Account,
+) -> Option<(Node, Proof)> {
+    if problem.policy.rows.len() > LARGE || !problem.policy.transitions.is_empty() {
         return None;
     }
     let own = account.again(1).part(CHOICES);
-    let part = own.part(2);
-    let configurations = deferred::configurations(problem, &part);
-    own.settle(&part);
-    let parts = configurations.len();
-    let parts: Vec<(&Vec<Subunit>, Account)> = configurations
-        .iter()
-        .map(|subunits| (subunits, own.part(parts)))
-        .collect();
-    let found = parts
-        .par_iter()
-        .map(|(subunits, part)| joined(problem, subunits, part));
-    let found: Vec<Vec<Node>> = found.collect();
-    parts.iter().for_each(|(_, part)| own.settle(part));
-    let mut trees = sized(found.into_iter().flatten().collect());
-    tightened(problem, &mut trees, &own);
+    let trees = choices::trees(problem, known, &own);
     account.settle(&own);
-    smallest(problem, trees, true)
+    smallest(problem, sized(trees), true)
 }
 
 /// What is found beyond the account: a list for some of the rows that is much smaller than what was found for all of them is made right
@@ -299,7 +288,7 @@ fn smallest(problem: &Problem, found: Vec<(Size, Node)>, free: bool) -> Option<(
 }
 
 /// Trees over the subunits of one configuration with memory nodes.
-fn joined(problem: &Problem, subunits: &[Subunit], account: &Account) -> Vec<Node> {
+pub(super) fn joined(problem: &Problem, subunits: &[Subunit], account: &Account) -> Vec<Node> {
     // In a small table the search starts from lists in other orders as well.
     let orders = match problem.policy.rows.len() <= LARGE {
         true => &[Order::Learned, Order::Given, Order::Rarest][..],

@@ -22,7 +22,7 @@ const CHILDREN: usize = 8;
 const WINDOWS: u64 = 16;
 
 /// Whether a tree is made of selectors, units and behaviours alone.
-fn is_plain(node: &Node) -> bool {
+pub(super) fn is_plain(node: &Node) -> bool {
     match units(node) {
         Some(units) => units.iter().all(|unit| is_plain(&unit.body)),
         None => matches!(node, Node::Behavior(_)),
@@ -180,7 +180,7 @@ impl<'a, 'p> Windows<'a, 'p> {
     }
 
     /// The rows that a unit leaves. What decides the others is told, a group that leaves none as it stands.
-    fn left(&self, unit: &Unit, rows: &Bits, decided: &mut Option<Decided>) -> Bits {
+    pub(super) fn left(&self, unit: &Unit, rows: &Bits, decided: &mut Option<Decided>) -> Bits {
         let through = self.holds(&unit.guard, rows);
         let inner = self.left_by(&unit.body, &through, &mut None);
         if !inner.is_empty() {
@@ -215,7 +215,7 @@ impl<'a, 'p> Windows<'a, 'p> {
     }
 
     /// The rows among these on which a guard holds.
-    fn holds(&self, guard: &Guard, among: &Bits) -> Bits {
+    pub(super) fn holds(&self, guard: &Guard, among: &Bits) -> Bits {
         self.spend(1);
         match guard {
             Guard::Const(true) => among.clone(),
@@ -252,12 +252,12 @@ fn push(decided: &mut Decided, node: Node, rows: Bits) {
     }
 }
 
-fn selector_of(units: &[Unit]) -> Node {
+pub(super) fn selector_of(units: &[Unit]) -> Node {
     selector(units.iter().cloned().map(Unit::node))
 }
 
 /// The selector of these units with others in the place of some.
-fn replaced(units: &[Unit], from: usize, to: usize, by: Vec<Node>) -> Node {
+pub(super) fn replaced(units: &[Unit], from: usize, to: usize, by: Vec<Node>) -> Node {
     let node = |unit: &Unit| unit.clone().node();
     let before = units.iter().take(from).map(node);
     let after = units.iter().skip(to).map(node);
