@@ -85,8 +85,8 @@ impl<'a, 'p, F: Fn(&Problem, &Account) -> Vec<Node>> Subtables<'a, 'p, F> {
             if before < FEWEST || whole || self.account.is_spent() {
                 continue;
             }
-            let found = self.found(reaching)?;
-            if Size::of(&found).nodes < before {
+            let found = self.found(reaching);
+            if let Some(found) = found.filter(|found| Size::of(found).nodes < before) {
                 return Some(replaced(&children, from, children.len(), vec![found]));
             }
         }

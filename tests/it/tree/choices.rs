@@ -31,7 +31,7 @@ fn compared(
     decides: impl Fn(usize, usize, &[bool]) -> usize,
 ) -> Policy {
     let mut rows = Vec::new();
-    for row in 0..floors * floors << conditions {
+    for row in 0..(floors * floors) << conditions {
         let further: Vec<bool> = (0..conditions).map(|bit| row >> bit & 1 == 1).collect();
         let number = row >> conditions;
         let (floor, target) = (number / floors, number % floors);
