@@ -63,7 +63,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     files::print(&written(&found, arguments.format, &arguments.new))?;
     match &found.outcome {
         Outcome::Same | Outcome::Equal(_) => Ok(()),
-        Outcome::Other(_) | Outcome::Parts(_) => Err(Failure::Input),
+        Outcome::Other(_) | Outcome::Onward(..) | Outcome::Parts(_) => Err(Failure::Input),
         Outcome::Undecided(_) => Err(Failure::Undecided),
     }
 }

@@ -1,5 +1,7 @@
 //! `btc diff`: what a tree or a table decides otherwise than an older one.
 
+mod onward;
+
 use super::load::Loaded;
 use super::refused::Refused;
 use super::text::Text;
@@ -282,11 +284,12 @@ fn outcome(
         }
         let environment = Environment::Any(history);
         // Any environment knows every atom.
-        if let Ok((met, verdict, _)) = within(program, (old, new), (environment, &excluded)) {
+        if let Ok((met, verdict, onward)) = within(program, (old, new), (environment, &excluded)) {
             by_predicates = matches!(met, Environment::Possible(..));
             match &verdict {
                 Verdict::Equal(explored) => {
-                    return (Outcome::Equal(explored.means_text()), by_predicates);
+                    let found = (explored.means_text(), &onward);
+                    return onward::outcome(program, ((old, new), names), (history, met), found);
                 }
                 Verdict::Undecided(explored) => {
                     parts = Some(Outcome::Undecided(explored.means_text()))

@@ -133,9 +133,9 @@ pub(crate) fn within<'e>(
     (left, right): (&Node, &Node),
     (environment, excluded): (Environment<'e>, &'e [Exclusion]),
 ) -> Result<(Environment<'e>, Verdict, Onward), Unknown> {
-    let may_fail = |behavior: Id<Behavior>| program.may_end(behavior, Status::Failure);
+    let may_end = |behavior: Id<Behavior>, status: Status| program.may_end(behavior, status);
     let compared = |environment| {
-        let found = compare_onward(Side::Tree(left), Side::Tree(right), environment, &may_fail);
+        let found = compare_onward(Side::Tree(left), Side::Tree(right), environment, &may_end);
         found.map(|(verdict, onward)| (environment, verdict, onward))
     };
     let found = compared(environment)?;

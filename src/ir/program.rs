@@ -131,10 +131,13 @@ impl Program {
         };
         let constant = |id| self.pool.constant(id);
         match status {
+            Status::Running => true,
             Status::Failure => {
                 constant(law.requires) != Some(1.0) || constant(law.fail) != Some(0.0)
             }
-            _ => constant(law.succeed) != Some(0.0) && constant(law.requires) != Some(0.0),
+            Status::Success => {
+                constant(law.succeed) != Some(0.0) && constant(law.requires) != Some(0.0)
+            }
         }
     }
 

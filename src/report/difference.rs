@@ -1,9 +1,10 @@
 //! What a tree or a table decides otherwise than an older one, in the forms that people and tools read.
 
-use super::verdict::POSSIBLE;
+use super::verdict::{POSSIBLE, ends};
 use super::words::{command_data, command_property, counted};
 use crate::emit::bt;
 use crate::ir::law::Behavior;
+use crate::ir::tree::Guard;
 use crate::ir::{Id, Program};
 use crate::learn::statistics::Mean;
 use crate::tree::change::Change;
@@ -18,6 +19,9 @@ pub enum Outcome {
     Equal(String),
     /// Other decisions.
     Other(Vec<Change>),
+    /// The same behaviour first in every tick, and others after it within the tick: under which conditions, or, where no
+    /// condition over predicates and history describes it, the way to the first such tick.
+    Onward(Vec<Change>, String),
     /// Other decisions that no condition over predicates and history describes: the way to the first one.
     Parts(String),
     /// There was too much to explore.
@@ -72,21 +76,63 @@ impl Difference {
 
     /// The condition, the old behaviour and the new one of each change.
     fn rows(&self) -> Vec<[String; 3]> {
-        let Outcome::Other(changes) = &self.outcome else {
-            return Vec::new();
-        };
         let row = |change: &Change| {
-            let when = change.when.as_ref();
-            [
-                when.map_or_else(
-                    || "under a condition of more than 2000 literals".to_owned(),
-                    |when| bt::guard(&self.program, when),
-                ),
-                self.behavior(change.old),
-                self.behavior(change.new),
-            ]
+            let mut place = self.ended(change);
+            // What holds in every tick needs no words where something is said of the tick.
+            if place.is_empty() || change.when != Some(Guard::Const(true)) {
+                place.insert(0, self.when(change));
+            }
+            let place = place.join(", ");
+            [place, self.behavior(change.old), self.behavior(change.new)]
         };
-        changes.iter().map(row).collect()
+        self.changes().iter().map(row).collect()
+    }
+
+    fn changes(&self) -> &[Change] {
+        match &self.outcome {
+            Outcome::Other(changes) | Outcome::Onward(changes, _) => changes,
+            _ => &[],
+        }
+    }
+
+    /// The condition of a change.
+    fn when(&self, change: &Change) -> String {
+        let when = change.when.as_ref();
+        when.map_or_else(
+            || "under a condition of more than 2000 literals".to_owned(),
+            |when| bt::guard(&self.program, when),
+        )
+    }
+
+    /// Which tick a change is about, by what was ticked in it before: nothing where that is any.
+    fn ended(&self, change: &Change) -> Vec<String> {
+        let ended = change.ended.iter().enumerate();
+        let ended = ended.map(|(at, (behavior, answer))| {
+            let before = match at {
+                0 => "in a tick in which ",
+                _ => "then ",
+            };
+            let name = self.behavior(Some(*behavior));
+            format!("{before}{name} {}", ends(*answer))
+        });
+        ended.collect()
+    }
+
+    /// What is written below the changes.
+    fn detail(&self) -> Option<&str> {
+        let detail = match &self.outcome {
+            Outcome::Equal(text)
+            | Outcome::Onward(_, text)
+            | Outcome::Parts(text)
+            | Outcome::Undecided(text) => text,
+            Outcome::Same | Outcome::Other(_) => "",
+        };
+        Some(detail).filter(|text| !text.is_empty())
+    }
+
+    /// What is written below the headline, besides the changes.
+    fn below(&self) -> Option<&str> {
+        self.detail().filter(|_| !self.is_equal())
     }
 
     /// What is said in one line.
@@ -107,6 +153,15 @@ impl Difference {
                 "different: {new} decides otherwise than {old} under {}{within}",
                 counted(changes.len(), "condition")
             ),
+            Outcome::Onward(changes, _) => {
+                let under = match changes.len() {
+                    0 => String::new(),
+                    changes => format!(" under {}", counted(changes, "condition")),
+                };
+                format!(
+                    "different: {new} chooses the same first as {old}, but goes on differently in the same tick{under}{within}"
+                )
+            }
             Outcome::Parts(_) => format!("different: {new} decides otherwise than {old}"),
             Outcome::Undecided(_) => {
                 format!("undecided: there is too much to explore of {old} and {new}")
@@ -135,9 +190,8 @@ impl Difference {
             rows.iter()
                 .map(|[when, old, new]| format!("  {when}: {old} → {new}")),
         );
-        if let Outcome::Parts(trace) | Outcome::Undecided(trace) = &self.outcome {
-            lines.extend(trace.lines().map(|line| format!("  {line}")));
-        }
+        let below = self.below().unwrap_or_default();
+        lines.extend(below.lines().map(|line| format!("  {line}")));
         lines.extend(self.measured().map(|line| format!("  {line}")));
         lines.join("\n") + "\n"
     }
@@ -155,7 +209,7 @@ impl Difference {
                 text.push_str(&format!("| {} |\n", cells.join(" | ")));
             }
         }
-        if let Outcome::Parts(trace) | Outcome::Undecided(trace) = &self.outcome {
+        if let Some(trace) = self.below() {
             text.push_str(&format!("\n```\n{trace}\n```\n"));
         }
         if let Some(measured) = self.measured() {
@@ -179,14 +233,22 @@ impl Difference {
         let outcome = match &self.outcome {
             Outcome::Same => "same",
             Outcome::Equal(_) => "equal",
+            Outcome::Onward(..) => "onward",
             Outcome::Other(_) | Outcome::Parts(_) => "different",
             Outcome::Undecided(_) => "undecided",
         };
-        let changes: Vec<Value> = self
-            .rows()
-            .into_iter()
-            .map(|[when, old, new]| json!({ "when": when, "old": old, "new": new }))
-            .collect();
+        let change = |change: &Change| {
+            let ended = change.ended.iter().map(|(behavior, answer)| {
+                json!({ "behavior": self.behavior(Some(*behavior)), "status": answer.name() })
+            });
+            json!({
+                "when": self.when(change),
+                "ended": ended.collect::<Vec<Value>>(),
+                "old": self.behavior(change.old),
+                "new": self.behavior(change.new),
+            })
+        };
+        let changes: Vec<Value> = self.changes().iter().map(change).collect();
         let figures = self.figures.as_ref().map(|figures| {
             let [old, new] = figures.returns;
             let [lost, loses] = figures.lost;
@@ -197,17 +259,13 @@ impl Difference {
                 "ended_badly": { "old": lost, "new": loses },
             })
         });
-        let detail = match &self.outcome {
-            Outcome::Equal(text) | Outcome::Parts(text) | Outcome::Undecided(text) => Some(text),
-            _ => None,
-        };
         let [old, new] = &self.names;
         let document = json!({
             "old": old,
             "new": new,
             "outcome": outcome,
             "changes": changes,
-            "detail": detail,
+            "detail": self.detail(),
             "figures": figures,
         });
         format!("{document:#}\n")

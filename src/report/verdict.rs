@@ -4,6 +4,7 @@ use super::json::document;
 use super::words;
 use crate::ir::law::Behavior;
 use crate::ir::task::History;
+use crate::ir::tree::Status;
 use crate::ir::{Id, Name, Program};
 use crate::tree::equivalence::{Environment, Means, Onward, Parted, Trace, Verdict};
 use serde::Serialize;
@@ -124,31 +125,65 @@ pub fn text(
     }
 }
 
-/// How two trees that are equal go on in a tick in which what they select fails; nothing where that is alike.
+/// How two trees that are equal go on in the tick in which what they select ends; nothing where that is alike.
 pub fn onward(program: &Program, (left, right): (&Name, &Name), onward: &Onward) -> String {
-    let Parted { behavior, trace } = match onward {
+    let parted = match onward {
         Onward::Alike => return String::new(),
         Onward::Undecided => {
-            return "\n  the proof is of what they select first: whether they go on alike in a tick in which that fails is \
-                    too much to explore"
-                .to_owned();
+            return format!("\n  the proof is of what they select first: {UNEXPLORED}");
         }
         Onward::Differ(parted) => parted,
     };
+    let answer = parted.ended.first().map(|(_, answer)| *answer);
+    format!(
+        "\n  the proof is of what they select first: they go on differently in a tick in which that {}\n{}",
+        ends(answer.unwrap_or(Status::Running)),
+        parting(program, (left, right), parted)
+    )
+}
+
+/// What is said where how two trees go on is not known.
+pub const UNEXPLORED: &str =
+    "whether they go on alike in a tick in which that ends is too much to explore";
+
+/// The ticks to one in which two trees that are equal go on differently, and how they do.
+pub fn parting(
+    program: &Program,
+    (left, right): (impl Display, impl Display),
+    Parted { ended, trace }: &Parted,
+) -> String {
     let name = name(program);
+    let (left, right) = (quoted(&left), quoted(&right));
     let mut lines = steps(program, trace);
+    let mut told = String::new();
+    for (at, (behavior, answer)) in ended.iter().enumerate() {
+        let both = match at {
+            0 => "both select",
+            _ => " both go on to",
+        };
+        let if_so = match answer {
+            Status::Running => "while it runs".to_owned(),
+            answer => format!("if it {}", ends(*answer)),
+        };
+        told.push_str(&format!("{both} {}; {if_so},", name(&Some(*behavior))));
+    }
     lines.push(format!(
-        "  tick {:<3} {}: both select {}; if it fails, `{left}` goes on to {} and `{right}` to {}",
+        "  tick {:<3} {}: {told} {left} goes on to {} and {right} to {}",
         trace.steps.len() + 1,
         words::minterm(program, &trace.atoms, &trace.valuation),
-        name(&Some(*behavior)),
         name(&trace.left),
         name(&trace.right)
     ));
-    format!(
-        "\n  the proof is of what they select first: they go on differently in a tick in which that fails\n{}",
-        lines.join("\n")
-    )
+    lines.join("\n")
+}
+
+/// What a behaviour does that answers so.
+pub fn ends(answer: Status) -> &'static str {
+    match answer {
+        Status::Failure => "fails",
+        Status::Success => "succeeds",
+        Status::Running => "runs",
+    }
 }
 
 /// What a verdict is consistent with where what cannot hold at once is left out.

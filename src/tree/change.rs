@@ -1,6 +1,9 @@
 //! What one side decides otherwise than another: a condition for each pair of decisions.
 
 mod listed;
+mod onward;
+
+pub use onward::onward;
 
 use super::canonicalise::{LITERALS, decisions, shorten};
 use super::circuit::Signal;
@@ -9,16 +12,18 @@ use super::equivalence::Side;
 use super::reading::{Irreducible, Reading};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
-use crate::ir::tree::{Atom, Exclusion, Guard};
+use crate::ir::tree::{Atom, Exclusion, Guard, Status};
 
 /// Where one behaviour takes the place of another.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Change {
     /// The condition, as short as it is found to be; `None` if it is too large to be written out.
     pub when: Option<Guard>,
-    /// What was selected.
+    /// What both tick before in that tick, one after another, and what each answers; nothing where they select differently.
+    pub ended: Vec<(Id<Behavior>, Status)>,
+    /// What was selected, or came next.
     pub old: Option<Id<Behavior>>,
-    /// What is selected now.
+    /// What is selected now, or comes next.
     pub new: Option<Id<Behavior>>,
 }
 
@@ -55,14 +60,9 @@ pub fn changes(
     }
     let (old, said) = decided(old, &mut guards)?;
     let (new, also) = decided(new, &mut guards)?;
-    let mut free = vec![!said, !also, beyond(&atoms, window, &mut guards)];
-    for literals in excluded {
-        let literals = literals.iter();
-        let literals = literals.map(|(atom, value)| guards.atom(*atom).negated_if(!value));
-        let literals: Vec<Signal> = literals.collect();
-        free.push(guards.circuit.all(literals));
-    }
-    let free = guards.circuit.any(free);
+    let beyond = beyond(&atoms, window, &mut guards);
+    let together = together(excluded, &mut guards);
+    let free = guards.circuit.any([!said, !also, beyond, together]);
     let mut changes = Vec::new();
     for (was, before) in &old {
         for (is, after) in &new {
@@ -76,6 +76,7 @@ pub fn changes(
             }
             changes.push(Change {
                 when: shorten(both, free, LITERALS, &mut guards),
+                ended: Vec::new(),
                 old: *was,
                 new: *is,
             });
@@ -131,6 +132,18 @@ fn decided(side: Side, guards: &mut Guards) -> Result<(Vec<Decision>, Signal), I
             Ok((all, said))
         }
     }
+}
+
+/// Where something holds together that is excluded.
+fn together(excluded: &[Exclusion], guards: &mut Guards) -> Signal {
+    let mut any = Vec::new();
+    for literals in excluded {
+        let literals = literals.iter();
+        let literals = literals.map(|(atom, value)| guards.atom(*atom).negated_if(!value));
+        let literals: Vec<Signal> = literals.collect();
+        any.push(guards.circuit.all(literals));
+    }
+    guards.circuit.any(any)
 }
 
 /// Where more of what the history asks holds than the window has room for.

@@ -7,7 +7,7 @@ mod oracle;
 mod product;
 mod side;
 mod symbolic;
-mod unfold;
+pub(super) mod unfold;
 mod window;
 
 pub use environment::Environment;
@@ -119,13 +119,16 @@ pub struct TraceTick {
     pub status: Status,
 }
 
-/// Which behaviours may fail.
-pub type MayFail<'a> = &'a dyn Fn(Id<Behavior>) -> bool;
+/// Whether a behaviour may answer so.
+pub type MayEnd<'a> = &'a dyn Fn(Id<Behavior>, Status) -> bool;
 
-/// How two sides that select the same go on in the same tick, where what they select fails.
+/// What may come of a behaviour that is ticked.
+pub(super) const ANSWERS: [Status; 3] = [Status::Failure, Status::Success, Status::Running];
+
+/// How two sides that select the same go on in the same tick, by what comes of what they select.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Onward {
-    /// They tick the same behaviour next, or none.
+    /// They tick the same behaviours.
     Alike,
     /// They tick different ones.
     Differ(Parted),
@@ -133,11 +136,11 @@ pub enum Onward {
     Undecided,
 }
 
-/// A shortest way to a tick in which both sides select the same, and go on differently where it fails.
+/// A shortest way to a tick in which both sides select the same, and then go on differently.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Parted {
-    /// What both select in the last tick.
-    pub behavior: Id<Behavior>,
+    /// What both tick in the last tick until they part, one after another, and what each answers.
+    pub ended: Vec<(Id<Behavior>, Status)>,
     /// The way there; [`left`](Trace::left) and [`right`](Trace::right) are what each side ticks next.
     pub trace: Trace,
 }
@@ -167,11 +170,11 @@ impl std::error::Error for Unknown {}
 /// # Errors
 /// An atom that a tree asks and the environment's table does not have.
 pub fn compare(left: Side, right: Side, environment: Environment) -> Result<Verdict, Unknown> {
-    compare_onward(left, right, environment, &|_| false).map(|(verdict, _)| verdict)
+    compare_onward(left, right, environment, &|_, _| false).map(|(verdict, _)| verdict)
 }
 
-/// As [`compare`]; where two trees select the same in every tick, also whether they go on alike in a tick in which a
-/// behaviour that may fail does.
+/// As [`compare`]; where two trees select the same in every tick, also whether they go on alike in that tick, whatever comes
+/// of it that may. Along what a table records, only the next behaviour is looked at.
 ///
 /// # Errors
 /// As [`compare`].
@@ -179,18 +182,18 @@ pub fn compare_onward(
     left: Side,
     right: Side,
     environment: Environment,
-    may_fail: MayFail,
+    may_end: MayEnd,
 ) -> Result<(Verdict, Onward), Unknown> {
     let sides = [left, right];
     match (left, right, environment) {
         (_, _, Environment::Greedy(table)) => {
-            product::explore(sides, table, Follow::Recorded, may_fail)
+            product::explore(sides, table, Follow::Recorded, may_end)
         }
         // A table decides on its own minterms only.
         (_, _, Environment::Observed(table))
         | (Side::Policy(table), _, _)
         | (_, Side::Policy(table), _) => {
-            product::explore(sides, table, Follow::Consistent, may_fail)
+            product::explore(sides, table, Follow::Consistent, may_end)
         }
         (Side::Tree(left), Side::Tree(right), _) if left == right => {
             let explored = Explored {
@@ -200,10 +203,10 @@ pub fn compare_onward(
             Ok((Verdict::Equal(explored), Onward::Alike))
         }
         (Side::Tree(left), Side::Tree(right), Environment::Any(history)) => {
-            symbolic::explore((left, right), (history, &[]), may_fail)
+            symbolic::explore((left, right), (history, &[]), may_end)
         }
         (Side::Tree(left), Side::Tree(right), Environment::Possible(history, excluded)) => {
-            symbolic::explore((left, right), (history, excluded), may_fail)
+            symbolic::explore((left, right), (history, excluded), may_end)
         }
     }
 }

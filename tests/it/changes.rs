@@ -32,6 +32,39 @@ fn another_shape_is_proved_equal() {
     assert!(out(&output).starts_with("same: "), "{}", out(&output));
 }
 
+/// Trees that choose the same first are no equal trees where they go on otherwise in the tick in which that ends.
+#[test]
+fn what_comes_next_in_a_tick_is_told_too() {
+    for form in ["human", "markdown", "json", "github"] {
+        let pair = ["gap.bt", "--tree", "good", "--new-tree", "bad"];
+        let more = ["--episodes", "20", "--format", form];
+        let arguments = [&["diff", "gap.bt"], &pair[..], &more].concat();
+        let output = btc(&cases(), &arguments);
+        assert_eq!(output.status.code(), Some(1), "{}", err(&output));
+        snapshot::check(&format!("diff@gap.{form}"), out(&output));
+    }
+    let mut told = String::new();
+    for (old, new, code) in [
+        ("fallback", "waits", 1),
+        ("fallback", "guarded", 1),
+        ("third", "third_too", 1),
+        ("step", "leap", 1),
+        ("both", "other", 1),
+        ("resumes", "gives_up", 1),
+        // What never ends lets nothing come next.
+        ("stays", "stays_too", 0),
+    ] {
+        let pair = ["onward.bt", "onward.bt", "--tree", old, "--new-tree", new];
+        let output = btc(&cases(), &[&["diff"], &pair[..]].concat());
+        assert_eq!(output.status.code(), Some(code), "{}", err(&output));
+        told.push_str(out(&output));
+        let output = btc(&cases(), &["verify", "onward.bt", old, new]);
+        assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+        told.push_str(&format!("{}\n", out(&output)));
+    }
+    snapshot::check("diff@onward", &told);
+}
+
 /// A table of some minterms of many atoms decides otherwise than a tree in a few of them: the condition holds in those, and says
 /// nothing of minterms without a row.
 #[test]
@@ -228,6 +261,24 @@ fn learned_trees_are_held_against_snapshots() {
     assert_eq!(before, after);
     let output = test(&["--review"]);
     assert_eq!(output.status.code(), Some(2), "{}", err(&output));
+
+    // A tree that chooses the same first is not the one that was learned where it goes on otherwise.
+    let accepted = test(&["--accept"]);
+    assert_eq!(accepted.status.code(), Some(0), "{}", err(&accepted));
+    let snapshot = path.join("yard.learned.bt");
+    let learned = fs::read_to_string(&snapshot).unwrap();
+    let (head, _) = learned.split_once("tree learned").unwrap();
+    let onward = format!("{head}tree learned for mow = selector {{ goto(gate), goto(shed) }}\n");
+    fs::write(&snapshot, onward).unwrap();
+    let output = test(&[]);
+    assert_eq!(output.status.code(), Some(1), "{}", err(&output));
+    for part in [
+        "chooses the same first",
+        "in a tick in which goto(gate) fails: goto(shed) → nothing",
+    ] {
+        assert!(out(&output).contains(part), "{part}: {}", out(&output));
+    }
+    fs::write(&snapshot, &before).unwrap();
 
     // An empty file is no snapshot yet, one that is broken is a failure, and either may be overwritten.
     let snapshot = path.join("yard.learned.bt");

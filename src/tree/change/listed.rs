@@ -98,6 +98,7 @@ fn changed(
                 let off = Bits::full(decided.len()).minus(&on);
                 changes.push(Change {
                     when: Some(covered(&columns, &on, &off, atoms)),
+                    ended: Vec::new(),
                     old: *was,
                     new: *is,
                 });

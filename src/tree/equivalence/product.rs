@@ -4,7 +4,7 @@ use super::environment::{Follow, Place, TableEnvironment};
 use super::moment::Moment;
 use super::oracle::Oracle;
 use super::side::Automaton;
-use super::{Explored, MayFail, Onward, Parted, Side, Trace, TraceTick, Unknown, Verdict};
+use super::{Explored, MayEnd, Onward, Parted, Side, Trace, TraceTick, Unknown, Verdict};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::Status;
@@ -38,7 +38,7 @@ pub(super) fn explore(
     [left, right]: [Side; 2],
     table: &Policy,
     follow: Follow,
-    may_fail: MayFail,
+    may_end: MayEnd,
 ) -> Result<(Verdict, Onward), Unknown> {
     let environment = TableEnvironment::new(table, follow);
     let sides = [
@@ -53,7 +53,7 @@ pub(super) fn explore(
         transitions: BTreeSet::new(),
         open: BTreeSet::new(),
         explored: Explored::default(),
-        may_fail,
+        may_end,
         onward: None,
         environment: &environment,
     };
@@ -70,8 +70,8 @@ struct Product<'a> {
     transitions: BTreeSet<usize>,
     open: BTreeSet<(usize, Option<Id<Behavior>>)>,
     explored: Explored,
-    may_fail: MayFail<'a>,
-    /// The first tick in which the sides go on differently after a failure.
+    may_end: MayEnd<'a>,
+    /// The first tick in which the sides go on differently after what they select.
     onward: Option<Parted>,
 }
 
@@ -145,11 +145,14 @@ impl Product<'_> {
         let behavior = left.selected;
         if self.onward.is_none()
             && left.then != right.then
-            && consequence.status == Status::Failure
-            && let Some(behavior) = behavior.filter(|behavior| (self.may_fail)(*behavior))
+            && let Some(behavior) = behavior
+            && (self.may_end)(behavior, consequence.status)
         {
             let trace = self.trace(at, valuation.clone(), [left.then, right.then]);
-            self.onward = Some(Parted { behavior, trace });
+            self.onward = Some(Parted {
+                ended: vec![(behavior, consequence.status)],
+                trace,
+            });
         }
         if consequence.open {
             self.open.insert((minterm, behavior));

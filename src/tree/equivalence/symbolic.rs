@@ -9,9 +9,8 @@ mod pairs;
 #[cfg(test)]
 mod proved;
 
-use super::unfold::Unfolded;
 use super::window::{Termination, Window, enter};
-use super::{Explored, MayFail, Means, Onward, Trace, Unknown, Verdict};
+use super::{ANSWERS, Explored, MayEnd, Means, Onward, Trace, TraceTick, Unknown, Verdict};
 use crate::ir::task::History;
 use crate::ir::tree::{Atom, Exclusion, Node};
 use crate::tree::atoms::{atoms, behaviors};
@@ -21,7 +20,6 @@ use crate::tree::compiled::CompiledTree;
 use pairs::{Memories, Pairs};
 use rustc_hash::FxHashSet;
 use std::collections::BTreeSet;
-use std::rc::Rc;
 
 /// Up to this many atoms, a truth table is quicker than a solver.
 const TABLE: usize = 20;
@@ -38,17 +36,15 @@ const STATES: usize = 100_000;
 pub(super) fn explore(
     (left, right): (&Node, &Node),
     (history, excluded): (History, &[Exclusion]),
-    may_fail: MayFail,
+    may_end: MayEnd,
 ) -> Result<(Verdict, Onward), Unknown> {
     let mut search = SymbolicSearch::new((left, right), (history, excluded))?;
     Ok(match search.run() {
         Ok(Some(trace)) => (Verdict::Differ(trace), Onward::Undecided),
-        Ok(None) if !behaviors(left).into_iter().any(may_fail) => {
-            (Verdict::Equal(search.explored), Onward::Alike)
-        }
+        Ok(None) if !may_go_on(left, may_end) => (Verdict::Equal(search.explored), Onward::Alike),
         Ok(None) => {
             let explored = search.explored.clone();
-            let onward = match search.onward(may_fail) {
+            let onward = match search.onward(may_end) {
                 Ok(parted) => parted.map_or(Onward::Alike, Onward::Differ),
                 Err(Exhausted) => Onward::Undecided,
             };
@@ -56,6 +52,12 @@ pub(super) fn explore(
         }
         Err(Exhausted) => (Verdict::Undecided(search.explored), Onward::Undecided),
     })
+}
+
+/// Whether a tick may go on after a behaviour of this tree.
+fn may_go_on(tree: &Node, may_end: MayEnd) -> bool {
+    let mut behaviors = behaviors(tree).into_iter();
+    behaviors.any(|behavior| ANSWERS.iter().any(|answer| may_end(behavior, *answer)))
 }
 
 /// Both memories and the window.
@@ -107,7 +109,7 @@ impl SymbolicSearch {
     fn run(&mut self) -> Result<Option<Trace>, Exhausted> {
         let fresh = self.pairs.fresh();
         let first = self.pairs.pair(&fresh);
-        if let Some(valuation) = self.at_once(first.differ)? {
+        if let Some(valuation) = self.at_once(first.differ, Pairs::atoms)? {
             let trace = self.pairs.parted(Vec::new(), &first.sides, &valuation);
             return Ok(Some(trace));
         }
@@ -129,18 +131,23 @@ impl SymbolicSearch {
         Ok(None)
     }
 
-    /// The least valuation in which this holds before anything has happened, whatever the window holds.
-    fn at_once(&mut self, holds: Signal) -> Result<Option<Vec<bool>>, Exhausted> {
+    /// The least values of these inputs with which this holds before anything has happened, whatever the window holds.
+    fn at_once(
+        &mut self,
+        holds: Signal,
+        inputs: fn(&Pairs) -> Vec<Signal>,
+    ) -> Result<Option<Vec<bool>>, Exhausted> {
         let too_many = self.pairs.too_many();
-        let inputs = &mut self.pairs.inputs;
-        let goal = inputs.circuit.all([holds, !too_many, self.pairs.possible]);
-        let asked = inputs.circuit.support(goal, &inputs.atoms);
+        let inputs = inputs(&self.pairs);
+        let circuit = &mut self.pairs.inputs.circuit;
+        let goal = circuit.all([holds, !too_many, self.pairs.possible]);
+        let asked = circuit.support(goal, &inputs);
         if asked <= TABLE {
             self.explored.means = Means::Table { atoms: asked };
-            return Ok(truth::least(&inputs.circuit, goal, &inputs.atoms));
+            return Ok(truth::least(circuit, goal, &inputs));
         }
         self.explored.means = Means::Solver { atoms: asked };
-        self.solver.least(&inputs.circuit, &[goal], &inputs.atoms)
+        self.solver.least(circuit, &[goal], &inputs)
     }
 
     /// Every window that may be there before the first tick, the emptiest first.
@@ -177,7 +184,8 @@ impl SymbolicSearch {
         let mut open = self.pairs.shows(&state.window);
         open.push(pair.differ);
         if self.solver.can_hold(&self.pairs.inputs.circuit, &open)? {
-            let trace = self.trace(at, pair.differ, &pair.sides)?;
+            let (steps, values) = self.way(at, pair.differ)?;
+            let trace = self.pairs.parted(steps, &pair.sides, &values);
             return Ok(Some(trace));
         }
         open.pop();
@@ -210,13 +218,8 @@ impl SymbolicSearch {
         Ok(None)
     }
 
-    /// The way to a state in which the trees part by `differ`, its valuations as small as they can be.
-    fn trace(
-        &mut self,
-        at: usize,
-        differ: Signal,
-        sides: &[Rc<Unfolded>; 2],
-    ) -> Result<Trace, Exhausted> {
+    /// The steps to a state, and values of all inputs with which the trees part there by `differ`; all as small as they can be.
+    fn way(&mut self, at: usize, differ: Signal) -> Result<(Vec<TraceTick>, Vec<bool>), Exhausted> {
         let mut path = Vec::new();
         let mut next = Some((at, None));
         while let Some((at, moves)) = next {
@@ -235,7 +238,7 @@ impl SymbolicSearch {
             let values = least.ok_or(Exhausted)?;
             match moves {
                 Some(_) => steps.push(self.pairs.step(&pair, &inputs, &values)),
-                None => return Ok(self.pairs.parted(steps, sides, &values)),
+                None => return Ok((steps, values)),
             }
         }
         Err(Exhausted)

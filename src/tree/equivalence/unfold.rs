@@ -1,25 +1,26 @@
 //! What a tree does in one tick, from given memory, as functions of everything that it may meet.
 
+use super::MayEnd;
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::{Composite, Decorator, Status};
 use crate::tree::answers;
 use crate::tree::circuit::{Circuit, Signal};
 use crate::tree::compiled::{CompiledTree, Jump, Op, Placed};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What a tick meets: a signal for every atom, and for every behaviour whether it ends and whether it then fails. In
 /// one tick a behaviour has one status, wherever it is ticked: nothing has moved in between.
-pub(super) struct Inputs {
-    pub(super) circuit: Circuit,
+pub(in crate::tree) struct Inputs {
+    pub(in crate::tree) circuit: Circuit,
     /// The atoms, in the order of the trees' bits.
-    pub(super) atoms: Vec<Signal>,
-    pub(super) behaviors: BTreeMap<Id<Behavior>, [Signal; 2]>,
+    pub(in crate::tree) atoms: Vec<Signal>,
+    pub(in crate::tree) behaviors: BTreeMap<Id<Behavior>, [Signal; 2]>,
 }
 
 impl Inputs {
     /// When a behaviour has this status.
-    pub(super) fn status(&mut self, behavior: Id<Behavior>, status: Status) -> Signal {
+    pub(in crate::tree) fn status(&mut self, behavior: Id<Behavior>, status: Status) -> Signal {
         let circuit = &mut self.circuit;
         let [ends, fails] = *self
             .behaviors
@@ -31,34 +32,83 @@ impl Inputs {
             Status::Failure => circuit.and(ends, fails),
         }
     }
+
+    /// Where behaviours are ticked at different times.
+    pub(in crate::tree) fn differ(
+        &mut self,
+        [left, right]: [&BTreeMap<Id<Behavior>, Signal>; 2],
+    ) -> Signal {
+        let behaviors: BTreeSet<_> = left.keys().chain(right.keys()).collect();
+        let when = |side: &BTreeMap<_, Signal>, behavior| {
+            let when = side.get(behavior).copied();
+            when.unwrap_or(Signal::FALSE)
+        };
+        let mut differ = Signal::FALSE;
+        for behavior in behaviors {
+            let (left, right) = (when(left, behavior), when(right, behavior));
+            let parts = self.circuit.xor(left, right);
+            differ = self.circuit.or(differ, parts);
+        }
+        differ
+    }
+
+    /// Where behaviours of two whole ticks are ticked at different times, each answering as it may.
+    pub(in crate::tree) fn differ_at_all(
+        &mut self,
+        [left, right]: [&Unfolded; 2],
+        may_end: MayEnd,
+    ) -> Signal {
+        let mut holds = vec![self.differ([&left.ticked, &right.ticked])];
+        let behaviors: BTreeSet<_> = left.ticked.keys().chain(right.ticked.keys()).collect();
+        for behavior in behaviors {
+            for status in [Status::Success, Status::Failure] {
+                if !may_end(*behavior, status) {
+                    holds.push(!self.status(*behavior, status));
+                }
+            }
+        }
+        self.circuit.all(holds)
+    }
 }
 
 /// The slots of a memory that are not 0.
 type Slots = BTreeMap<usize, u64>;
 
+/// How far a tick is followed.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+pub(in crate::tree) struct Given {
+    /// What has been ticked before, and what it answers: what is selected is what is ticked next.
+    pub(in crate::tree) ended: Vec<(Id<Behavior>, Status)>,
+    /// Whether all that is ticked after it is told as well.
+    pub(in crate::tree) whole: bool,
+}
+
 /// A tick of a tree, from one memory.
 #[derive(Default)]
-pub(super) struct Unfolded {
+pub(in crate::tree) struct Unfolded {
     /// When each behaviour is selected.
-    pub(super) selects: BTreeMap<Id<Behavior>, Signal>,
+    pub(in crate::tree) selects: BTreeMap<Id<Behavior>, Signal>,
+    /// When each behaviour is ticked at all, if the whole tick is followed.
+    pub(in crate::tree) ticked: BTreeMap<Id<Behavior>, Signal>,
     /// The memories that the tick may leave, and when it does.
     pub(super) leaves: Vec<(Box<[u64]>, Signal)>,
 }
 
-/// Unfolds a tick from this memory. Where `failing` is ticked, it fails, and what is selected is what is ticked next.
-pub(super) fn unfold(
+/// Unfolds a tick from this memory.
+pub(in crate::tree) fn unfold(
     tree: &CompiledTree,
     memory: &[u64],
     inputs: &mut Inputs,
-    failing: Option<Id<Behavior>>,
+    given: &Given,
 ) -> Unfolded {
     let mut tick = Tick {
         tree,
         memory,
         inputs,
-        failing,
+        given,
         tests: vec![None; tree.tests.len()],
         selects: BTreeMap::new(),
+        ticked: BTreeMap::new(),
     };
     let ways = tick.node(
         0,
@@ -67,10 +117,11 @@ pub(super) fn unfold(
             fresh: Signal::TRUE,
         },
     );
-    let selects = tick.selects;
+    let (selects, ticked) = (tick.selects, tick.ticked);
     if tree.slots == 0 {
         return Unfolded {
             selects,
+            ticked,
             leaves: vec![(Box::default(), Signal::TRUE)],
         };
     }
@@ -85,6 +136,7 @@ pub(super) fn unfold(
     });
     Unfolded {
         selects,
+        ticked,
         leaves: leaves.collect(),
     }
 }
@@ -133,10 +185,11 @@ struct Tick<'a> {
     tree: &'a CompiledTree,
     memory: &'a [u64],
     inputs: &'a mut Inputs,
-    failing: Option<Id<Behavior>>,
+    given: &'a Given,
     /// The guards from each test on, as far as they were asked.
     tests: Vec<Option<Signal>>,
     selects: BTreeMap<Id<Behavior>, Signal>,
+    ticked: BTreeMap<Id<Behavior>, Signal>,
 }
 
 impl Tick<'_> {
@@ -199,14 +252,19 @@ impl Tick<'_> {
     }
 
     fn behavior(&mut self, behavior: Id<Behavior>, reach: Reach) -> Ways {
-        if self.failing == Some(behavior) {
-            return self.fails(reach);
+        let mut ended = self.given.ended.iter();
+        if let Some((_, answer)) = ended.find(|(ended, _)| *ended == behavior) {
+            return self.has_ended(*answer, reach);
+        }
+        if self.given.whole {
+            let ticked = self.ticked.entry(behavior).or_insert(Signal::FALSE);
+            *ticked = self.inputs.circuit.or(*ticked, reach.all);
         }
         let selected = self.selects.entry(behavior).or_insert(Signal::FALSE);
         *selected = self.inputs.circuit.or(*selected, reach.fresh);
         let mut ways = Ways::new();
         // Without memory, what comes of behaviours leaves no trace.
-        if self.tree.slots == 0 {
+        if self.tree.slots == 0 && !self.given.whole {
             return ways;
         }
         for answer in [Status::Success, Status::Failure, Status::Running] {
@@ -222,14 +280,14 @@ impl Tick<'_> {
         ways
     }
 
-    /// The behaviour that fails, which is not selected.
-    fn fails(&mut self, reach: Reach) -> Ways {
+    /// A behaviour whose answer is given, which is not selected.
+    fn has_ended(&mut self, answer: Status, reach: Reach) -> Ways {
         let mut ways = Ways::new();
         let left = Left {
             drove: true,
             ..Left::default()
         };
-        self.take(&mut ways, Status::Failure, left, reach.all);
+        self.take(&mut ways, answer, left, reach.all);
         ways
     }
 

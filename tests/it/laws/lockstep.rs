@@ -99,9 +99,11 @@ pub(crate) type State = (Memory, Memory, Window);
 /// What each side selects, how the left one's selection ends, and what comes then.
 pub(crate) struct Ticked {
     pub(crate) selected: [Option<Id<Behavior>>; 2],
-    /// What each side ticks after that, if it is another.
-    then: [Option<Id<Behavior>>; 2],
+    /// What each side ticks after that, each behaviour once.
+    then: [Vec<Id<Behavior>>; 2],
     status: Status,
+    /// What each behaviour answers.
+    statuses: BTreeMap<Id<Behavior>, Status>,
     to: State,
 }
 
@@ -130,8 +132,13 @@ impl<'a> Lockstep<'a> {
                 .map(|(root, memory)| tick(root, memory, &holds, &mut |b| statuses[&b]));
             let selected = [&l, &r].map(|t| t.ticked.first().copied());
             let then = [&l, &r].map(|t| {
-                let mut others = t.ticked.iter().filter(|b| t.ticked.first() != Some(b));
-                others.next().copied()
+                let mut others: Vec<Id<Behavior>> = Vec::new();
+                for b in &t.ticked {
+                    if t.ticked.first() != Some(b) && !others.contains(b) {
+                        others.push(*b);
+                    }
+                }
+                others
             });
             let status = selected[0].map_or(Status::Running, |b| statuses[&b]);
             let mut window = window.clone();
@@ -151,6 +158,7 @@ impl<'a> Lockstep<'a> {
                 selected,
                 then,
                 status,
+                statuses: statuses.clone(),
                 to: (l.memory, r.memory, window),
             }
         };
@@ -189,8 +197,8 @@ impl<'a> Lockstep<'a> {
         Some(None)
     }
 
-    /// How many ticks there are on the shortest way to one in which both sides, which never part, go on differently where
-    /// what they select fails.
+    /// How many ticks there are on the shortest way to one in which both sides, which never part, go on differently: another
+    /// behaviour comes next, or others are ticked at all.
     pub(crate) fn goes_on_differently(&self) -> Option<usize> {
         let mut known = self.starts();
         let mut layer: Vec<State> = known.iter().cloned().collect();
@@ -199,7 +207,9 @@ impl<'a> Lockstep<'a> {
             for state in &layer {
                 for minterm in valuations(&self.atoms, &state.2) {
                     for ticked in self.ticks(state, &minterm) {
-                        if ticked.status == Status::Failure && ticked.then[0] != ticked.then[1] {
+                        let [left, right] = &ticked.then;
+                        let all = [left, right].map(|then| then.iter().collect::<BTreeSet<_>>());
+                        if left.first() != right.first() || all[0] != all[1] {
                             return Some(depth);
                         } else if known.insert(ticked.to.clone()) {
                             next.push(ticked.to);
@@ -226,12 +236,19 @@ impl<'a> Lockstep<'a> {
     }
 
     /// Replays a trace that ends where both sides go on differently.
-    pub(crate) fn replay_onward(&self, Parted { behavior, trace }: &Parted) {
+    pub(crate) fn replay_onward(&self, Parted { ended, trace }: &Parted) {
         let last = self.last(trace);
         let parts = |ticked: &Ticked| {
-            ticked.selected == [Some(*behavior); 2]
-                && ticked.status == Status::Failure
-                && ticked.then == [trace.left, trace.right]
+            let [left, right] = [0, 1].map(|side| {
+                let selected = ticked.selected[side].iter();
+                let all: Vec<Id<Behavior>> = selected.chain(&ticked.then[side]).copied().collect();
+                let alike = ended.iter().zip(&all).all(|((b, _), other)| b == other);
+                alike.then(|| all.get(ended.len()).copied())
+            });
+            ended
+                .iter()
+                .all(|(b, status)| ticked.statuses[b] == *status)
+                && [left, right] == [Some(trace.left), Some(trace.right)]
         };
         assert!(
             last.iter().any(parts) && trace.left != trace.right,

@@ -60,13 +60,13 @@ fn drawn(drawing: &Drawing) -> Size {
     })
 }
 
-/// The verdict, where enumeration ends; it is that of enumeration, and so is how the trees go on where all may fail.
+/// The verdict, where enumeration ends; it is that of enumeration, and so is how the trees go on where all may end in any way.
 pub(crate) fn agrees(left: &Node, right: &Node, history: History) -> Option<(Verdict, Onward)> {
     let both = Lockstep::new(left, right, history);
     let expected = both.parts(STATES)?;
     let environment = Environment::Any(history);
     let sides = [left, right].map(Side::Tree);
-    let (found, onward) = compare_onward(sides[0], sides[1], environment, &|_| true).unwrap();
+    let (found, onward) = compare_onward(sides[0], sides[1], environment, &|_, _| true).unwrap();
     match (&found, expected) {
         (Verdict::Equal(_), None) => {
             let expected = both.goes_on_differently();

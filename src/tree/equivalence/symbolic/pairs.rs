@@ -7,18 +7,18 @@ use crate::ir::tree::{Atom, Exclusion, Status};
 use crate::policy::Minterm;
 use crate::tree::circuit::{Circuit, Signal};
 use crate::tree::compiled::CompiledTree;
-use crate::tree::equivalence::unfold::{Inputs, Unfolded, unfold};
+use crate::tree::equivalence::unfold::{Given, Inputs, Unfolded, unfold};
 use crate::tree::equivalence::window::{Termination, shows};
 use crate::tree::equivalence::{Trace, TraceTick};
 use rustc_hash::FxHashMap;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 /// A memory of each tree.
 pub(super) type Memories = [Box<[u64]>; 2];
 
-/// A tick of a tree: from which memory, and which behaviour fails in it, if that is asked.
-type Ticked = (Box<[u64]>, Option<Id<Behavior>>);
+/// A tick of a tree: from which memory, and how far it is followed.
+type Ticked = (Box<[u64]>, Given);
 
 /// A tick of both trees from a pair of memories.
 pub(super) struct Pair {
@@ -125,8 +125,7 @@ impl Pairs {
         if let Some(pair) = self.known.get(memories) {
             return Rc::clone(pair);
         }
-        let [left, right] = memories;
-        let sides = [self.unfold(0, left, None), self.unfold(1, right, None)];
+        let sides = self.both(memories, &Given::default());
         let differ = self.differ(&sides);
         let [selecting, _] = &sides;
         let enters = self.enters(&selecting.selects);
@@ -141,32 +140,21 @@ impl Pairs {
 
     /// When two ticks select different behaviours.
     pub(super) fn differ(&mut self, [left, right]: &[Rc<Unfolded>; 2]) -> Signal {
-        let circuit = &mut self.inputs.circuit;
-        let behaviors: BTreeSet<_> = left.selects.keys().chain(right.selects.keys()).collect();
-        let selects = |side: &Unfolded, behavior| {
-            let when = side.selects.get(behavior).copied();
-            when.unwrap_or(Signal::FALSE)
-        };
-        let mut differ = Signal::FALSE;
-        for behavior in behaviors {
-            let parts = circuit.xor(selects(left, behavior), selects(right, behavior));
-            differ = circuit.or(differ, parts);
-        }
-        differ
+        self.inputs.differ([&left.selects, &right.selects])
     }
 
-    /// The tick of one tree from a memory. Where a behaviour is failing, it fails, and what is selected is what comes next.
-    pub(super) fn unfold(
-        &mut self,
-        side: usize,
-        memory: &[u64],
-        failing: Option<Id<Behavior>>,
-    ) -> Rc<Unfolded> {
+    /// The ticks of both trees from these memories.
+    pub(super) fn both(&mut self, [left, right]: &Memories, given: &Given) -> [Rc<Unfolded>; 2] {
+        [self.unfold(0, left, given), self.unfold(1, right, given)]
+    }
+
+    /// The tick of one tree from a memory.
+    fn unfold(&mut self, side: usize, memory: &[u64], given: &Given) -> Rc<Unfolded> {
         let (Some(tree), Some(known)) = (self.trees.get(side), self.unfolded.get_mut(side)) else {
             return Rc::default();
         };
-        let entry = known.entry((memory.into(), failing));
-        let unfolded = || Rc::new(unfold(tree, memory, &mut self.inputs, failing));
+        let entry = known.entry((memory.into(), given.clone()));
+        let unfolded = || Rc::new(unfold(tree, memory, &mut self.inputs, given));
         Rc::clone(entry.or_insert_with(unfolded))
     }
 
@@ -194,6 +182,11 @@ impl Pairs {
         }
         let entries = entries.into_iter().map(|(kind, when)| (Some(kind), when));
         std::iter::once((None, !some)).chain(entries).collect()
+    }
+
+    /// The atoms.
+    pub(super) fn atoms(&self) -> Vec<Signal> {
+        self.inputs.atoms.clone()
     }
 
     /// The atoms, then the statuses of all behaviours.
@@ -241,7 +234,7 @@ impl Pairs {
         Minterm::new(values.iter().copied().take(self.atoms.len()))
     }
 
-    fn selected(
+    pub(super) fn selected(
         &self,
         side: &Unfolded,
         inputs: &[Signal],
