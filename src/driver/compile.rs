@@ -85,7 +85,7 @@ fn one_tree(loaded: &Loaded, named: Option<Id<Tree>>) -> Result<Id<Tree>, Refuse
                     "say which one with `--tree NAME`",
                 ),
             };
-            let place = target::end_of_file(loaded);
+            let place = target::place_of(loaded, "tree");
             let diagnostic = Diagnostic::new(Code::E0504, place, message).label(label);
             Err(Refused::program(loaded, [diagnostic]))
         }

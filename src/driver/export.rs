@@ -10,7 +10,7 @@ use crate::emit::steps::Steps;
 use crate::ir::tree::Tree;
 use crate::ir::{Id, Name, Program};
 use crate::source::Span;
-use crate::syntax::ast::{ItemKind, Node, NodeKind};
+use crate::syntax::ast::{Node, NodeKind};
 use crate::syntax::print;
 
 /// A tree in a form. It may be a tree that the program does not have; the program gives the names. `place` gives the
@@ -78,11 +78,12 @@ pub(super) fn beside(loaded: &Loaded, path: Option<&str>, origin: &str, item: &s
 
 /// Where the node at a path of child positions is written; a subtree is one leaf.
 pub(super) fn place(loaded: &Loaded, tree: &Tree, path: &[usize]) -> Span {
-    let written = loaded.ast.items.iter().find_map(|item| match &item.kind {
-        ItemKind::Tree(item) if tree.name.as_word() == Some(&item.name.name) => Some(&item.root),
-        _ => None,
-    });
-    written.map_or_else(|| target::end_of_file(loaded), |root| node_at(root, path))
+    let name = tree.name.as_word();
+    let written = name.and_then(|name| target::written(loaded, name));
+    written.map_or_else(
+        || target::end_of_file(loaded),
+        |written| node_at(&written.root, path),
+    )
 }
 
 fn node_at(root: &Node, path: &[usize]) -> Span {

@@ -1,10 +1,11 @@
 //! Where the nodes of a tree are written.
 
 use super::load::Loaded;
+use super::target;
 use crate::ir::tree::Node;
 use crate::report::coverage::{Coverage, Place};
 use crate::source::Span;
-use crate::syntax::ast::{self, Expr, ExprKind, ItemKind, NodeKind};
+use crate::syntax::ast::{self, Expr, ExprKind, NodeKind};
 use crate::syntax::print;
 use crate::trial::test::Answers;
 use std::collections::BTreeMap;
@@ -25,7 +26,7 @@ pub(super) fn of(loaded: &Loaded, name: &str, named: Span, root: &Node) -> Found
         found: Vec::new(),
         calls: BTreeMap::new(),
     };
-    match places.tree(name) {
+    match target::written(loaded, name) {
         Some(tree) => places.node(&tree.root, root),
         None => places.all(root, named),
     }
@@ -72,19 +73,6 @@ struct Places<'l> {
 }
 
 impl<'l> Places<'l> {
-    /// The tree of that name; one of a file goes before one of the files that it uses.
-    fn tree(&self, name: &str) -> Option<&'l ast::Tree> {
-        let named = |ast: &'l ast::File| {
-            ast.items.iter().find_map(|item| match &item.kind {
-                ItemKind::Tree(tree) if tree.name.name == name => Some(tree),
-                _ => None,
-            })
-        };
-        let used: Vec<&ast::File> = self.loaded.asts().skip(1).collect();
-        let own = named(&self.loaded.ast);
-        own.or_else(|| used.into_iter().rev().find_map(named))
-    }
-
     fn node(&mut self, written: &'l ast::Node, node: &Node) {
         match (&written.kind, node.children()) {
             (NodeKind::Guarded { guard, node: inner }, [asked, rest]) => {
@@ -113,16 +101,18 @@ impl<'l> Places<'l> {
                     self.node(written, node);
                 }
             }
-            (NodeKind::Leaf(leaf), _) => match called(leaf).and_then(|name| self.tree(name)) {
-                Some(tree) => {
-                    // What one subtree calls at once is its own matter.
-                    let at = self.found.len();
-                    let call = (written.span, print::expr(leaf));
-                    self.node(&tree.root, node);
-                    self.calls.insert(at, call);
+            (NodeKind::Leaf(leaf), _) => {
+                match called(leaf).and_then(|name| target::written(self.loaded, name)) {
+                    Some(tree) => {
+                        // What one subtree calls at once is its own matter.
+                        let at = self.found.len();
+                        let call = (written.span, print::expr(leaf));
+                        self.node(&tree.root, node);
+                        self.calls.insert(at, call);
+                    }
+                    None => self.all(node, written.span),
                 }
-                None => self.all(node, written.span),
-            },
+            }
             _ => self.all(node, written.span),
         }
     }

@@ -31,7 +31,28 @@ pub fn world_span(loaded: &Loaded) -> Span {
     found.unwrap_or_else(|| end_of_file(loaded))
 }
 
-/// The last item of that sort in the program, by its name; without one its last task, or else the end of the main file.
+/// The tree of that name as it is written; one of a file goes before one of the files that it uses.
+pub fn written<'l>(loaded: &'l Loaded, name: &str) -> Option<&'l ast::Tree> {
+    let named = |ast: &'l ast::File| {
+        ast.items.iter().find_map(|item| match &item.kind {
+            ItemKind::Tree(tree) if tree.name.name == name => Some(tree),
+            _ => None,
+        })
+    };
+    let used: Vec<&ast::File> = loaded.asts().skip(1).collect();
+    let own = named(&loaded.ast);
+    own.or_else(|| used.into_iter().rev().find_map(named))
+}
+
+/// The name of a tree where it is written, or the end of the main file.
+pub fn tree_span(loaded: &Loaded, tree: &Tree) -> Span {
+    let name = tree.name.as_word();
+    let written = name.and_then(|name| written(loaded, name));
+    written.map_or_else(|| end_of_file(loaded), |written| written.name.span)
+}
+
+/// The last item of that sort in the program, by its name, if it can be one of the main file; without one its last task, or
+/// else the end of the main file.
 pub fn place_of(loaded: &Loaded, word: &str) -> Span {
     let of = |word: &str, item: &Item| match (word, &item.kind) {
         ("tree", ItemKind::Tree(tree)) => Some(tree.name.span),
@@ -42,8 +63,14 @@ pub fn place_of(loaded: &Loaded, word: &str) -> Span {
         _ => None,
     };
     let last = |word: &str| {
-        let items = loaded.asts().flat_map(|ast| &ast.items);
-        items.filter_map(|item| of(word, item)).last()
+        let in_file = |ast: &ast::File| {
+            ast.items
+                .iter()
+                .filter_map(|item| of(word, item))
+                .next_back()
+        };
+        let own = in_file(&loaded.ast);
+        own.or_else(|| loaded.asts().filter_map(in_file).last())
     };
     let found = last(word).or_else(|| last("task"));
     found.unwrap_or_else(|| end_of_file(loaded))
@@ -249,12 +276,9 @@ fn missing<'n>(
     name: &str,
     names: impl Iterator<Item = &'n Name>,
 ) -> Refused {
-    let items = loaded.asts().flat_map(|ast| &ast.items);
-    let declared = items.filter_map(|item| match &item.kind {
-        ItemKind::Tree(tree) if what == "tree" && tree.name.name == name => Some(tree),
-        _ => None,
-    });
-    if let Some(tree) = declared.last() {
+    if what == "tree"
+        && let Some(tree) = written(loaded, name)
+    {
         return Refused::program(loaded, [no_whole_tree(loaded, tree)]);
     }
     let diagnostic = Diagnostic::new(

@@ -64,7 +64,7 @@ fn compared(loaded: &Loaded, left: Id<Tree>, right: Id<Tree>) -> Result<Proved, 
         let (first, second) = (&program.tasks[task].name, &program.tasks[other].name);
         let diagnostic = Diagnostic::new(
             Code::E0504,
-            target::end_of_file(loaded),
+            target::tree_span(loaded, b),
             format!(
                 "`{}` is for the task `{first}`, `{}` for `{second}`",
                 a.name, b.name
