@@ -30,6 +30,7 @@ pub use builtin::names as built_in_names;
 pub use lint::{exclusions, least};
 pub use meaning::{Entity, Meaning, Meanings};
 pub use names::learned_name;
+pub use task::history::kept_too_little;
 pub use task::learner::methods;
 pub use types::written::names as built_in_types;
 

@@ -4,9 +4,10 @@ use super::export;
 use super::load::Loaded;
 use super::refused::Refused;
 use super::target;
+use crate::check;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::emit::bt;
-use crate::ir::tree::{Atom, Tree};
+use crate::ir::tree::{Atom, Node, Status, Tree};
 use crate::ir::{Name, Program};
 use crate::policy::decisions;
 use crate::tree::atoms::atoms as asked;
@@ -43,10 +44,46 @@ pub fn canonicalize(
         let diagnostic = Diagnostic::new(Code::E0819, place, message).label(note);
         return Err(Refused::program(loaded, [diagnostic]));
     }
+    if let Some(unkept) = unkept(loaded, tree, &canonical) {
+        return Err(Refused::program(loaded, [unkept]));
+    }
     match form {
         Form::Csv => table(loaded, tree, &canonical),
         Form::Bt(path) => Ok((file(loaded, tree, &canonical, path), None)),
     }
+}
+
+/// Why the canonical form of a tree with memory could not be: it asks a history that the task does not keep.
+fn unkept(loaded: &Loaded, tree: &Tree, canonical: &Canonical) -> Option<Diagnostic> {
+    let task = &loaded.program.tasks[tree.task?];
+    let asked = canonical.atoms().into_iter().filter_map(Atom::termination);
+    let asked = asked.map(|(_, status)| status);
+    let lacking: Vec<Status> = asked
+        .filter(|status| !task.history.keeps(*status))
+        .collect();
+    if lacking.is_empty() {
+        return None;
+    }
+    let needed = [Status::Success, Status::Failure].map(|status| lacking.contains(&status));
+    let name = task.name.to_string();
+    let [message, help] = check::kept_too_little(&name, task.history, needed);
+    let path = remembers(&tree.root).unwrap_or_default();
+    let place = export::place(loaded, tree, &path);
+    let diagnostic = Diagnostic::new(Code::E0607, place, message)
+        .label("in the canonical form the history says what this remembers");
+    Some(diagnostic.help(help))
+}
+
+/// The way to the first node with memory.
+fn remembers(node: &Node) -> Option<Vec<usize>> {
+    if let Node::Composite { memory: true, .. } = node {
+        return Some(Vec::new());
+    }
+    let mut children = node.children().iter().enumerate();
+    children.find_map(|(at, child)| {
+        let below = remembers(child)?;
+        Some([vec![at], below].concat())
+    })
 }
 
 /// The canonical tree in a program.

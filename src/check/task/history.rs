@@ -109,23 +109,31 @@ impl<'a> Checker<'a> {
             all.sort_by_key(|it| it.place);
             let needs = |outcome| all.iter().any(|it| it.outcome == outcome);
             let needed = [Outcome::Success, Outcome::Failure].map(needs);
-            let outcomes = match needed {
-                [true, true] => "neither success nor failure",
-                [true, false] => "no success",
-                _ => "no failure",
-            };
             let places: Vec<Span> = all.iter().map(|it| it.place).collect();
             let Some((first, further)) = all.first().zip(places.get(1..)) else {
                 continue;
             };
-            let message = format!("the task `{task}` keeps {outcomes} in its history");
+            let [message, help] = kept_too_little(&task, history, needed);
             let told = self
                 .error(Code::E0607, first.place, message)
                 .label(first.label)
                 .and_at(further, "and here");
-            told.help(format!("let the task say `{}`", keeping(history, needed)));
+            told.help(help);
         }
     }
+}
+
+/// What is said of a task whose history does not keep the successes or failures that are needed, and what helps.
+pub fn kept_too_little(task: &str, history: History, needed: [bool; 2]) -> [String; 2] {
+    let outcomes = match needed {
+        [true, true] => "neither success nor failure",
+        [true, false] => "no success",
+        _ => "no failure",
+    };
+    [
+        format!("the task `{task}` keeps {outcomes} in its history"),
+        format!("let the task say `{}`", keeping(history, needed)),
+    ]
 }
 
 /// Whether a name says that the history begins empty, see [`Checker::no_end`].
