@@ -13,6 +13,7 @@ use crate::ir::name;
 use crate::ir::tree::Tree;
 use crate::report;
 use crate::syntax::print;
+use std::borrow::Cow;
 
 /// The forms that a program or a tree can be written in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,7 +51,7 @@ pub fn emit_in_steps(
     steps: Steps,
 ) -> Result<String, Refused> {
     let program = &loaded.program;
-    let named = tree.map(|name| target::tree(loaded, name)).transpose()?;
+    let named = tree.map(|name| to_show(loaded, name)).transpose()?;
     match (form, named) {
         (Form::Ast, _) => Ok(emit::ast::file(&loaded.ast)),
         (Form::Ir, _) => Ok(emit::ir::program(program)),
@@ -60,19 +61,31 @@ pub fn emit_in_steps(
         }
         (Form::Tree(TreeForm::Json), None) => Ok(emit::json::program(program)),
         (Form::Tree(form), named) => {
-            export::of_program(loaded, one_tree(loaded, named)?, (form, steps))
+            let tree = match named {
+                Some(tree) => tree,
+                None => Cow::Borrowed(one_tree(loaded)?),
+            };
+            export::of_program(loaded, &tree, (form, steps))
         }
     }
 }
 
-fn one_tree(loaded: &Loaded, named: Option<Id<Tree>>) -> Result<Id<Tree>, Refused> {
-    let trees = &loaded.program.trees;
-    if let Some(id) = named {
-        return Ok(id);
+/// The tree of that name, or the script of another robot: a form of it asks nothing of a task.
+fn to_show<'l>(loaded: &'l Loaded, name: &str) -> Result<Cow<'l, Tree>, Refused> {
+    match target::tree(loaded, name) {
+        Ok(id) => Ok(Cow::Borrowed(&loaded.program.trees[id])),
+        Err(refused) => {
+            let script = target::script(loaded, name).map(Cow::Owned);
+            script.ok_or(refused)
+        }
     }
+}
+
+fn one_tree(loaded: &Loaded) -> Result<&Tree, Refused> {
+    let trees = &loaded.program.trees;
     let ids: Vec<Id<Tree>> = trees.ids().collect();
     match ids.as_slice() {
-        [one] => Ok(*one),
+        [one] => Ok(&trees[*one]),
         _ => {
             let names = name::list(trees.values().map(|tree| &tree.name));
             let (message, label) = match ids.as_slice() {

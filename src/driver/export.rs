@@ -8,7 +8,7 @@ use crate::emit::form::TreeForm;
 use crate::emit::refusal::{Reason, Refusal};
 use crate::emit::steps::Steps;
 use crate::ir::tree::Tree;
-use crate::ir::{Id, Name, Program};
+use crate::ir::{Name, Program};
 use crate::source::Span;
 use crate::syntax::ast::{Node, NodeKind};
 use crate::syntax::print;
@@ -41,16 +41,15 @@ pub fn in_steps(
     written.map_err(|refusal| refused(&refusal, place(&refusal.path)))
 }
 
-/// A tree of the program in a form.
+/// A tree that is written in the program in a form.
 ///
 /// # Errors
 /// A node that the form has no counterpart for.
 pub fn of_program(
     loaded: &Loaded,
-    id: Id<Tree>,
+    exported: &Tree,
     form: (TreeForm, Steps),
 ) -> Result<String, Refused> {
-    let exported = &loaded.program.trees[id];
     let place = |path: &[usize]| place(loaded, exported, path);
     in_steps(&loaded.program, exported, form, place)
         .map_err(|mistake| Refused::program(loaded, [mistake]))

@@ -130,6 +130,39 @@ pub fn tree(loaded: &Loaded, name: &str) -> Result<Id<Tree>, Refused> {
         .ok_or_else(|| missing(loaded, "tree", name, trees.values().map(|tree| &tree.name)))
 }
 
+/// What another robot runs under that name, as a tree for no task.
+pub fn script(loaded: &Loaded, name: &str) -> Option<Tree> {
+    let world = loaded.program.world.as_ref()?;
+    let worlds = loaded.asts().flat_map(|ast| &ast.items);
+    let worlds = worlds.filter_map(|item| match &item.kind {
+        ItemKind::World(world) => Some(world),
+        _ => None,
+    });
+    let robots = worlds.flat_map(|world| &world.entries);
+    let mut runs = robots.filter_map(|entry| match &entry.kind {
+        WorldEntryKind::Robot { name: robot, .. } => {
+            run_by(&entry.kind).filter(|runs| *runs == name)?;
+            let others = &world.others;
+            others[others.find(|other| other.robot.name.is(&robot.name))?]
+                .script
+                .clone()
+        }
+        _ => None,
+    });
+    let root = runs.next()?;
+    let place = written(loaded, name)?.name.span;
+    let mut items = loaded.asts().flat_map(|ast| &ast.items);
+    let written =
+        items.find(|item| matches!(&item.kind, ItemKind::Tree(tree) if tree.name.span == place));
+    let docs = written.map(|item| item.docs.clone());
+    Some(Tree {
+        name: Name::word(name),
+        docs: docs.unwrap_or_default(),
+        task: None,
+        root,
+    })
+}
+
 /// The only tree, or the only one that is neither a part of others nor the script of another robot.
 ///
 /// # Errors
@@ -158,33 +191,37 @@ pub fn used_trees(loaded: &Loaded) -> Vec<&str> {
             NodeKind::Error => {}
         }
     }
-    fn named(expr: &Expr) -> Option<&str> {
-        match &expr.kind {
-            ExprKind::Ref(reference) => Some(&reference.name.name),
-            _ => None,
-        }
-    }
     let mut found = Vec::new();
     for item in loaded.asts().flat_map(|ast| &ast.items) {
         match &item.kind {
             ItemKind::Tree(tree) => leaves(&tree.root, &mut found),
             ItemKind::World(world) => {
-                let robots = world.entries.iter().filter_map(|entry| match &entry.kind {
-                    WorldEntryKind::Robot { entries, .. } => Some(entries),
-                    _ => None,
-                });
-                let scripts = robots.flatten().filter_map(|entry| match &entry.kind {
-                    RobotEntryKind::Field(field) if field.name.name == "runs" => {
-                        named(&field.value)
-                    }
-                    _ => None,
-                });
-                found.extend(scripts);
+                let entries = world.entries.iter();
+                found.extend(entries.filter_map(|entry| run_by(&entry.kind)));
             }
             _ => {}
         }
     }
     found
+}
+
+/// The tree that a robot of a world runs, if it is another than the acting one.
+fn run_by(entry: &WorldEntryKind) -> Option<&str> {
+    let WorldEntryKind::Robot { entries, .. } = entry else {
+        return None;
+    };
+    entries.iter().find_map(|entry| match &entry.kind {
+        RobotEntryKind::Field(field) if field.name.name == "runs" => named(&field.value),
+        _ => None,
+    })
+}
+
+/// The name that is all of an expression, but for its arguments.
+fn named(expr: &Expr) -> Option<&str> {
+    match &expr.kind {
+        ExprKind::Ref(reference) => Some(&reference.name.name),
+        _ => None,
+    }
 }
 
 /// The learner of that name, or the only one.
@@ -248,26 +285,26 @@ fn only<'n, T>(
 /// Why a tree that is declared is none that a command can take.
 fn no_whole_tree(loaded: &Loaded, tree: &ast::Tree) -> Diagnostic {
     let (at, name) = (tree.name.span, &tree.name.name);
-    let (code, message, label) = if tree.params.is_some() {
-        (
-            Code::E0504,
-            format!("the tree `{name}` has parameters"),
-            "a tree without any can use it",
-        )
-    } else if loaded.program.world.is_some() {
-        (
-            Code::E0504,
-            format!("another robot runs the tree `{name}`"),
-            "this one is its script",
-        )
-    } else {
-        (
-            Code::E0407,
-            format!("the tree `{name}` needs a world, and there is none"),
-            "a world counts the ticks of its timeouts",
-        )
-    };
-    Diagnostic::new(code, at, message).label(label)
+    if tree.params.is_some() {
+        let message = format!("the tree `{name}` has parameters");
+        let whole = format!(
+            "declare a tree that gives them values, and name that one: `tree NAME = {name}(…)`"
+        );
+        return Diagnostic::new(Code::E0504, at, message)
+            .label("what it does depends on their values")
+            .help(whole);
+    }
+    if loaded.program.world.is_some() {
+        let message = format!("another robot runs the tree `{name}`");
+        return Diagnostic::new(Code::E0504, at, message)
+            .label("this one is its script, and for no task")
+            .help(format!(
+                "`btc compile --tree {name} --emit svg` shows it, as other forms do"
+            ))
+            .help("a tree `for` a task is run by the robot that acts");
+    }
+    let message = format!("the tree `{name}` needs a world, and there is none");
+    Diagnostic::new(Code::E0407, at, message).label("a world counts the ticks of its timeouts")
 }
 
 fn missing<'n>(

@@ -5,6 +5,7 @@ mod file;
 mod format;
 mod leaves;
 mod library;
+mod other_robots;
 mod play;
 mod python;
 mod script;
