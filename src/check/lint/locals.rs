@@ -34,15 +34,22 @@ impl<'a> Checker<'a> {
                 law.locals = locals;
             }
         }
+        let mut families: BTreeMap<String, Vec<Id<Behavior>>> = BTreeMap::new();
+        for (id, behavior) in self.program.behaviors.iter() {
+            let family = behavior.name.family.clone();
+            families.entry(family).or_default().push(id);
+        }
         for item in items {
-            if let ItemKind::Behavior(behavior) = &item.kind {
-                self.locals_that_stay(behavior);
+            if let ItemKind::Behavior(behavior) = &item.kind
+                && let Some(instances) = families.get(&behavior.name.name)
+            {
+                self.locals_that_stay(behavior, instances);
             }
         }
     }
 
     /// Warns of locals that whatever sets them leaves as they are declared. Of what follows from that, nothing is said.
-    fn locals_that_stay(&mut self, behavior: &'a ast::Behavior) {
+    fn locals_that_stay(&mut self, behavior: &'a ast::Behavior, instances: &[Id<Behavior>]) {
         let BehaviorBody::Clauses(clauses) = &behavior.body else {
             return;
         };
@@ -50,7 +57,7 @@ impl<'a> Checker<'a> {
             let ClauseKind::Local { name, .. } = &clause.kind else {
                 continue;
             };
-            let own = self.locals_of(&behavior.name, name);
+            let own = self.locals_of(instances, name);
             let stays = |(behavior, local): &(Id<Behavior>, Id<Local>)| {
                 let law = self.program.behaviors[*behavior].law.as_ref();
                 law.is_some_and(|law| law.locals[*local].stays.is_one())
@@ -70,12 +77,15 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// The locals that have this name in the instances of a behaviour.
-    fn locals_of(&self, behavior: &Ident, name: &Ident) -> Vec<(Id<Behavior>, Id<Local>)> {
+    /// The locals that have this name in these instances of a behaviour.
+    fn locals_of(
+        &self,
+        instances: &[Id<Behavior>],
+        name: &Ident,
+    ) -> Vec<(Id<Behavior>, Id<Local>)> {
         let mut found = Vec::new();
-        for (id, instance) in self.program.behaviors.iter() {
-            let law = instance.law.as_ref();
-            let law = law.filter(|_| instance.name.family == behavior.name);
+        for &id in instances {
+            let law = self.program.behaviors[id].law.as_ref();
             let locals = law.into_iter().flat_map(|law| law.locals.iter());
             let named = locals.filter(|(_, local)| local.name == Name::word(&name.name));
             found.extend(named.map(|(local, _)| (id, local)));

@@ -20,20 +20,22 @@ type Resets<'a> = BTreeMap<&'a str, Span>;
 impl<'a> Checker<'a> {
     /// Warns of what is read where it was reset just before, in the same block or in an effect of the same event before it.
     pub fn read_after_reset(&mut self, items: impl Iterator<Item = &'a Item>) {
-        let mut known: BTreeMap<String, Resets<'a>> = BTreeMap::new();
-        for item in items {
+        // By what an effect waits for: its place, and the resets that hold behind it.
+        let mut known: BTreeMap<String, (usize, Resets<'a>)> = BTreeMap::new();
+        // The last effect that sets a name.
+        let mut set: BTreeMap<&str, usize> = BTreeMap::new();
+        for (at, item) in items.enumerate() {
             match &item.kind {
                 ItemKind::EachTick(block) => self.follow(block, &mut Resets::new()),
                 ItemKind::On(on) => {
                     let key = trigger(on);
-                    let mut resets = known.remove(&key).unwrap_or_default();
+                    let (before, mut resets) = known.remove(&key).unwrap_or_default();
+                    resets.retain(|name, _| set.get(name).is_none_or(|last| *last <= before));
                     self.follow(&on.block, &mut resets);
                     let mut mentions = Mentions::default();
                     mentions.block(&on.block);
-                    for other in known.values_mut() {
-                        other.retain(|name, _| !mentions.set.contains(name));
-                    }
-                    known.insert(key, resets);
+                    set.extend(mentions.set.into_iter().map(|name| (name, at)));
+                    known.insert(key, (at, resets));
                 }
                 ItemKind::Behavior(behavior) => self.follow_law(behavior),
                 _ => {}

@@ -7,8 +7,9 @@ use crate::diagnostic::Code;
 use crate::ir::expr::{Binary, Expr};
 use crate::ir::program::State;
 use crate::ir::world::World;
-use crate::ir::{Id, Program};
+use crate::ir::{Id, Pool, Program};
 use crate::syntax::ast::{self, ExprKind, Item, ItemKind};
+use std::collections::BTreeMap;
 
 /// The units of time.
 const UNITS: [&str; 4] = ["ms", "s", "min", "h"];
@@ -30,6 +31,12 @@ impl<'a> Checker<'a> {
         }
         let mut begins = Set::new();
         set_at_starts(&self.program, &mut begins);
+        let asked = compared(&self.program.pool);
+        let mut families: BTreeMap<&str, Vec<Id<State>>> = BTreeMap::new();
+        for (id, state) in self.program.states.iter() {
+            families.entry(&state.name.family).or_default().push(id);
+        }
+        let mut still = Vec::new();
         for item in items {
             let ItemKind::State(declared) = &item.kind else {
                 continue;
@@ -38,13 +45,19 @@ impl<'a> Checker<'a> {
             if !is_time(declared) || self.is_told_within(Code::W0205, name.span) {
                 continue;
             }
-            let states = self.program.states.iter();
-            let own = states.filter(|(_, state)| state.name.family == name.name);
-            let own = own.map(|(id, _)| still(&self.program, id, &set, &begins));
+            let own = families.get(name.name.as_str()).into_iter().flatten();
+            let own = own.map(|id| {
+                let asked = asked.get(id).map_or(&[][..], Vec::as_slice);
+                stays(&self.program, *id, asked, [&set, &begins])
+            });
             let own: Option<Vec<Still>> = own.collect();
-            let Some(Still { set, falls }) = own.as_ref().and_then(|own| own.first()) else {
-                continue;
-            };
+            still.extend(
+                own.and_then(|own| own.into_iter().next())
+                    .map(|it| (declared, it)),
+            );
+        }
+        for (declared, Still { set, falls }) in still {
+            let name = &declared.name;
             let (message, run) = match falls {
                 true => (
                     format!("nothing counts `{}` down", name.name),
@@ -60,14 +73,19 @@ impl<'a> Checker<'a> {
                 Some(_) => "a time does not run by itself: let it, in `each tick`".to_owned(),
             };
             self.warning(Code::W0313, name.span, message)
-                .label(format!("once it is {} s, it stays there", short(*set)))
+                .label(format!("once it is {} s, it stays there", short(set)))
                 .help(help);
         }
     }
 }
 
 /// The value of a time that stays where it is set, beyond a value that something asks for and that it begins on the other side of.
-fn still(program: &Program, id: Id<State>, set: &Set, begins: &Set) -> Option<Still> {
+fn stays(
+    program: &Program,
+    id: Id<State>,
+    asked: &[f64],
+    [set, begins]: [&Set; 2],
+) -> Option<Still> {
     let pool = &program.pool;
     let constants = |of: &Set| {
         let settings = of.get(&id).map_or(&[][..], Vec::as_slice);
@@ -78,16 +96,7 @@ fn still(program: &Program, id: Id<State>, set: &Set, begins: &Set) -> Option<St
     let mut first = constants(begins)?;
     first.extend(pool.constant(program.states[id].initial));
     let value = *set.first()?;
-    let is_it = |of| pool.get(of) == Expr::State(id);
-    pool.iter().find_map(|(_, expr)| {
-        let Expr::Binary(Binary::Lt | Binary::Le, a, b) = expr else {
-            return None;
-        };
-        let asked = match (pool.constant(a), pool.constant(b)) {
-            (Some(asked), None) if is_it(b) => asked,
-            (None, Some(asked)) if is_it(a) => asked,
-            _ => return None,
-        };
+    asked.iter().find_map(|&asked| {
         let beyond = |values: &[f64], above: bool| {
             let mut values = values.iter();
             values.all(|it| if above { *it > asked } else { *it < asked })
@@ -98,6 +107,22 @@ fn still(program: &Program, id: Id<State>, set: &Set, begins: &Set) -> Option<St
         let rises = is_reset && beyond(&set, false) && first.iter().any(|it| *it >= asked);
         (falls || rises).then_some(Still { set: value, falls })
     })
+}
+
+/// The constants that each state is compared with.
+fn compared(pool: &Pool) -> BTreeMap<Id<State>, Vec<f64>> {
+    let mut found: BTreeMap<Id<State>, Vec<f64>> = BTreeMap::new();
+    for (_, expr) in pool.iter() {
+        let Expr::Binary(Binary::Lt | Binary::Le, a, b) = expr else {
+            continue;
+        };
+        for (of, with) in [(a, b), (b, a)] {
+            if let (Expr::State(state), Some(value)) = (pool.get(of), pool.constant(with)) {
+                found.entry(state).or_default().push(value);
+            }
+        }
+    }
+    found
 }
 
 /// Whether a state is declared as a time.
