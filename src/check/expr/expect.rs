@@ -387,6 +387,7 @@ fn conversion(typed: &Typed, expr: &Expr, wanted: &Type, is_variant: bool) -> Op
     if *wanted == Type::Bool {
         return as_condition(typed, expr, is_variant);
     }
+    let is_ratio = *wanted == Type::Ratio;
     let (is, wanted) = (typed.ty.dim()?, wanted.dim()?);
     let literal = match &expr.kind {
         ExprKind::Number(literal) => Some(literal),
@@ -413,7 +414,11 @@ fn conversion(typed: &Typed, expr: &Expr, wanted: &Type, is_variant: bool) -> Op
     // What a rate comes to is said by `in_each_tick`.
     if wanted == Dim::NONE && !is_rate(is) {
         if let Some(literal) = literal {
-            return Some(format!("a plain number has no unit: `{}`", literal.digits));
+            let digits = &literal.digits;
+            return Some(match is_ratio {
+                true => format!("a ratio is written in per cent: `{digits}%`"),
+                false => format!("a plain number has no unit: `{digits}`"),
+            });
         }
         let unit = is.unit()?;
         return Some(format!(
