@@ -20,6 +20,7 @@ mod paper;
 mod parted;
 mod parts;
 mod problem;
+mod reach;
 mod rules;
 mod samples;
 mod search;

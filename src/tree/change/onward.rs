@@ -5,6 +5,7 @@ use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::task::History;
 use crate::ir::tree::{Atom, Exclusion, Node, Status};
+use crate::tree::atoms::atoms;
 use crate::tree::canonicalise::{LITERALS, shorten};
 use crate::tree::circuit::guards::Guards;
 use crate::tree::circuit::sat::Solver;
@@ -12,7 +13,7 @@ use crate::tree::circuit::{Circuit, Signal};
 use crate::tree::compiled::CompiledTree;
 use crate::tree::equivalence::unfold::{Given, Inputs, Unfolded, unfold};
 use crate::tree::equivalence::{ANSWERS, MayEnd};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The most changes that a reader is told.
 const CHANGES: usize = 50;
@@ -27,22 +28,16 @@ pub fn onward(
     (history, excluded): (History, &[Exclusion]),
     may_end: MayEnd,
 ) -> Option<Vec<Change>> {
-    let mut asked: Vec<Atom> = Vec::new();
-    for root in [old, new] {
-        root.visit_atoms(&mut |atom| {
-            if !asked.contains(&atom) {
-                asked.push(atom);
-            }
-        });
-    }
+    let asked: BTreeSet<Atom> = [old, new].into_iter().flat_map(atoms).collect();
+    let asked: Vec<Atom> = asked.into_iter().collect();
     let mut guards = Guards::new();
-    let atoms: Vec<Signal> = asked.iter().map(|atom| guards.atom(*atom)).collect();
+    let signals: Vec<Signal> = asked.iter().map(|atom| guards.atom(*atom)).collect();
     let tree = |root| {
         let tree = CompiledTree::new(root, &asked).ok();
         tree.filter(|tree| tree.slots == 0)
     };
     let trees = [tree(old)?, tree(new)?];
-    let held = asked.iter().zip(&atoms);
+    let held = asked.iter().zip(&signals);
     // What the window does not remember never holds.
     let never = held
         .filter(|(atom, _)| atom.termination().is_some() && !history.remembers(**atom))
@@ -54,7 +49,7 @@ pub fn onward(
     let mut search = Search {
         inputs: Inputs {
             circuit: Circuit::new(),
-            atoms,
+            atoms: signals,
             behaviors: BTreeMap::new(),
         },
         guards,

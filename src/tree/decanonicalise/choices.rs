@@ -3,6 +3,7 @@
 use super::alone::searched;
 use super::deferred::configurations;
 use super::problem::Problem;
+use super::reach::Parts;
 use super::search::joined;
 use super::subtables::Subtables;
 use super::subunit::Subunit;

@@ -6,12 +6,11 @@
 
 use super::core::part;
 use super::problem::Problem;
-use super::windows::{Windows, is_plain, replaced, selector_of};
+use super::reach::{Parts, Reach, Reached, replaced, selector_of};
 use crate::ir::tree::Node;
 use crate::logic::{Account, Bits};
 use crate::tree::Size;
-use crate::tree::guard::and;
-use crate::tree::unit::{Unit, guarded, units};
+use crate::tree::unit::Unit;
 use rustc_hash::FxHashMap;
 
 /// The fewest nodes of a part for which a smaller tree is sought.
@@ -21,9 +20,7 @@ const PARTS: usize = 8;
 
 /// Parts that are looked at on one account.
 pub(super) struct Subtables<'a, 'p, F> {
-    problem: &'a Problem<'p>,
-    account: &'a Account,
-    windows: Windows<'a, 'p>,
+    reach: Reach<'a, 'p>,
     /// Trees for a table.
     seek: F,
     /// The smallest tree for these rows.
@@ -33,64 +30,10 @@ pub(super) struct Subtables<'a, 'p, F> {
 impl<'a, 'p, F: Fn(&Problem, &Account) -> Vec<Node>> Subtables<'a, 'p, F> {
     pub(super) fn new(problem: &'a Problem<'p>, account: &'a Account, seek: F) -> Self {
         Self {
-            problem,
-            account,
-            windows: Windows::new(problem, account),
+            reach: Reach::new(problem, account),
             seek,
             known: FxHashMap::default(),
         }
-    }
-
-    /// The tree with a smaller one in the place of every part that has one, as far as the account goes; `None` if there are none. A
-    /// tree with memory is left as it is.
-    pub(super) fn smaller(&mut self, tree: &Node) -> Option<Node> {
-        if self.problem.wide || !is_plain(tree) {
-            return None;
-        }
-        let all = self.problem.all();
-        let next = |tree: &Node| self.with_one(tree, &all);
-        std::iter::successors(Some(tree.clone()), next)
-            .skip(1)
-            .last()
-    }
-
-    /// The tree with one part smaller.
-    fn with_one(&mut self, node: &Node, rows: &Bits) -> Option<Node> {
-        let children = units(node)?;
-        let mut reaching = rows.clone();
-        let mut reached = Vec::new();
-        for unit in &children {
-            if self.account.is_spent() {
-                return None;
-            }
-            let through = self.windows.holds(&unit.guard, &reaching);
-            let left = self.windows.left(unit, &reaching, &mut None);
-            reached.push((std::mem::replace(&mut reaching, left), through));
-        }
-        for (at, (unit, (_, through))) in children.iter().zip(&reached).enumerate() {
-            if let Some(body) = self.with_one(&unit.body, through) {
-                let body = Unit::of(&body);
-                let unit = guarded(and([unit.guard.clone(), body.guard]), body.body);
-                return Some(replaced(&children, at, at + 1, vec![unit]));
-            }
-        }
-        // What lets rows through to what follows is no table of its own.
-        if !reaching.is_empty() {
-            return None;
-        }
-        for (from, (reaching, _)) in reached.iter().enumerate() {
-            let end = selector_of(children.get(from..)?);
-            let before = Size::of(&end).nodes;
-            let whole = reaching.count() == self.problem.columns().rows();
-            if before < FEWEST || whole || self.account.is_spent() {
-                continue;
-            }
-            let found = self.found(reaching);
-            if let Some(found) = found.filter(|found| Size::of(found).nodes < before) {
-                return Some(replaced(&children, from, children.len(), vec![found]));
-            }
-        }
-        None
     }
 
     /// The smallest tree for these rows.
@@ -98,20 +41,48 @@ impl<'a, 'p, F: Fn(&Problem, &Account) -> Vec<Node>> Subtables<'a, 'p, F> {
         if let Some(known) = self.known.get(rows) {
             return known.clone();
         }
-        let own = self.account.part(PARTS);
-        let policy = part(self.problem.policy, rows);
+        let Reach { problem, account } = self.reach;
+        let own = account.part(PARTS);
+        let policy = part(problem.policy, rows);
         let table = Problem::new(&policy);
         let trees = (self.seek)(&table, &own).into_iter();
         let best = trees.min_by_key(Size::of);
-        self.account.settle(&own);
+        account.settle(&own);
         self.known.insert(rows.clone(), best.clone());
         best
     }
 }
 
+impl<'a, 'p: 'a, F: Fn(&Problem, &Account) -> Vec<Node>> Parts<'a, 'p> for Subtables<'a, 'p, F> {
+    fn reach(&self) -> &Reach<'a, 'p> {
+        &self.reach
+    }
+
+    fn here(&mut self, units: &[Unit], reached: &Reached) -> Option<Node> {
+        // What lets rows through to what follows is no table of its own.
+        if !reached.rest.is_empty() {
+            return None;
+        }
+        let Reach { problem, account } = self.reach;
+        for (from, (rows, _)) in reached.units.iter().enumerate() {
+            let end = selector_of(units.get(from..)?);
+            let before = Size::of(&end).nodes;
+            let whole = rows.count() == problem.columns().rows();
+            if before < FEWEST || whole || account.is_spent() {
+                continue;
+            }
+            let found = self.found(rows);
+            if let Some(found) = found.filter(|found| Size::of(found).nodes < before) {
+                return Some(replaced(units, from, units.len(), vec![found]));
+            }
+        }
+        None
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::Subtables;
+    use super::{Parts, Subtables};
     use crate::ir::Id;
     use crate::ir::tree::{Atom, Guard, Node};
     use crate::logic::Account;

@@ -7,12 +7,12 @@
 
 use super::optimum::Division;
 use super::problem::Problem;
-use crate::ir::tree::{Guard, Node};
+use super::reach::{Decided, Parts, Reach, Reached, push, replaced, selector_of};
+use crate::ir::tree::Node;
 use crate::logic::{Account, Bits};
 use crate::tree::Size;
 use crate::tree::atoms::atoms;
-use crate::tree::guard::and;
-use crate::tree::unit::{Unit, guarded, selector, units};
+use crate::tree::unit::{Unit, selector};
 use rustc_hash::FxHashMap;
 
 /// The most kinds of rows, and children of a window that others follow.
@@ -21,24 +21,12 @@ const CHILDREN: usize = 8;
 /// One window may take this part of what is left.
 const WINDOWS: u64 = 16;
 
-/// Whether a tree is made of selectors, units and behaviours alone.
-pub(super) fn is_plain(node: &Node) -> bool {
-    match units(node) {
-        Some(units) => units.iter().all(|unit| is_plain(&unit.body)),
-        None => matches!(node, Node::Behavior(_)),
-    }
-}
-
-/// What decides some rows.
-type Decided = Vec<(Node, Bits)>;
-
 /// What a window comes to: the sets of kinds in which its atoms hold, and for each of its bodies the nodes and the kinds.
 type Key = (Vec<usize>, Vec<(usize, usize)>);
 
 /// Windows that are looked at on one account.
 pub(super) struct Windows<'a, 'p> {
-    problem: &'a Problem<'p>,
-    account: &'a Account,
+    reach: Reach<'a, 'p>,
     /// The nodes of the smallest lists.
     known: FxHashMap<Key, usize>,
 }
@@ -46,8 +34,7 @@ pub(super) struct Windows<'a, 'p> {
 impl<'a, 'p> Windows<'a, 'p> {
     pub(super) fn new(problem: &'a Problem<'p>, account: &'a Account) -> Self {
         Self {
-            problem,
-            account,
+            reach: Reach::new(problem, account),
             known: FxHashMap::default(),
         }
     }
@@ -55,47 +42,7 @@ impl<'a, 'p> Windows<'a, 'p> {
     /// The tree with every window as small as it can be, as far as the account goes; `None` if that is no smaller. A tree with
     /// memory is left as it is.
     pub(super) fn tightened(&mut self, tree: &Node) -> Option<Node> {
-        if self.problem.wide || !is_plain(tree) {
-            return None;
-        }
-        let all = self.problem.all();
-        let next = |tree: &Node| self.smaller(tree, &all);
-        std::iter::successors(Some(tree.clone()), next)
-            .skip(1)
-            .last()
-    }
-
-    /// The tree with one window smaller.
-    fn smaller(&mut self, node: &Node, rows: &Bits) -> Option<Node> {
-        let children = units(node)?;
-        let mut reaching = rows.clone();
-        let mut reached = Vec::new();
-        for unit in &children {
-            if self.account.is_spent() {
-                return None;
-            }
-            let through = self.holds(&unit.guard, &reaching);
-            let left = self.left(unit, &reaching, &mut None);
-            reached.push((std::mem::replace(&mut reaching, left), through));
-        }
-        for (at, (unit, (_, through))) in children.iter().zip(&reached).enumerate() {
-            if let Some(body) = self.smaller(&unit.body, through) {
-                let body = Unit::of(&body);
-                let guard = and([unit.guard.clone(), body.guard]);
-                let unit = guarded(guard, body.body);
-                return Some(replaced(&children, at, at + 1, vec![unit]));
-            }
-        }
-        for (from, (rows, _)) in reached.iter().enumerate() {
-            let last = children.len();
-            let near = (from + 2..last).take(CHILDREN);
-            for to in near.chain([last]) {
-                if let Some(list) = self.window(&children, from, to, rows) {
-                    return Some(replaced(&children, from, last, list));
-                }
-            }
-        }
-        None
+        self.smaller(tree)
     }
 
     /// Fewer children for a window and all that follows it.
@@ -113,8 +60,8 @@ impl<'a, 'p> Windows<'a, 'p> {
             let mut left = rows.clone();
             for unit in own {
                 left = match whole {
-                    true => self.left_by_all(unit, &left, &mut decided),
-                    false => self.left(unit, &left, &mut decided),
+                    true => self.reach.left_by_all(unit, &left, &mut decided),
+                    false => self.reach.left(unit, &left, &mut decided),
                 };
             }
             let mut decided = decided?;
@@ -141,18 +88,19 @@ impl<'a, 'p> Windows<'a, 'p> {
         rows: &Bits,
         before: usize,
     ) -> Option<Vec<Node>> {
+        let Reach { problem, account } = self.reach;
         let most = (1..=KINDS).rev().find(|kinds| {
             let work = Division::work(*kinds).saturating_mul(WINDOWS);
-            self.account.affords(work)
+            account.affords(work)
         })?;
         let asked = match rows.count() <= most {
-            true => self.problem.policy.atoms.clone(),
+            true => problem.policy.atoms.clone(),
             false => {
                 let own = own.iter().map(|unit| unit.clone().node());
                 atoms(&selector(own)).into_iter().collect()
             }
         };
-        let kinds = self.problem.kinds(rows, &asked, most, self.account)?;
+        let kinds = problem.kinds(rows, &asked, most, account)?;
         let kinds_of = |set: &Bits| {
             let kinds = kinds.iter().enumerate();
             let own = kinds.filter(|(_, kind)| !kind.is_disjoint(set));
@@ -160,7 +108,7 @@ impl<'a, 'p> Windows<'a, 'p> {
         };
         let columns: Option<Vec<usize>> = asked
             .iter()
-            .map(|atom| Some(kinds_of(self.problem.column(*atom)?)))
+            .map(|atom| Some(kinds_of(problem.column(*atom)?)))
             .collect();
         let columns = columns?;
         let bodies = decided.iter();
@@ -173,95 +121,31 @@ impl<'a, 'p> Windows<'a, 'p> {
         if self.known.get(&key).is_some_and(|nodes| *nodes >= before) {
             return None;
         }
-        self.account.spend(Division::work(kinds.len()));
+        account.spend(Division::work(kinds.len()));
         let division = Division::new(kinds.len(), columns, bodies);
         self.known.insert(key, division.nodes());
         (division.nodes() < before).then(|| division.children(&asked))
     }
-
-    /// The rows that a unit leaves. What decides the others is told, a group that leaves none as it stands.
-    pub(super) fn left(&self, unit: &Unit, rows: &Bits, decided: &mut Option<Decided>) -> Bits {
-        let through = self.holds(&unit.guard, rows);
-        let inner = self.left_by(&unit.body, &through, &mut None);
-        if !inner.is_empty() {
-            return self.left_by_all(unit, rows, decided);
-        }
-        let left = rows.minus(&through);
-        if let Some(decided) = decided {
-            push(decided, unit.body.clone(), through);
-        }
-        left
-    }
-
-    /// The same; what stands in groups is told each by itself.
-    fn left_by_all(&self, unit: &Unit, rows: &Bits, decided: &mut Option<Decided>) -> Bits {
-        let through = self.holds(&unit.guard, rows);
-        let left = self.left_by(&unit.body, &through, decided);
-        rows.minus(&through).or(&left)
-    }
-
-    fn left_by(&self, body: &Node, rows: &Bits, decided: &mut Option<Decided>) -> Bits {
-        match (units(body), decided) {
-            (Some(units), decided) => units.iter().fold(rows.clone(), |left, unit| {
-                self.left_by_all(unit, &left, decided)
-            }),
-            (None, decided) => {
-                if let Some(decided) = decided {
-                    push(decided, body.clone(), rows.clone());
-                }
-                Bits::empty(self.problem.policy.rows.len())
-            }
-        }
-    }
-
-    /// The rows among these on which a guard holds.
-    pub(super) fn holds(&self, guard: &Guard, among: &Bits) -> Bits {
-        self.spend(1);
-        match guard {
-            Guard::Const(true) => among.clone(),
-            Guard::Const(false) => Bits::empty(self.problem.policy.rows.len()),
-            Guard::Atom(atom) => match self.problem.column(*atom) {
-                Some(column) => among.and(column),
-                None => Bits::empty(self.problem.policy.rows.len()),
-            },
-            Guard::Not(inner) => among.minus(&self.holds(inner, among)),
-            Guard::And(parts) => parts
-                .iter()
-                .fold(among.clone(), |left, part| self.holds(part, &left)),
-            Guard::Or(parts) => {
-                let none = Bits::empty(self.problem.policy.rows.len());
-                let parts = parts.iter();
-                parts.fold(none, |all, part| all.or(&self.holds(part, among)))
-            }
-        }
-    }
-
-    fn spend(&self, operations: u64) {
-        self.account.spend(self.problem.words() * operations);
-    }
 }
 
-/// Some rows to a body, with those that it has.
-fn push(decided: &mut Decided, node: Node, rows: Bits) {
-    if rows.is_empty() {
-        return;
+impl<'a, 'p> Parts<'a, 'p> for Windows<'a, 'p> {
+    fn reach(&self) -> &Reach<'a, 'p> {
+        &self.reach
     }
-    match decided.iter_mut().find(|(known, _)| *known == node) {
-        Some((_, own)) => own.unite(&rows),
-        None => decided.push((node, rows)),
+
+    fn here(&mut self, units: &[Unit], reached: &Reached) -> Option<Node> {
+        let last = units.len();
+        reached
+            .units
+            .iter()
+            .enumerate()
+            .find_map(|(from, (rows, _))| {
+                let near = (from + 2..last).take(CHILDREN);
+                let mut ends = near.chain([last]);
+                let list = ends.find_map(|to| self.window(units, from, to, rows))?;
+                Some(replaced(units, from, last, list))
+            })
     }
-}
-
-pub(super) fn selector_of(units: &[Unit]) -> Node {
-    selector(units.iter().cloned().map(Unit::node))
-}
-
-/// The selector of these units with others in the place of some.
-pub(super) fn replaced(units: &[Unit], from: usize, to: usize, by: Vec<Node>) -> Node {
-    let node = |unit: &Unit| unit.clone().node();
-    let before = units.iter().take(from).map(node);
-    let after = units.iter().skip(to).map(node);
-    selector(before.chain(by).chain(after))
 }
 
 #[cfg(test)]
