@@ -165,7 +165,7 @@ fn improve_from<W: World>(
 
 /// The part of the effort of a search that is kept for choosing among its trees, and for testing the one that is chosen.
 const CHOOSING: f64 = 0.2;
-/// The part that looks for smaller trees that cost something, once a tree is found.
+/// As large a part of the effort, beyond it, looks for smaller trees that cost something, once a tree is found.
 const SHRINKING: f64 = 0.08;
 
 /// The part of the effort of learning that a search for a tree gets, with what the policy has left of its own.
@@ -248,7 +248,7 @@ pub fn grow<W: World>(
     }
     let part = Part::new(keeper, "tree");
     let searching = Settings {
-        effort: share(settings.effort, 1.0 - CHOOSING - SHRINKING),
+        effort: share(settings.effort, 1.0 - CHOOSING),
         ..settings.clone()
     };
     let mut grower = Grower::new(ground, &searching, progress);

@@ -143,15 +143,12 @@ pub(super) fn choose<W: World>(
     }
     let harms = |entrant: &Entrant| judge.harms(entrant);
     let mut front = points(&entrants, chosen, &harms);
-    let root = entrants
-        .get(chosen)
-        .map_or_else(|| starts.exact.clone(), |entrant| entrant.root.clone());
+    let taken = (chosen < entrants.len()).then(|| entrants.swap_remove(chosen));
     drop(entrants);
-    let root = match root == starts.exact {
-        true => root,
-        false => {
-            let with = (root, settings.requirements);
-            let root = trimmed(judge, &trials, with, vetted);
+    let root = match taken.filter(|taken| taken.root != starts.exact) {
+        None => starts.exact.clone(),
+        Some(taken) => {
+            let root = trimmed(judge, &trials, (taken, settings.requirements), vetted);
             plainest(judge, &trials, root, judge.scaled(of(FRESH)))
         }
     };

@@ -17,45 +17,37 @@ const MOST: usize = 120;
 const ROUNDED: f64 = 1e-9;
 
 /// The smallest tree that one change after another makes of this one and that earned and harmed as it did in each of so many
-/// episodes.
+/// episodes; those that it has played already are not played again.
 pub(super) fn trimmed<W: World>(
     judge: &mut Judge<'_, '_, W>,
     trials: &Trials<'_, W>,
-    (root, requirements): (Node, &[Requirement]),
+    (mut whole, requirements): (Entrant, &[Requirement]),
     episodes: usize,
 ) -> Node {
-    let Some(mut base) = judge.entrant(trials, &root).filter(|it| it.nodes <= MOST) else {
-        return root;
-    };
-    let mut ways = vec![root];
-    while let Some(next) = smaller(judge, trials, &mut base, requirements) {
-        ways.push(next.root.clone());
-        base = next;
+    if whole.nodes > MOST {
+        return whole.root;
+    }
+    let mut ways: Vec<Entrant> = Vec::new();
+    loop {
+        let base = ways.last_mut().unwrap_or(&mut whole);
+        let Some(next) = smaller(judge, trials, base, requirements) else {
+            break;
+        };
+        ways.push(next);
+    }
+    if ways.is_empty() {
+        return whole.root;
     }
     // What is lost seldom shows late.
-    let mut ways = ways.into_iter();
-    let Some(root) = ways.next() else {
-        return base.root;
-    };
-    let Some(mut whole) = judge.entrant(trials, &root).filter(|_| ways.len() > 0) else {
-        return root;
-    };
     judge.play(trials, std::slice::from_mut(&mut whole), episodes, None);
-    for way in ways.rev() {
-        let Some(mut less) = judge.entrant(trials, &way) else {
-            continue;
-        };
-        judge.play(
-            trials,
-            std::slice::from_mut(&mut less),
-            episodes,
-            Some(&whole),
-        );
+    for mut less in ways.into_iter().rev() {
+        let by = std::slice::from_mut(&mut less);
+        judge.play(trials, by, episodes, Some(&whole));
         if does_the_same(judge, &less, &whole) {
-            return way;
+            return less.root;
         }
     }
-    root
+    whole.root
 }
 
 /// The smallest of the trees one change away that does the same as this one in a few episodes.

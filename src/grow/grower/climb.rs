@@ -121,7 +121,10 @@ impl<W: World> Grower<'_, '_, '_, W> {
         let single = self.single.clone()?;
         let choices = self.ground.choices.iter().map(|id| Node::Behavior(*id));
         let others = choices.filter(|other| *other != single).collect();
+        // How long it goes well tells nothing of the episodes of a tree.
+        let length = self.judge.seen.length;
         let found = self.judge.race(&single, others, Terms::taking(0.0));
+        self.judge.seen.length = length;
         Some(found.map_or(single, |found| found.root))
     }
 
