@@ -165,6 +165,8 @@ fn improve_from<W: World>(
 
 /// The part of the effort of a search that is kept for choosing among its trees, and for testing the one that is chosen.
 const CHOOSING: f64 = 0.2;
+/// As large a part of the effort, beyond it, looks for a tree that does less harm, where any was met.
+const MENDING: f64 = 0.08;
 /// As large a part of the effort, beyond it, looks for smaller trees that cost something, once a tree is found.
 const SHRINKING: f64 = 0.08;
 
@@ -253,6 +255,7 @@ pub fn grow<W: World>(
     };
     let mut grower = Grower::new(ground, &searching, progress);
     let found = grower.run(starts, &part)?;
+    let found = grower.mend(&found, share(settings.effort, MENDING));
     let ways = grower.visited.len();
     grower.shrink(&found, share(settings.effort, SHRINKING));
     let candidates = front::candidates(grower.visited.split_at(ways), starts);

@@ -37,7 +37,8 @@ const FEWEST: usize = 40;
 /// A tree that is proved gives way to one that is only tested for a gain of so many prices of a node.
 const PROVED: f64 = 3.4;
 
-/// What a tree may return less than one with at least so many times its nodes, as a part of what that returns.
+/// What a tree may return less than one with at least so many times its nodes, as a part of what that returns. With more of them
+/// it may return less by the price of those that it has not, but by no more than this.
 const LESS: (usize, f64) = (2, 0.015);
 
 /// Which tree of the front is wanted.
@@ -432,9 +433,10 @@ fn knee<W: World>(
     // Less harm alone does not make a tree as good: one that does nothing has none.
     let as_good = |entrant: &Entrant| {
         let (times, part) = LESS;
+        let most = part * base.contender.returns().mean.abs();
         let less = match entrant.nodes * times <= base.nodes {
-            true => part * base.contender.returns().mean.abs(),
-            false => 0.0,
+            true => most,
+            false => (price * base.nodes.saturating_sub(entrant.nodes) as f64).min(most),
         };
         [Terms::taking(0.0), Terms::free()]
             .into_iter()

@@ -4,6 +4,7 @@ mod attempts;
 mod climb;
 mod covers;
 mod detours;
+mod mend;
 mod rows;
 mod sprouts;
 

@@ -4,6 +4,7 @@ use super::ground::{self, Ground};
 use crate::ir::Id;
 use crate::ir::law::Behavior;
 use crate::ir::tree::Node;
+use crate::learn::episode::Episode;
 use crate::learn::process::World;
 use crate::learn::simulated::Purpose;
 use crate::learn::statistics::Mean;
@@ -327,11 +328,7 @@ impl<'g, 'w, W: World> Judge<'g, 'w, W> {
             let episodes = self.scaled(episodes);
             self.play(&trials, &mut base, episodes, None);
             let base = base.first()?;
-            self.play(&trials, &mut entrants, episodes, Some(base));
-            entrants.retain(|entrant| self.hopes(entrant, base, terms) && terms.allow(entrant));
-            let gain = |entrant: &Entrant| self.gain(entrant, base, terms).mean;
-            entrants.sort_by(|a, b| gain(b).total_cmp(&gain(a)));
-            entrants.truncate(stay);
+            self.heat(&trials, base, &mut entrants, (episodes, stay), terms);
             let first = entrants.first()?;
             let (errors, from) = CLEAR;
             let gain = self.gain(first, base, terms);
@@ -340,9 +337,73 @@ impl<'g, 'w, W: World> Judge<'g, 'w, W> {
             }
         }
         let base = base.pop()?;
+        self.winner(entrants, &base, terms)
+    }
+
+    /// Lets trees play up to a number of episodes beside a base that has played them. Of those that may still be better than it, the
+    /// best stay, the best first.
+    pub fn heat(
+        &mut self,
+        trials: &Trials<'_, W>,
+        base: &Entrant,
+        entrants: &mut Vec<Entrant>,
+        (episodes, stay): (usize, usize),
+        terms: Terms,
+    ) {
+        self.play(trials, entrants, episodes, Some(base));
+        entrants.retain(|entrant| self.hopes(entrant, base, terms) && terms.allow(entrant));
+        let gain = |entrant: &Entrant| self.gain(entrant, base, terms).mean;
+        entrants.sort_by(|a, b| gain(b).total_cmp(&gain(a)));
+        entrants.truncate(stay);
+    }
+
+    /// The first of these trees that is surely better than the base.
+    pub fn winner(&self, entrants: Vec<Entrant>, base: &Entrant, terms: Terms) -> Option<Entrant> {
         entrants.into_iter().find(|entrant| {
-            let gain = self.gain(entrant, &base, terms);
+            let gain = self.gain(entrant, base, terms);
             gain.mean > error(&gain)
         })
+    }
+
+    /// The gain of each tree over a base, as far as some of its episodes tell: those of the first kind, in which it did harm, and others.
+    /// Only the trees that do less harm in the first are given.
+    pub fn spared(
+        &mut self,
+        trials: &Trials<'_, W>,
+        entrants: Vec<Entrant>,
+        (base, [harmed, others]): (&Entrant, [&[usize]; 2]),
+        terms: Terms,
+    ) -> Vec<(f64, Entrant)> {
+        let contenders = entrants.iter().map(|entrant| &entrant.contender);
+        let contenders: Vec<&Contender> = contenders.collect();
+        let episodes = [harmed, others].concat();
+        let (figures, simulated) = trials.sample(&contenders, &episodes, &base.contender);
+        self.seen.ticks += simulated.ticks;
+        self.noted.extend(simulated.taken);
+        let cost = terms.harm * base.scale();
+        let rate = self.harm_rate(base).min(1.0);
+        // The mean worth of these episodes, and the harm in them.
+        let sums = |figures: &[Episode]| {
+            let harms: u64 = figures.iter().map(|it| self.ground.harm(it)).sum();
+            let returns: f64 = figures.iter().map(|it| it.total).sum();
+            let worth = (returns - cost * harms as f64) / figures.len().max(1) as f64;
+            (worth, harms)
+        };
+        let halves = |figures: &[Episode]| {
+            let (bad, good) = figures.split_at(harmed.len().min(figures.len()));
+            let ((bad, harms), (good, _)) = (sums(bad), sums(good));
+            (rate * bad + (1.0 - rate) * good, harms)
+        };
+        let all = base.contender.results();
+        let own = episodes.iter().filter_map(|n| all.get(*n).cloned());
+        let (worth, before) = halves(&own.collect::<Vec<_>>());
+        let played = entrants.into_iter().zip(&figures);
+        played
+            .filter_map(|(entrant, figures)| {
+                let (better, harms) = halves(figures);
+                let nodes = entrant.nodes as f64 - base.nodes as f64;
+                (harms < before).then_some((better - worth - terms.price * nodes, entrant))
+            })
+            .collect()
     }
 }

@@ -162,15 +162,54 @@ impl<'w, W: World> Trials<'w, W> {
             .collect();
         let runners = contenders.iter().map(|contender| &contender.runner);
         let runners: Vec<&Runner> = runners.collect();
+        let (played, simulated) = self.simulate(&runners, &due, known);
+        for ((i, _), played) in due.into_iter().zip(played) {
+            if let Some(contender) = contenders.get_mut(i) {
+                contender.played.push(played);
+            }
+        }
+        simulated
+    }
+
+    /// The figures of these episodes under each contender, in their order, and what was simulated for them. Nothing is noted in the
+    /// contenders.
+    pub fn sample(
+        &self,
+        contenders: &[&Contender],
+        episodes: &[usize],
+        known: &Contender,
+    ) -> (Vec<Vec<Episode>>, Simulated) {
+        let numbers = 0..contenders.len();
+        let due = numbers.flat_map(|i| episodes.iter().map(move |n| (i, *n)));
+        let due: Vec<(usize, usize)> = due.collect();
+        let runners = contenders.iter().map(|contender| &contender.runner);
+        let runners: Vec<&Runner> = runners.collect();
+        let (played, simulated) = self.simulate(&runners, &due, Some(known));
+        let mut figures = vec![Vec::new(); contenders.len()];
+        for ((i, _), played) in due.into_iter().zip(played) {
+            if let Some(figures) = figures.get_mut(i) {
+                figures.push(played.episode.clone());
+            }
+        }
+        (figures, simulated)
+    }
+
+    /// Plays episodes, each under one of these trees, on all threads, unless it does what `known` did in it.
+    fn simulate(
+        &self,
+        runners: &[&Runner],
+        due: &[(usize, usize)],
+        known: Option<&Contender>,
+    ) -> (Vec<Arc<Played>>, Simulated) {
         let make = || self.world.process();
-        let played: Vec<(Arc<Played>, u64, Vec<Taken>)> = due
+        let all: Vec<(Arc<Played>, Simulated)> = due
             .par_iter()
             .map_init(make, |process, &(i, n)| {
                 let mut runner = runners.get(i).map(|r| (*r).clone())?;
                 if let Some(same) = known.and_then(|known| known.played.get(n))
                     && same.trace.replays(&mut runner)
                 {
-                    return Some((same.clone(), 0, Vec::new()));
+                    return Some((same.clone(), Simulated::default()));
                 }
                 let start = Start {
                     episode: self.start.episode + n as u64,
@@ -191,18 +230,18 @@ impl<'w, W: World> Trials<'w, W> {
                 };
                 let ticks = episode.ticks;
                 let trace = recorded.into_trace();
-                Some((Arc::new(Played { episode, trace }), ticks, taken))
+                let played = Arc::new(Played { episode, trace });
+                Some((played, Simulated { ticks, taken }))
             })
             .flatten()
             .collect();
         let mut simulated = Simulated::default();
-        for ((i, _), (played, ticks, taken)) in due.into_iter().zip(played) {
-            simulated.ticks += ticks;
-            simulated.taken.extend(taken);
-            if let Some(contender) = contenders.get_mut(i) {
-                contender.played.push(played);
-            }
+        let mut episodes = Vec::with_capacity(all.len());
+        for (played, new) in all {
+            simulated.ticks += new.ticks;
+            simulated.taken.extend(new.taken);
+            episodes.push(played);
         }
-        simulated
+        (episodes, simulated)
     }
 }

@@ -11,6 +11,7 @@ use btc::ir::Id;
 use btc::ir::task::Task;
 use btc::ir::tree::{Guard, Node, Tree};
 use btc::learn::experiment::Experiment;
+use btc::learn::simulated::Purpose;
 use btc::report;
 use btc::tree::Size;
 use btc::tree::prune::{Change, Cost, candidates, negated_literals, plainer, tidy};
@@ -236,4 +237,33 @@ fn a_unit_is_put_in_every_place() {
         let more = Size::of(&new).nodes - Size::of(&root).nodes;
         assert_eq!(more, Size::of(&unit).nodes + place.nodes(), "{place:?}");
     }
+}
+
+/// What a tree does in some of its episodes is what it does in them among all; and of what another tree does alike nothing is
+/// simulated.
+#[test]
+fn sampled_episodes_are_those_that_are_played() {
+    let (loaded, _, clumsy) = small(CLUMSY);
+    let experiment = Experiment::new(&loaded.program, Id::new(0), None, 10).unwrap();
+    let ground = grow::ground(&experiment, 1);
+    let trials = ground.trials(Purpose::Grow, 3);
+    let never_charges = Node::Behavior(ground.choices[0]);
+    let [mut base, mut other] =
+        [&clumsy, &never_charges].map(|root| trials.contender(root).unwrap());
+    trials.play(&mut [&mut base, &mut other], 12, None);
+    let fresh = [&never_charges, &clumsy].map(|root| trials.contender(root).unwrap());
+    let episodes = [11, 1, 5];
+    let (figures, simulated) = trials.sample(&[&fresh[0], &fresh[1]], &episodes, &base);
+    for (found, played) in figures.iter().zip([&other, &base]) {
+        let played = played.results();
+        let played: Vec<String> = episodes.map(|n| format!("{:?}", played[n])).to_vec();
+        let found: Vec<String> = found.iter().map(|it| format!("{it:?}")).collect();
+        assert_eq!(found, played);
+    }
+    let ticks = |n: usize| other.results()[n].ticks;
+    assert_eq!(
+        simulated.ticks,
+        episodes.into_iter().map(ticks).sum::<u64>()
+    );
+    assert!(fresh.iter().all(|contender| contender.episodes() == 0));
 }

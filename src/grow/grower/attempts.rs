@@ -50,7 +50,7 @@ impl<W: World> Grower<'_, '_, '_, W> {
     }
 
     /// Whether there is only one attempt.
-    fn is_sparing(&self) -> bool {
+    pub(super) fn is_sparing(&self) -> bool {
         self.settings.effort < ENOUGH
     }
 
