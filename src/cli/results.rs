@@ -22,8 +22,8 @@ fn result_of(path: &str) -> Option<(&Path, Manifest)> {
 
 /// Why a file is not to be read: it belongs to a result whose files are not those of one run.
 pub(super) fn torn(path: &str) -> Option<Diagnostic> {
-    if let Some(damaged) = damaged(Path::new(path)) {
-        return Some(damaged);
+    if let Some(refused) = damaged(Path::new(path)).or_else(|| unnamed(Path::new(path))) {
+        return Some(refused);
     }
     let (folder, manifest) = result_of(path)?;
     let changed = manifest.changed(folder);
@@ -61,6 +61,20 @@ fn damaged(path: &Path) -> Option<Diagnostic> {
     let note = "`manifest.json` there is damaged, so that nothing says whether the files are those of one run";
     let help = format!("delete `{folder}/manifest.json`, and learn again with `-o {folder}`");
     Some(not_one(&folder, note.to_owned(), help))
+}
+
+/// Why a file that is called like one of a result is not to be read: the manifest beside it says nothing of it.
+fn unnamed(path: &Path) -> Option<Diagnostic> {
+    let folder = folder_of(path);
+    let name = path.file_name()?.to_str()?;
+    let manifest = Manifest::of_folder(folder)?;
+    if !learn::NAMES.contains(&name) || manifest.names(name) || !path.exists() {
+        return None;
+    }
+    let folder = folder.to_string_lossy();
+    let note = format!("its `manifest.json` does not name `{name}`, which comes from elsewhere");
+    let help = format!("give `{name}` another name, or learn again with `-o {folder}`");
+    Some(not_one(&folder, note, help))
 }
 
 fn not_one(folder: &str, note: String, help: String) -> Diagnostic {
@@ -171,6 +185,11 @@ impl Reader for Found {
         if !self.may_read(path) {
             let why = "it lies outside of the program's folder and of the current one: allow its folder with `--root DIR`";
             return Err(why.to_owned());
+        }
+        if let Some(torn) = torn(path) {
+            let notes = [&torn.message].into_iter().chain(&torn.notes);
+            let why: Vec<&str> = notes.map(String::as_str).collect();
+            return Err(why.join(": "));
         }
         Disk.read(path).or_else(|why| {
             let moved = self.moved(path);

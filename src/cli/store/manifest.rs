@@ -10,6 +10,9 @@ use std::path::Path;
 /// Its name.
 pub const NAME: &str = "manifest.json";
 
+/// What it has to say.
+const FIELDS: [&str; 4] = ["btc", "whole", "program", "files"];
+
 /// What a result consists of.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -25,16 +28,35 @@ pub struct Manifest {
     pub files: BTreeMap<String, String>,
 }
 
-/// Whether a folder has a manifest of btc that no longer says what it said. A file of that name that says nothing of btc is
-/// somebody else's.
+/// Whether a folder has a manifest of btc that no longer says what it said. A file of that name that says other things is somebody
+/// else's.
 pub fn is_damaged(folder: &Path) -> bool {
-    let Ok(text) = regular(&folder.join(NAME), TABLE) else {
-        return false;
+    let path = folder.join(NAME);
+    let Ok(text) = regular(&path, TABLE) else {
+        // Something else that can be there: a folder, a pipe, a link to nowhere.
+        return path.symlink_metadata().is_ok();
     };
-    match serde_json::from_slice::<serde_json::Value>(&text) {
-        Ok(found) => found.get("btc").is_some() && Manifest::deserialize(found).is_err(),
-        Err(_) => true,
+    let (_, damaged) = read(&text);
+    damaged
+}
+
+/// What a manifest says, if it is one of btc, and whether it is one that was damaged.
+fn read(text: &[u8]) -> (Option<Manifest>, bool) {
+    // A result has no files elsewhere: what names some is none that btc wrote.
+    let is_here = |name: &String| Path::new(name).file_name() == Some(name.as_ref());
+    if let Ok(manifest) = serde_json::from_slice::<Manifest>(text) {
+        return (
+            manifest.files.keys().all(is_here).then_some(manifest),
+            false,
+        );
     }
+    let damaged = match serde_json::from_slice::<serde_json::Value>(text) {
+        Ok(serde_json::Value::Object(found)) => {
+            found.contains_key("btc") || found.keys().all(|key| FIELDS.contains(&key.as_str()))
+        }
+        Ok(_) | Err(_) => true,
+    };
+    (None, damaged)
 }
 
 impl Manifest {
@@ -51,12 +73,10 @@ impl Manifest {
         }
     }
 
-    /// The manifest in a folder, if there is one. A result has no files elsewhere: what names some is none of btc's.
+    /// The manifest in a folder, if there is one.
     pub fn of_folder(folder: &Path) -> Option<Self> {
         let text = regular(&folder.join(NAME), TABLE).ok()?;
-        let manifest: Self = serde_json::from_slice(&text).ok()?;
-        let is_here = |name: &String| Path::new(name).file_name() == Some(name.as_ref());
-        manifest.files.keys().all(is_here).then_some(manifest)
+        read(&text).0
     }
 
     /// The text of the file.

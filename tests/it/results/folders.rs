@@ -130,7 +130,18 @@ fn a_damaged_manifest_is_told() {
     assert!(learned(at, &["-o", "out"]).status.success());
     let whole = fs::read(at.join("out/manifest.json")).unwrap();
     let half = whole.get(..whole.len() / 2).unwrap();
-    for text in [b"".as_slice(), half, b"{\"btc\": 1}"] {
+    let doubled = String::from_utf8(whole.clone()).unwrap();
+    let doubled = doubled.replace("\"files\"", "\"files\": {}, \"files\"");
+    for text in [
+        b"".as_slice(),
+        half,
+        b"{\"btc\": 1}",
+        b"{}",
+        b"null",
+        b"[]",
+        b"{\"files\": {}}",
+        doubled.as_bytes(),
+    ] {
         fs::write(at.join("out/manifest.json"), text).unwrap();
         let output = ran(&["verify", "out/learned.bt", "learned", "expert"], at);
         assert_eq!(output.status.code(), Some(1));
@@ -142,10 +153,41 @@ fn a_damaged_manifest_is_told() {
             "{said}"
         );
     }
+    // What it does not name is not known to be of the result.
+    let whole = String::from_utf8(whole).unwrap();
+    let less: String = whole
+        .lines()
+        .filter(|line| !line.contains("learned.bt"))
+        .collect();
+    fs::write(at.join("out/manifest.json"), less).unwrap();
+    let said = told(&ran(&["check", "out/learned.bt"], at));
+    assert!(
+        said.contains("E0212") && said.contains("does not name `learned.bt`"),
+        "{said}"
+    );
     // One of somebody else says nothing of what stands beside it.
     fs::write(at.join("out/manifest.json"), "{\"name\": \"a page\"}").unwrap();
     let output = ran(&["check", "out/learned.bt"], at);
     assert!(output.status.success(), "{}", told(&output));
+}
+
+/// A program that uses a learned tree gets no other one under its name.
+#[test]
+fn a_result_that_was_edited_is_not_used() {
+    let folder = project();
+    let at = folder.path();
+    assert!(learned(at, &["-o", "out"]).status.success());
+    fs::write(at.join("user.bt"), "use \"out/learned.bt\"\n").unwrap();
+    let output = ran(&["check", "user.bt"], at);
+    assert!(output.status.success(), "{}", told(&output));
+    let learned = fs::read_to_string(at.join("out/learned.bt")).unwrap();
+    fs::write(at.join("out/learned.bt"), learned + "\n// edited\n").unwrap();
+    for command in ["check", "compile"] {
+        let output = ran(&[command, "user.bt"], at);
+        assert_eq!(output.status.code(), Some(1));
+        let said = told(&output);
+        assert!(said.contains("`out` is not one result"), "{said}");
+    }
 }
 
 #[test]
