@@ -139,6 +139,15 @@ impl Row {
         free.filter(|free| *free).count()
     }
 
+    /// Whether some minterm is of both rows.
+    pub fn meets(&self, other: &Self) -> bool {
+        let atoms = self.minterm.len();
+        let free = |row: &Self, at| row.free.as_ref().is_some_and(|free| free.get(at));
+        (0..atoms).all(|at| {
+            self.minterm.get(at) == other.minterm.get(at) || free(self, at) || free(other, at)
+        })
+    }
+
     /// The minterms that it stands for: two to the power of its free atoms.
     pub fn minterms(&self) -> impl Iterator<Item = Minterm> {
         let atoms = self.minterm.len();

@@ -18,9 +18,13 @@ use crate::logic::partition::{Classified, Partition};
 use crate::logic::{Account, Bits, Columns, Cube, Literal};
 use crate::policy::{Policy, Row};
 use crate::tree::prove::Refuted;
+use rustc_hash::FxHashMap;
 
 /// The part of the effort that the choice of behaviours may take, and that the trees that are compared may.
 const PARTS: u64 = 4;
+
+/// The most rows that allow the same and are compared with each other.
+const PAIRED: usize = 1000;
 
 /// The lists that are made from the top.
 const SAMPLES: u64 = 3;
@@ -81,6 +85,10 @@ pub fn allowing(
     let found = lists(&columns, &classes, REACH, THOROUGH, &mut known, &account);
     choices.extend(found.iter().rev().map(|list| by_list(&columns, list)));
     choices.push(by_frequency(&classes, allowed.len()));
+    let alike = alike(policy, allowed);
+    for choice in &mut choices {
+        as_first(choice, &alike);
+    }
     choices.dedup();
     let policies = choices.iter().map(|choice| chosen(policy, choice));
     let policies: Vec<Policy> = policies.collect();
@@ -292,6 +300,57 @@ fn by_frequency(classes: &[Bits], rows: usize) -> Vec<usize> {
         left.subtract(own);
     }
     choice
+}
+
+/// For each row the first of those that it shares minterms with, at once or by way of others: they have to take the same behaviour.
+/// Where many rows allow the same, all of them count as such.
+fn alike(policy: &Policy, allowed: &[Vec<Id<Behavior>>]) -> Vec<usize> {
+    let mut first: Vec<usize> = (0..policy.rows.len()).collect();
+    let mut groups: FxHashMap<&[Id<Behavior>], Vec<(usize, &Row)>> = FxHashMap::default();
+    for (at, (row, allowed)) in policy.rows.iter().zip(allowed).enumerate() {
+        if allowed.len() > 1 {
+            groups.entry(allowed).or_default().push((at, row));
+        }
+    }
+    for group in groups.into_values() {
+        if group.iter().all(|(_, row)| row.free.is_none()) {
+            continue;
+        }
+        for (i, (at, row)) in group.iter().enumerate() {
+            let many = group.len() > PAIRED;
+            for (other, before) in group.iter().take(if many { 1 } else { i }) {
+                if many || row.meets(before) {
+                    join(&mut first, *other, *at);
+                }
+            }
+        }
+    }
+    (0..first.len()).map(|at| root(&first, at)).collect()
+}
+
+/// The first of the rows that one is joined with.
+fn root(first: &[usize], mut at: usize) -> usize {
+    while let Some(next) = first.get(at).filter(|next| **next != at) {
+        at = *next;
+    }
+    at
+}
+
+fn join(first: &mut [usize], a: usize, b: usize) {
+    let (a, b) = (root(first, a), root(first, b));
+    if let Some(own) = first.get_mut(a.max(b)) {
+        *own = a.min(b);
+    }
+}
+
+/// Gives each row the behaviour of another one.
+fn as_first(choice: &mut [usize], first: &[usize]) {
+    for (at, first) in first.iter().enumerate() {
+        let class = choice.get(*first).copied();
+        if let (Some(own), Some(class)) = (choice.get_mut(at), class) {
+            *own = class;
+        }
+    }
 }
 
 /// The policy that takes these of its behaviours.
