@@ -8,6 +8,7 @@ use super::decl::event::EventId;
 use super::decl::input::InputSlot;
 use super::decl::predicate::PredicateId;
 use super::decl::state::StateSlot;
+use super::expr::InPercent;
 use super::lint::{
     Again, Asked, Assigned, Assignments, Bounded, Causes, Condition, Equality, FailClause, Joints,
     Links, Quantity,
@@ -124,6 +125,8 @@ pub struct Checker<'a> {
     pub scripts: Vec<(&'a Ident, &'a Expr)>,
     /// The constants without a unit that have been used as ratios.
     pub plain_ratios: BTreeMap<Span, &'a Expr>,
+    /// The states that start as whole numbers, by where that is said, with the percentages beside them.
+    pub percents: BTreeMap<Span, InPercent<'a>>,
     /// The trees that claims and tests ask for and that are not whole, with where they are asked for.
     pub needed: Vec<(&'a ast::Tree, Span)>,
     /// The length of a tick in seconds, once the world has said it.
@@ -175,6 +178,7 @@ impl<'a> Checker<'a> {
             joints: Joints::new(),
             constant: BTreeSet::new(),
             plain_ratios: BTreeMap::new(),
+            percents: BTreeMap::new(),
             needed: Vec::new(),
             library_calls: BTreeMap::new(),
             fails: BTreeMap::new(),
@@ -288,6 +292,7 @@ impl<'a> Checker<'a> {
         self.histories_that_keep_too_little();
         self.timeouts_without_a_world();
         self.named_ratios();
+        self.percents_of_numbers();
         self.tunables(items());
         self.whole_program(files);
     }

@@ -51,6 +51,7 @@ impl<'a> Checker<'a> {
         if !typed.ty.fits(ty) {
             self.clashes_with(name, typed.span, &typed.ty);
         }
+        self.percent_of(name, ty, value);
         self.coerce(typed, value, ty, role)
     }
 

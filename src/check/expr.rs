@@ -10,6 +10,7 @@ pub mod expect;
 mod finite;
 mod literal;
 mod operator;
+mod percent;
 mod quantifier;
 mod reading;
 mod reference;
@@ -17,6 +18,7 @@ mod tune;
 
 pub use literal::grouped;
 use operator::is_arithmetic;
+pub use percent::InPercent;
 
 use super::Checker;
 use super::types::{Type, Typed, Value};

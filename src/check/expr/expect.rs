@@ -320,7 +320,7 @@ impl<'a> Checker<'a> {
 }
 
 /// The value of a number without a unit.
-fn plain_number(expr: &Expr) -> Option<f64> {
+pub fn plain_number(expr: &Expr) -> Option<f64> {
     match &expr.kind {
         ExprKind::Number(literal) if literal.unit.is_none() => Some(literal.value),
         _ => None,
@@ -462,7 +462,7 @@ fn as_condition(typed: &Typed, expr: &Expr, is_variant: bool) -> Option<String> 
 }
 
 /// The functions whose value is of the type of their arguments.
-const PASSING: [&str; 7] = ["uniform", "normal", "one_of", "min", "max", "clamp", "tune"];
+pub const PASSING: [&str; 7] = ["uniform", "normal", "one_of", "min", "max", "clamp", "tune"];
 
 /// Whether an expression is a literal without a unit, perhaps signed.
 pub fn is_literal(expr: &Expr) -> bool {

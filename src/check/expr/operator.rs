@@ -305,6 +305,8 @@ impl<'a> Checker<'a> {
         };
         self.warn_plain_ratio(left, &b.ty);
         self.warn_plain_ratio(right, &a.ty);
+        self.percent_beside(left, &a.ty, right);
+        self.percent_beside(right, &b.ty, left);
         self.equal_to(op, left, [&a, &b]);
         let constant = |of: &Typed| of.scalar().and_then(|id| self.program.pool.constant(id));
         // Two measures may be of one thing.

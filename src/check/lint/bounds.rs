@@ -9,7 +9,7 @@ use crate::ir::expr::{Binary, Expr, ExprId};
 use crate::ir::program::{State, Stays};
 use crate::ir::{Id, Pool};
 use crate::source::Span;
-use crate::syntax::ast::{self, Block, ExprKind, Item, ItemKind, StmtKind};
+use crate::syntax::ast::{self, Block, Else, ExprKind, Item, ItemKind, StmtKind};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The values, bounded from one side, that statements set states to, by where the statements stand.
@@ -57,13 +57,13 @@ impl<'a> Checker<'a> {
                 ItemKind::On(on) => (&on.block, false),
                 _ => continue,
             };
-            for (at, value) in calls(block) {
+            for (at, value, decided) in calls(block) {
                 let Some(noted) = bounded.get(&at).filter(|_| told.insert(at)) else {
                     continue;
                 };
                 let mut sides = noted
                     .iter()
-                    .map(|it| self.wrong_side(*it, &begins, in_ticks));
+                    .map(|it| self.wrong_side(*it, &begins, [in_ticks, decided]));
                 let first = sides.next().flatten();
                 if let Some(wrong) = first.filter(|_| sides.all(|side| side == first)) {
                     self.bounded_on_the_wrong(wrong, noted.first(), value);
@@ -116,7 +116,7 @@ impl<'a> Checker<'a> {
         &self,
         (state, value): (Id<State>, ExprId),
         begins: &Set,
-        in_ticks: bool,
+        [in_ticks, decided]: [bool; 2],
     ) -> Option<Wrong> {
         let pool = &self.program.pool;
         let Expr::Binary(op, a, b) = pool.get(value) else {
@@ -163,8 +163,11 @@ impl<'a> Checker<'a> {
                 Side::Most => *first.start() >= bound,
                 Side::Least => *first.end() <= bound,
             };
-        let wrong = if in_ticks { beyond || idle } else { from_there };
         let idle = in_ticks && idle;
+        let wrong = match in_ticks && !decided {
+            true => beyond || idle,
+            false => from_there || idle,
+        };
         wrong.then_some(Wrong { side, idle })
     }
 }
@@ -180,17 +183,32 @@ fn change(pool: &Pool, moved: ExprId, state: Id<State>) -> Option<(bool, ExprId)
     }
 }
 
-/// The statements of a block that set something to what a function gives, those for each member of a kind among them, and the calls.
-fn calls(block: &Block) -> Vec<(Span, &ast::Ref)> {
+/// The statements of a block that set something to what a function gives, those in its inner blocks among them: where they stand,
+/// the calls, and whether a condition decides on them.
+fn calls(block: &Block) -> Vec<(Span, &ast::Ref, bool)> {
     let mut found = Vec::new();
-    let mut open = vec![block];
-    while let Some(block) = open.pop() {
+    let mut open = vec![(block, false)];
+    while let Some((block, decided)) = open.pop() {
         for stmt in &block.stmts {
             match &stmt.kind {
-                StmtKind::For { block, .. } => open.push(block),
+                StmtKind::For { block, .. } => open.push((block, decided)),
+                StmtKind::Branch(branch) => {
+                    let mut next = Some(branch);
+                    while let Some(branch) = next {
+                        open.push((&branch.then, true));
+                        next = match branch.otherwise.as_deref() {
+                            Some(Else::If(branch)) => Some(branch),
+                            Some(Else::Block(block)) => {
+                                open.push((block, true));
+                                None
+                            }
+                            None => None,
+                        };
+                    }
+                }
                 StmtKind::Assign { value, .. } => {
                     if let ExprKind::Ref(call) = &value.kind {
-                        found.push((stmt.span, call));
+                        found.push((stmt.span, call, decided));
                     }
                 }
                 _ => {}

@@ -140,6 +140,17 @@ fn is_in_the_way(wall: &Shape, at: Point, radius: f64) -> bool {
     wall.contains(at) || clearance(wall, at) < radius - SLACK
 }
 
+/// How far a point of the arena is from all walls that always stand, and from its rim: less than nothing in a wall, or outside.
+/// From one point to another it changes by no more than their distance.
+pub fn gap(world: &World, at: Point) -> f64 {
+    let signed = |shape: &Shape| match shape.contains(at) {
+        true => clearance(shape, at),
+        false => -clearance(shape, at),
+    };
+    let walls = standing(world).map(|wall| -signed(&wall.shape));
+    walls.fold(signed(&world.arena), f64::min)
+}
+
 /// How far a point is from the rim of a shape.
 pub fn clearance(shape: &Shape, at: Point) -> f64 {
     let distance = |way: Point| dot(way, way).sqrt();

@@ -1,4 +1,4 @@
-//! What times come to while an episode lasts: one that grows by a tick in each tick is bounded by the ticks there are.
+//! What states come to while an episode lasts: one that changes by so much in each tick is bounded by the ticks there are.
 //!
 //! That holds of episodes alone, so the warnings know it, and no proof does: a robot may run for longer.
 
@@ -52,13 +52,10 @@ impl Checker<'_> {
         tasks.chain(learners).max()
     }
 
-    /// Bounds the times that the program counts by what an episode leaves time for, but for those of which it is told that they
+    /// Bounds the states that change by amounts by what an episode leaves time for, but for those of which it is told that they
     /// `stay` as they are; gives what was known of them before.
     pub fn bound_by_episodes(&mut self, stay: &[Id<State>]) -> Vec<(Id<State>, Stays)> {
-        let tick = self.program.world.as_ref().map(|world| world.tick);
-        let (Some(ticks), Some(tick), false) =
-            (self.longest_episode(), tick, self.values_are_unsure())
-        else {
+        let (Some(ticks), false) = (self.longest_episode(), self.values_are_unsure()) else {
             return Vec::new();
         };
         let settings: Set = all_settings(&self.program);
@@ -67,7 +64,7 @@ impl Checker<'_> {
             let (ValueKind::Quantity, Stays::Within(ends)) = (&state.kind, &state.stays) else {
                 continue;
             };
-            if ends.start().is_finite() && ends.end().is_finite() || stay.contains(&id) {
+            if stay.contains(&id) {
                 continue;
             }
             let initial = range(View::from(&self.program), state.initial).ends();
@@ -99,16 +96,14 @@ impl Checker<'_> {
                     all.change.high += own.change.high.max(0.0);
                     true
                 });
-            let counts = all.change.low == -tick || all.change.high == tick;
+            let counts = all.change.low < 0.0 || all.change.high > 0.0;
             if !known || !counts {
                 continue;
             }
             let ticks = TIMES * (ticks + 1) as f64;
             let low = (all.values.low + ticks * all.change.low).max(*ends.start());
             let high = (all.values.high + ticks * all.change.high).min(*ends.end());
-            if low.is_finite() != ends.start().is_finite()
-                || high.is_finite() != ends.end().is_finite()
-            {
+            if low > *ends.start() || high < *ends.end() {
                 bounded.push((id, Stays::Within(low..=high)));
             }
         }

@@ -1,6 +1,6 @@
 //! Parts of a world that do nothing: walls outside the arena, places that coincide, places that no way leads to.
 
-use super::geometry::{clearance, is_free};
+use super::geometry::{clearance, gap, is_free};
 use super::starts::starts;
 use crate::check::Checker;
 use crate::check::builtin::Constant;
@@ -13,14 +13,16 @@ use crate::ir::task::StartLine;
 use crate::ir::world::{Place, World};
 use crate::source::Span;
 use crate::syntax::ast::{self, Ident, Item, ItemKind, RobotEntryKind, WorldEntryKind};
-use rustc_hash::FxHashSet;
 use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::FRAC_1_SQRT_2;
+use std::ops::Range;
 
 /// The part of the free arena from which on a start that may be shut in is told.
 const SHUT_IN: f64 = 0.002;
 
-/// The most cells of the grid on which ways are looked for, along each axis.
-const CELLS: usize = 120;
+/// The blocks of the grid on which ways are looked for, and the cells of a block, along each axis.
+const BLOCKS: usize = 120;
+const CELLS: usize = 4;
 
 impl<'a> Checker<'a> {
     /// Warns of walls and places that cannot matter.
@@ -119,8 +121,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Places that the robot is sent to and no way leads to: from where it starts, or if that may be anywhere from the one of
-    /// these places from which it gets furthest. The grid is generous: a robot a cell smaller than this one would not get
-    /// there. Doors are open.
+    /// these places from which it gets furthest. The grid is generous by less than a cell. Doors are open.
     fn places_apart(&mut self, declared: &'a ast::World, world: &World, anywhere: &[Span]) {
         let sent = self.sent_to();
         let wanted: Vec<_> = places(declared, world)
@@ -130,7 +131,7 @@ impl<'a> Checker<'a> {
             return;
         }
         let grid = Grid::new(world);
-        let free = grid.free(world);
+        let free = grid.free();
         let (from, reached) = match self.starts() {
             Some(starts) => (String::new(), grid.flood(&free, grid.near(&free, &starts))),
             None => {
@@ -139,24 +140,27 @@ impl<'a> Checker<'a> {
                 for (name, _, place) in &wanted {
                     let starts = grid.near(&free, &[place.shape.center()]);
                     let within =
-                        |(_, reached): &(_, Cells)| starts.iter().all(|at| reached.contains(at));
+                        |(_, reached): &(_, Cells)| starts.iter().all(|at| reached.contains(*at));
                     if !ways.iter().any(within) {
                         ways.push((format!(" from `{}`", name.name), grid.flood(&free, starts)));
                     }
                 }
                 let furthest = ways.into_iter().rev();
-                let furthest = furthest.max_by_key(|(_, reached)| reached.len());
-                furthest.unwrap_or_default()
+                let furthest = furthest.max_by_key(|(_, reached)| reached.iter().count());
+                match furthest {
+                    Some(furthest) => furthest,
+                    None => return,
+                }
             }
         };
         // A start in a wall is reported where it is said.
-        if reached.is_empty() {
+        if reached.iter().next().is_none() {
             return;
         }
         let is_reached = |place: &Place| {
             let near =
                 |at: Point| place.shape.contains(at) || clearance(&place.shape, at) <= grid.step;
-            reached.iter().any(|cell| near(grid.center(*cell)))
+            reached.iter().any(|cell| near(grid.center(cell)))
         };
         let apart = wanted.iter().filter(|(.., place)| !is_reached(place));
         let apart: Vec<_> = apart.collect();
@@ -167,7 +171,7 @@ impl<'a> Checker<'a> {
         }
         // Where a place is apart, that is why a start may be.
         let shut = match apart.is_empty() {
-            true => grid.shut_in(world, &free, &reached),
+            true => grid.shut_in(&free, &reached),
             false => 0.0,
         };
         for at in anywhere.iter().filter(|_| shut >= SHUT_IN) {
@@ -321,65 +325,124 @@ fn has_room(world: &World, shape: &Shape, near: f64) -> bool {
     points.any(|at| is_free(world, at, radius))
 }
 
-/// A cell by its column and its row.
+/// A cell, by its column and its row.
 type Cell = (usize, usize);
 
-/// Some cells, in no order.
-type Cells = FxHashSet<Cell>;
+/// Some cells, row by row in their columns.
+struct Cells(Vec<bool>);
 
-/// Square cells over the arena.
-struct Grid {
+/// The cells along each axis.
+const ALL: usize = BLOCKS * CELLS;
+
+impl Cells {
+    fn none() -> Self {
+        Self(vec![false; ALL * ALL])
+    }
+
+    fn place((column, row): Cell) -> Option<usize> {
+        (column < ALL && row < ALL).then_some(column * ALL + row)
+    }
+
+    fn contains(&self, cell: Cell) -> bool {
+        Self::place(cell).is_some_and(|at| self.0.get(at).copied().unwrap_or_default())
+    }
+
+    /// Whether it was not among them before.
+    fn insert(&mut self, cell: Cell) -> bool {
+        let own = Self::place(cell).and_then(|at| self.0.get_mut(at));
+        own.is_some_and(|own| !std::mem::replace(own, true))
+    }
+
+    fn iter(&self) -> impl Iterator<Item = Cell> {
+        let all = self.0.iter().enumerate().filter(|(_, own)| **own);
+        all.map(|(at, _)| (at / ALL, at % ALL))
+    }
+}
+
+/// Square cells over the arena, and square blocks of them.
+struct Grid<'w> {
+    world: &'w World,
     low: Point,
     step: f64,
 }
 
-impl Grid {
-    fn new(world: &World) -> Self {
+impl<'w> Grid<'w> {
+    fn new(world: &'w World) -> Self {
         let (low, high) = world.arena.bounds();
         let [width, height] = minus(high, low);
-        let step = width.max(height) / CELLS as f64;
-        Self { low, step }
+        let step = width.max(height) / ALL as f64;
+        Self { world, low, step }
     }
 
-    fn center(&self, (column, row): Cell) -> Point {
-        let along = |low: f64, cell: usize| low + (cell as f64 + 0.5) * self.step;
+    fn center(&self, cell: Cell) -> Point {
+        self.middle(cell, self.step)
+    }
+
+    /// The middle of a square of this grid, or of one whose squares have such sides.
+    fn middle(&self, (column, row): Cell, side: f64) -> Point {
+        let along = |low: f64, cell: usize| low + (cell as f64 + 0.5) * side;
         [along(self.low[0], column), along(self.low[1], row)]
     }
 
-    /// The cells in which a robot a cell smaller fits.
-    fn free(&self, world: &World) -> Cells {
-        let radius = (world.robot.radius - self.step).max(self.step / 4.0);
-        let cells = (0..CELLS).flat_map(|column| (0..CELLS).map(move |row| (column, row)));
-        cells
-            .filter(|cell| is_free(world, self.center(*cell), radius))
-            .collect()
+    /// The cells that a robot may pass: a way that it fits through goes no further than half a diagonal from the middle of
+    /// each of its cells.
+    fn free(&self) -> Cells {
+        let radius = self.world.robot.radius - self.step * FRAC_1_SQRT_2;
+        let radius = radius.max(self.step / 4.0);
+        let side = self.step * CELLS as f64;
+        let mut free = Cells::none();
+        for block in square(0..BLOCKS, 0..BLOCKS) {
+            // Within the block it changes by no more than this.
+            let change = side * FRAC_1_SQRT_2;
+            let gap = gap(self.world, self.middle(block, side));
+            if gap < radius - change {
+                continue;
+            }
+            let [columns, rows] = [block.0, block.1].map(|at| at * CELLS..(at + 1) * CELLS);
+            for cell in square(columns, rows) {
+                if gap >= radius + change || self.fits(cell, radius) {
+                    free.insert(cell);
+                }
+            }
+        }
+        free
     }
 
-    /// The part of the arena in which the robot fits that is not among the cells which were reached.
-    fn shut_in(&self, world: &World, free: &Cells, reached: &Cells) -> f64 {
-        let fits = |cell: &&Cell| is_free(world, self.center(**cell), world.robot.radius);
-        let all = free.iter().filter(fits);
+    /// Whether a body with this radius fits in the middle of a cell.
+    fn fits(&self, cell: Cell, radius: f64) -> bool {
+        gap(self.world, self.center(cell)) >= radius
+    }
+
+    /// The part of the arena in which the robot fits that is not among the cells which were reached. One cell of each block is
+    /// asked.
+    fn shut_in(&self, free: &Cells, reached: &Cells) -> f64 {
         let (mut shut, mut count) = (0, 0);
-        for cell in all {
-            count += 1;
-            shut += usize::from(!reached.contains(cell));
+        for (column, row) in square(0..BLOCKS, 0..BLOCKS) {
+            let cell = (column * CELLS + CELLS / 2, row * CELLS + CELLS / 2);
+            if free.contains(cell) && self.fits(cell, self.world.robot.radius) {
+                count += 1;
+                shut += usize::from(!reached.contains(cell));
+            }
         }
         shut as f64 / f64::max(count as f64, 1.0)
     }
 
-    /// The free cells next to some points.
+    /// The free cells around some points.
     fn near(&self, free: &Cells, points: &[Point]) -> Vec<Cell> {
-        let next_to = |cell: &Cell, point: Point| {
-            let [dx, dy] = minus(self.center(*cell), point);
-            dx.abs().max(dy.abs()) <= self.step
-        };
-        let near = |cell: &&Cell| points.iter().any(|point| next_to(cell, *point));
-        free.iter().filter(near).copied().collect()
+        let mut found = Vec::new();
+        for point in points {
+            let [column, row] = minus(*point, self.low).map(|way| (way / self.step) as usize);
+            let around = |at: usize| at.saturating_sub(1)..at.saturating_add(2);
+            let cells = square(around(column), around(row));
+            found.extend(cells.filter(|cell| free.contains(*cell)));
+        }
+        found
     }
 
     /// The free cells that ways lead to from some of them.
     fn flood(&self, free: &Cells, mut open: Vec<Cell>) -> Cells {
-        let mut reached: Cells = open.iter().copied().collect();
+        let mut reached = Cells::none();
+        open.retain(|cell| reached.insert(*cell));
         while let Some((column, row)) = open.pop() {
             for next in [
                 (column + 1, row),
@@ -387,11 +450,16 @@ impl Grid {
                 (column.wrapping_sub(1), row),
                 (column, row.wrapping_sub(1)),
             ] {
-                if free.contains(&next) && reached.insert(next) {
+                if free.contains(next) && reached.insert(next) {
                     open.push(next);
                 }
             }
         }
         reached
     }
+}
+
+/// All cells in these columns and rows.
+fn square(columns: Range<usize>, rows: Range<usize>) -> impl Iterator<Item = Cell> {
+    columns.flat_map(move |column| rows.clone().map(move |row| (column, row)))
 }
