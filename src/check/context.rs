@@ -280,6 +280,11 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// Whether nothing has read the name of a binding yet.
+    pub fn is_unread(&self, name: &Ident) -> bool {
+        self.bound.get(&name.span).is_some_and(|bound| !bound.read)
+    }
+
     /// Notes that a binding has to stand where it stands, read or not.
     pub fn needs(&mut self, binding: Span) {
         if let Some(bound) = self.bound.get_mut(&binding) {

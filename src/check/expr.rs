@@ -32,8 +32,7 @@ impl<'a> Checker<'a> {
     pub fn expr(&mut self, expr: &'a Expr) -> Typed {
         self.depth += 1;
         let wanted = self.wanted.take();
-        // What an argument is to be, its parameter says.
-        if plain_ref(expr).is_some_and(|name| name.args.is_none()) {
+        if plain_ref(expr).is_some() {
             self.wanted = wanted;
         }
         let typed = if self.depth > DEEP {

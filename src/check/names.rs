@@ -8,9 +8,11 @@ mod collect;
 mod lookup;
 
 use super::builtin;
+use super::lint::Mentions;
 use super::meaning::Entity;
 use crate::source::Span;
 use crate::syntax::ast::{self, Ident};
+use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A declaration in the value space.
@@ -188,6 +190,10 @@ pub struct Names<'a> {
     pub lost_world: bool,
     /// Where a `use` could be put into the main file.
     pub top: Option<Span>,
+    /// The items of the user's files.
+    items: Vec<&'a ast::Item>,
+    /// What these mention, once it is asked for.
+    mentions: OnceCell<Mentions<'a>>,
 }
 
 /// The words besides states that a `start` sets.
@@ -220,6 +226,17 @@ impl<'a> Names<'a> {
     /// Whether a declaration of this name was not understood: what uses it is not to blame.
     pub fn is_lost(&self, name: &str) -> bool {
         self.lost.contains(name)
+    }
+
+    /// Whether the user declares a value of this name and mentions it nowhere.
+    pub fn is_unused(&self, name: &str) -> bool {
+        let mentions = self.mentions.get_or_init(|| {
+            let mut mentions = Mentions::default();
+            self.items.iter().for_each(|item| mentions.item(item));
+            mentions
+        });
+        let mentioned = mentions.read.contains(name) || mentions.set.contains(name);
+        self.user.contains_key(name) && !mentioned
     }
 
     /// Notes that what is called so, or was to be, was not understood.

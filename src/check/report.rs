@@ -99,6 +99,15 @@ impl<'d> Draft<'d> {
         }
     }
 
+    /// Adds advice where there is any, and none yet.
+    pub fn or_help(self, help: Option<String>) -> Self {
+        let advised = self
+            .diagnostic
+            .as_ref()
+            .is_some_and(|it| !it.help.is_empty());
+        self.help_if(help.filter(|_| !advised))
+    }
+
     /// Points at another place, too, if there is one.
     pub fn also_if(self, place: Option<Span>, message: &str) -> Self {
         match place {
@@ -275,6 +284,9 @@ impl<'a> Checker<'a> {
         self.error(Code::E0407, span, message).label(label)
     }
 }
+
+/// How many names are listed at most where none of a name is known: a long list says little.
+pub const LISTED: usize = 6;
 
 /// Names in a sentence: `a`, `b` and `c`.
 pub fn listed(names: &[&str], word: &str) -> String {

@@ -2,6 +2,8 @@
 
 use super::Checker;
 use super::context::Region;
+use super::expr::plain_ref;
+use super::names::is_built_in;
 use super::report::listed;
 use crate::diagnostic::{Applicability, Code};
 use crate::source::Span;
@@ -271,8 +273,20 @@ impl<'a> Checker<'a> {
             });
     }
 
-    /// Checks an argument that has no parameter, for its own mistakes.
+    /// Checks an argument that has no parameter, for its own mistakes. A name that is not declared belongs to the parameter that
+    /// there is not.
     pub fn stray_argument(&mut self, arg: &'a Arg) {
+        if let ArgKind::Named(_, value) = &arg.kind
+            && let Some(name) = plain_ref(value).filter(|name| name.args.is_none())
+            && self.context.lookup(&name.name.name).is_none()
+            && self
+                .names
+                .value(&name.name.name, self.context.library)
+                .is_none()
+            && !is_built_in(&name.name.name)
+        {
+            return;
+        }
         if let ArgKind::Positional(value) | ArgKind::Named(_, value) = &arg.kind {
             self.expr(value);
         }

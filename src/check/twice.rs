@@ -1,7 +1,7 @@
 //! One message of two that one slip brings about: a name that is declared twice where another one is declared nowhere,
 //! a parameter whose name or type disagrees with its body and with its uses.
 
-use crate::diagnostic::{Applicability, Code, Diagnostic, Label};
+use crate::diagnostic::{Applicability, Code, Diagnostic, Label, suggest};
 use crate::source::Span;
 use crate::spelling::spelled;
 use std::collections::{BTreeMap, BTreeSet};
@@ -131,14 +131,17 @@ fn given(message: &str) -> Option<(&str, &str, &str)> {
     Some((owner.strip_suffix('`')?, is, wanted))
 }
 
-/// The name that a diagnostic misses, where no other is near it.
+/// The name that a diagnostic misses, unless it is a slip of another one.
 fn missing(found: &Diagnostic) -> Option<&str> {
-    let plain = found.fixes.is_empty();
     let quoted = |message: &'static str| -> Option<&str> { found.message.strip_suffix(message) };
     let name = match found.code {
         Code::E0202 => quoted(" is not declared")?,
         Code::E0406 => found.message.split(" needs a sensor ").nth(1)?,
         _ => return None,
     };
-    plain.then(|| name.trim_matches('`'))
+    let name = name.trim_matches('`');
+    // What is only like another name may be the one that a copied line was to declare; a slip of another name is not.
+    let mut offered = found.fixes.iter().flat_map(|fix| &fix.edits);
+    let is_slip = offered.any(|(_, right)| suggest::is_slip(name, right));
+    (!is_slip).then_some(name)
 }

@@ -217,6 +217,18 @@ pub fn nearest<'a, I>(name: &str, candidates: I) -> Option<&'a str>
 where
     I: IntoIterator<Item = &'a str>,
 {
+    nearest_rather(name, candidates, |_| false)
+}
+
+/// [`nearest`], where of several that are as near one that is `rather` meant comes first.
+pub fn nearest_rather<'a, I>(
+    name: &str,
+    candidates: I,
+    rather: impl Fn(&str) -> bool,
+) -> Option<&'a str>
+where
+    I: IntoIterator<Item = &'a str>,
+{
     let candidates: Vec<&'a str> = candidates.into_iter().collect();
     let mut cased = candidates
         .iter()
@@ -249,7 +261,9 @@ where
     };
     let nearest = (candidates.iter().copied())
         .filter_map(near)
-        .min_by_key(|(distance, word)| (*distance, own.abs_diff(word.chars().count())))
+        .min_by_key(|(distance, word)| {
+            (*distance, !rather(word), own.abs_diff(word.chars().count()))
+        })
         .map(|(_, candidate)| candidate);
     nearest
         .or_else(|| cut_short(name, &candidates))
@@ -318,7 +332,7 @@ fn half_edits(left: &str, right: &str) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::{is_near, is_slip, nearest};
+    use super::{is_near, is_slip, nearest, nearest_rather};
 
     #[test]
     fn finds_what_was_meant() {
@@ -334,6 +348,10 @@ mod tests {
         assert_eq!(nearest("hauling", ["haul"]), Some("haul"));
         assert_eq!(nearest("turn", ["max_turn", "turns"]), Some("turns"));
         assert_eq!(nearest("chanse", ["chase", "chance"]), Some("chance"));
+        let unused = |name: &str| name == "doly";
+        assert_eq!(nearest("dolly", ["molly", "doly"]), Some("molly"));
+        let rather = nearest_rather("dolly", ["molly", "doly"], unused);
+        assert_eq!(rather, Some("doly"));
     }
 
     #[test]

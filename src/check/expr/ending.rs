@@ -61,7 +61,7 @@ impl<'a> Checker<'a> {
         self.kept_in_history(function, reference);
         let robot = robot.unwrap_or(self.subject);
         let behavior = self.as_robot(robot, |checker| {
-            let typed = checker.expr(value);
+            let typed = checker.expr_like(value, &Type::Behavior);
             if matches!(typed.ty, Type::Place(_)) {
                 let name = &reference.name.name;
                 let message = format!("what ends is {}, not {}", Type::Behavior, typed.ty);

@@ -50,7 +50,11 @@ impl<'a> Checker<'a> {
         reference: &'a Ref,
         value: &'a ast::Expr,
     ) -> Option<Typed> {
-        let target = self.expr(value);
+        let wanted = match function {
+            Function::Inside | Function::Facing => Type::Place(None),
+            _ => Type::Target,
+        };
+        let target = self.expr_like(value, &wanted);
         if target.ty == Type::Error {
             return None;
         }

@@ -5,7 +5,7 @@ use crate::check::builtin;
 use crate::check::context::Region;
 use crate::check::expr::plain_ref;
 use crate::check::names::{Decl, is_built_in};
-use crate::check::report::listed;
+use crate::check::report::{LISTED, listed};
 use crate::check::task::history::NO_END;
 use crate::check::types::{Type, Typed, Value};
 use crate::diagnostic::{Applicability, Code, suggest};
@@ -13,17 +13,18 @@ use crate::ir::expr::Expr;
 use crate::ir::world::{Robot, World};
 use crate::ir::{Id, Name};
 use crate::source::Span;
+use crate::spelling::spelled;
 use crate::syntax::ast::{Arg, ArgKind, Ident, Ref};
+use crate::syntax::words::UNITS;
 
 /// How many places a world has at most where one is looked for to name it.
 const LOOKED_AT: usize = 100;
 
-/// How many places are listed where none of a name is known.
-const LISTED: usize = 6;
-
 impl<'a> Checker<'a> {
     /// A name, or a call.
     pub fn reference(&mut self, reference: &'a Ref) -> Option<Typed> {
+        // What an argument is to be, its parameter says.
+        let wanted = self.wanted.take();
         let name = reference.name.name.as_str();
         let span = reference.span;
         if reference.args.is_none() {
@@ -102,7 +103,7 @@ impl<'a> Checker<'a> {
             {
                 Some(self.no_end(span))
             }
-            None => self.unknown_reference(reference),
+            None => self.unknown_reference(reference, wanted.as_ref()),
         }
     }
 
@@ -150,7 +151,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Reports that no value of the enum `of` is called so, unless the name is like another one.
-    fn no_value_of(&mut self, name: &Ident, of: Option<String>) -> bool {
+    fn no_value_of(&mut self, name: &Ident, of: Option<String>, wanted: Option<&Type>) -> bool {
         let Some(of) = of else { return false };
         // An enum or a kind is no misspelt value.
         if self.names.types.contains_key(name.name.as_str()) {
@@ -161,7 +162,10 @@ impl<'a> Checker<'a> {
         let variants: Vec<String> = variants.iter().map(ToString::to_string).collect();
         let variants = || variants.iter().map(String::as_str);
         let meant = suggest::nearest(&name.name, variants());
-        let elsewhere = self.likely(&name.name, self.names.values(|_| true));
+        let scope = self.context.scope.iter();
+        let scope = scope.map(|bound| bound.name.name.as_str());
+        let elsewhere = self.likely(&name.name, scope.chain(self.names.values(|_| true)));
+        let elsewhere = elsewhere.or_else(|| self.parameter_meant(wanted));
         if meant.is_none() && elsewhere.is_some() {
             return false;
         }
@@ -198,9 +202,8 @@ impl<'a> Checker<'a> {
         })
     }
 
-    fn unknown_reference(&mut self, reference: &Ref) -> Option<Typed> {
+    fn unknown_reference(&mut self, reference: &Ref, wanted: Option<&Type>) -> Option<Typed> {
         let name = &reference.name;
-        let wanted = self.wanted.take();
         let mut others = self.names.other_sensors.iter();
         if reference.args.is_none() && others.any(|(_, other)| other.name == name.name) {
             return self.sensor_of_another(reference);
@@ -221,27 +224,19 @@ impl<'a> Checker<'a> {
                 ))
                 .none();
         }
-        let of = match &wanted {
+        let of = match wanted {
             Some(Type::Enum(of)) => Some(of.clone()),
             _ => None,
         };
-        if reference.args.is_none() && self.no_value_of(name, of) {
+        if reference.args.is_none() && self.no_value_of(name, of, wanted) {
             return None;
         }
         if reference.args.is_none() && name.name.len() == 1 {
             self.names.lacking.extend(self.body_without_parameters());
         }
-        let scope = self.context.scope.iter();
-        let scope = scope.map(|bound| bound.name.name.as_str());
         let called = reference.args.is_some();
-        let declared = self.names.values(|decl| match called {
-            true => !matches!(decl, Decl::Tree(_)),
-            false => may_be(decl, wanted.as_ref()),
-        });
-        let built_in = builtin::names().map(|name| -> &'a str { name });
-        let built_in = built_in.filter(|name| called != builtin::Constant::named(name).is_some());
-        let known = scope.chain(declared).chain(built_in);
-        let likely = self.likely(&name.name, known);
+        let likely = self.likely_value(reference, wanted);
+        let likely = likely.or_else(|| self.parameter_meant(wanted).filter(|_| !called));
         let likely = likely.map(|likely| match likely {
             "uniform" if self.is_given_names(reference) => "one_of",
             _ => likely,
@@ -249,22 +244,86 @@ impl<'a> Checker<'a> {
         if self.names.lost_type && likely.is_none() && !called {
             return None;
         }
+        let named = wanted.is_some_and(|wanted| {
+            *wanted == Type::Target || *wanted == Type::Behavior || wanted.is_named_target()
+        });
         let what = match reference.args {
             Some(_) => "function, predicate or `let`",
+            // What a unit is called is no number where something with a name is wanted.
+            None if named && UNITS.contains(&name.name.as_str()) => "parameter, state or place",
             None => "state, event, place or `let`",
         };
         // A kind is no place, and a letter more likely a parameter that is missing.
         let is_kind = self.names.types.contains_key(name.name.as_str());
         let is_letter = name.name.len() == 1 && self.context.region != Region::Tree;
         let places = match likely {
-            None if !called && !is_kind && !is_letter => self.places_of(wanted.as_ref()),
+            None if !called && !is_kind && !is_letter => self.places_of(wanted),
+            None if !called && !is_kind && named => self.parameter_missing(&name.name, wanted),
             _ => None,
         };
-        self.undeclared(name, what, likely).help_if(places).none()
+        self.undeclared(name, what, likely).or_help(places).none()
+    }
+
+    /// The declared name that was likely meant by one that nothing declares: first of those that may stand there, then of
+    /// the others that may be meant by mistake.
+    fn likely_value(&self, reference: &Ref, wanted: Option<&Type>) -> Option<&'a str> {
+        let name = &reference.name.name;
+        let called = reference.args.is_some();
+        let given = reference.args.as_ref().is_some_and(|args| !args.is_empty());
+        let scope = self.context.scope.iter();
+        let scope = scope.map(|bound| -> &'a str { &bound.name.name });
+        let scope = scope.filter(|_| !called);
+        let fits = |decl: Decl| {
+            let called = !called || may_be_called(decl, given);
+            may_be(decl, wanted) && called
+        };
+        let built_in = builtin::names().map(|name| -> &'a str { name });
+        let built_in = built_in.filter(|name| called != builtin::Constant::named(name).is_some());
+        let known = scope.chain(self.names.values(fits)).chain(built_in);
+        let fitting = self.likely(name, known);
+        fitting.or_else(|| {
+            let others = |decl| called && may_be_called(decl, false);
+            self.likely(name, self.names.values(others))
+        })
+    }
+
+    /// The one parameter of the body at hand that is of a type and that nothing has read.
+    fn parameter_meant(&self, wanted: Option<&Type>) -> Option<&'a str> {
+        let wanted = wanted?;
+        let scope = self.context.scope.iter();
+        let mut free = scope.filter(|bound| bound.ty.fits(wanted) && self.is_unread(bound.name));
+        let only = free.next().filter(|bound| bound.ty != Type::Error)?;
+        free.next().is_none().then_some(only.name.name.as_str())
+    }
+
+    /// How the parameter is declared that the body at hand seems to lack.
+    fn parameter_missing(&self, name: &str, wanted: Option<&Type>) -> Option<String> {
+        let body = self.body_without_parameters()?;
+        let ty = match wanted? {
+            Type::Target => "place".to_owned(),
+            wanted => wanted.written()?,
+        };
+        let (body, name) = (spelled(&body), spelled(name));
+        Some(format!(
+            "a parameter stands behind the name: `{body}({name}: {ty})`"
+        ))
+    }
+
+    /// The only sensor of the acting robot that nothing reads.
+    fn sensor_unused(&self) -> Option<&'a str> {
+        let sensors = self.names.values(|decl| matches!(decl, Decl::Sensor(_)));
+        let mut unused = sensors.filter(|name| self.names.is_unused(name));
+        let only = unused.next().filter(|name| !name.starts_with('_'))?;
+        unused.next().is_none().then_some(only)
     }
 
     /// The places that are meant where one is wanted, as advice; a long list says little.
     fn places_of(&self, wanted: Option<&Type>) -> Option<String> {
+        if *wanted? == Type::Target
+            && let Some(sensor) = self.sensor_unused()
+        {
+            return Some(format!("a sensor that nothing reads is `{sensor}`"));
+        }
         let kind = match wanted? {
             Type::Place(kind) => kind,
             Type::Target => &None,
@@ -386,6 +445,18 @@ impl<'a> Checker<'a> {
     }
 }
 
+/// Whether what is declared so may be called, with arguments or, if it is not `given` any, without.
+fn may_be_called(decl: Decl, given: bool) -> bool {
+    match decl {
+        Decl::State(it) => it.params.is_some() || !given,
+        Decl::Event(it) => it.params.is_some() || !given,
+        Decl::Let(it) => it.params.is_some() || !given,
+        Decl::Predicate(it) => it.params.is_some() || !given,
+        Decl::Behavior(it) => it.params.is_some() || !given,
+        _ => false,
+    }
+}
+
 /// Whether what is declared so may be a value of a type.
 fn may_be(decl: Decl, wanted: Option<&Type>) -> bool {
     let Some(wanted) = wanted else {
@@ -393,7 +464,7 @@ fn may_be(decl: Decl, wanted: Option<&Type>) -> bool {
     };
     let named = matches!(wanted, Type::Target | Type::Nowhere) || wanted.is_named_target();
     match decl {
-        Decl::State(_) | Decl::Let(_) => true,
+        Decl::State(_) | Decl::Let(_) => *wanted != Type::Behavior,
         Decl::Tree(_) => false,
         Decl::Input(_) => !named,
         Decl::Predicate(_) | Decl::Event(_) => *wanted == Type::Bool,

@@ -26,6 +26,9 @@ impl<'a> Names<'a> {
             for item in &input.ast.items {
                 collector.item(item);
             }
+            if !input.library {
+                names.items.extend(&input.ast.items);
+            }
             let lost = &input.ast.lost;
             names.lost.extend(lost.names.iter().cloned());
             names.lost_world |= lost.world;

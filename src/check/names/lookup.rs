@@ -278,7 +278,8 @@ impl<'a> Checker<'a> {
         let left = self.guesses.get();
         let mut looked_at = 0;
         let known = known.inspect(|_| looked_at += 1).take(left);
-        let found = suggest::nearest(name, known);
+        // Of names that are as near, that of a declaration which nothing uses.
+        let found = suggest::nearest_rather(name, known, |near| self.names.is_unused(near));
         self.guesses.set(left - looked_at.min(left));
         found
     }
@@ -446,6 +447,7 @@ fn hint(name: &str, what: &str) -> Option<String> {
         "speed" | "turn" | "velocity" if what == "variable" => {
             "a motion is commanded by `drive(speed = …, turn = …)`".to_owned()
         }
+        _ if what.starts_with("parameter") => return None,
         "s" | "ms" | "second" | "seconds" | "minute" | "minutes" | "hour" | "cm" | "mm" | "deg"
         | "rad" => {
             let unit = match name {

@@ -3,6 +3,7 @@
 use crate::check::Checker;
 use crate::check::context::{Context, Region};
 use crate::check::names::{Decl, LEARNED};
+use crate::check::report::{LISTED, listed};
 use crate::check::types::Type;
 use crate::diagnostic::{Applicability, Code};
 use crate::ir::program::Event;
@@ -91,8 +92,11 @@ impl<'a> Checker<'a> {
             _ => {
                 let trees = self.names.values(|decl| matches!(decl, Decl::Tree(_)));
                 let trees = trees.chain(self.names.learners.keys().copied());
-                let likely = self.likely(&name.name, trees);
-                self.undeclared(name, "tree", likely);
+                let trees: Vec<&str> = trees.collect();
+                let likely = self.likely(&name.name, trees.iter().copied());
+                let all = (likely.is_none() && (1..=LISTED).contains(&trees.len()))
+                    .then(|| format!("there is {}", listed(&trees, "and")));
+                self.undeclared(name, "tree", likely).or_help(all);
             }
         }
         None
