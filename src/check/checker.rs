@@ -49,8 +49,10 @@ pub struct Checker<'a> {
     pub context: Context<'a>,
     /// The bodies that have been checked or are being checked.
     pub bodies: Bodies<'a>,
-    /// The uses of states that do not agree with their types.
+    /// The uses of states, parameters and constants that do not agree with their types.
     pub clashes: Vec<Clash<'a>>,
+    /// Where the types of parameters are written, by the places of their names.
+    pub parameter_types: BTreeMap<Span, Span>,
     /// The parameters whose type and default do not agree.
     pub unsure: Vec<Span>,
     /// How many expressions are being checked within one another.
@@ -166,6 +168,7 @@ impl<'a> Checker<'a> {
             context: Context::new(Region::World),
             bodies: Bodies::default(),
             clashes: Vec::new(),
+            parameter_types: BTreeMap::new(),
             unsure: Vec::new(),
             depth: 0,
             kept: None,

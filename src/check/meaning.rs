@@ -137,7 +137,8 @@ impl Meanings {
         self.known(name).and_then(Type::written)
     }
 
-    fn known(&self, name: Span) -> Option<&Type> {
+    /// The type of the name at a place, where it has one.
+    pub fn known(&self, name: Span) -> Option<&Type> {
         self.types.get(&name).filter(|ty| **ty != Type::Error)
     }
 

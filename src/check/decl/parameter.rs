@@ -42,6 +42,7 @@ impl<'a> Checker<'a> {
             }
             self.binds(name, "parameter");
             self.is_of_type(name, &ty);
+            self.parameter_types.insert(name.span, param.ty.span);
             bindings.push(Binding::unknown(name, ty));
         }
         bindings
@@ -114,7 +115,11 @@ impl<'a> Checker<'a> {
                 (Some(value), _) => {
                     let to = makes_instance.then_some((name.as_str(), param.name.name.as_str()));
                     let outer = std::mem::replace(&mut self.given, to);
-                    let value = self.expect(value, &ty, &role);
+                    let typed = self.expr_like(value, &ty);
+                    if !library && !typed.ty.fits(&ty) {
+                        self.clashes_with_parameter(&param.name, &ty, &typed);
+                    }
+                    let value = self.coerce(typed, value, &ty, &role);
                     self.given = outer;
                     value
                 }
