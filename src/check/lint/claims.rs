@@ -126,7 +126,9 @@ impl<'a> Checker<'a> {
 
     /// `with probability >= 0%`
     fn always_holds(&mut self, claim: &'a Claim) {
-        if let Some((false, probability)) = &claim.probability {
+        if let Some((false, probability)) = &claim.probability
+            && !self.is_told_within(Code::W0520, probability.span)
+        {
             self.warning(
                 Code::W0520,
                 probability.span,

@@ -93,6 +93,13 @@ impl Checker<'_> {
                             same.of_acting()
                         )
                     }
+                    // Who names the robot means that one.
+                    (Some(_), Some(relative), Some(robot)) if alike(&relative) => {
+                        format!(
+                            "`{robot}` runs `{}`, which is another behaviour: ask that, or let `{robot}` run `{own}`",
+                            relative.of_acting()
+                        )
+                    }
                     (Some(robot), ..) => {
                         format!("the robot `{robot}` runs it: that is asked with `by = {robot}`")
                     }

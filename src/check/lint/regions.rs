@@ -213,6 +213,14 @@ impl<'a> Checker<'a> {
         let program = &self.program;
         let every = |test: &dyn Fn(View, &Law) -> bool| own.iter().all(|id| of(program, *id, test));
         let requires_never = every(&|view, law| of_expr(view, law.requires, true).is_never());
+        // What never runs is told of what it requires.
+        let refused_is_told = clauses.iter().any(|clause| {
+            matches!(clause.kind, ClauseKind::Requires(_))
+                && self.is_told_within(Code::W0601, clause.span)
+        });
+        if requires_never && refused_is_told {
+            return;
+        }
         // What follows from the values of locals is told of how they start.
         let at_once = every(&|view, law| {
             let view = View { law: None, ..view };

@@ -3,7 +3,7 @@
 use super::cases::{comparison, conjuncts, of_expr};
 use super::interval::Interval;
 use super::ranges::range;
-use super::stays::{Set, of_block, set_in_ticks};
+use super::stays::{Set, of_block, set_in_ticks, unchanging};
 use super::tree::at_success;
 use super::view::View;
 use crate::check::Checker;
@@ -53,7 +53,7 @@ impl Checker<'_> {
     ) {
         let lines = checked.written.reward.iter().zip(&checked.reward);
         let lines = lines.filter(|(of, _)| **of == place).map(|(_, line)| line);
-        let mut stands = None;
+        let (mut stands, mut kept) = (None, None);
         for line in lines {
             let pays = self.program.pool.constant(line.value);
             let happens = of_expr(&self.program, line.event, true)
@@ -61,13 +61,18 @@ impl Checker<'_> {
             if pays.is_some_and(|pays| pays > 0.0) && !happens.is_never() {
                 stands = self.standing(line.event, setters);
             }
-            if stands.is_some() {
+            if let Some((_, states)) = &stands {
+                kept = self.set_by(line.event, states, setters);
                 break;
             }
         }
-        let Some((behavior, asks_states)) = stands else {
+        let Some((behavior, states)) = stands else {
             return;
         };
+        let asks_states = !states.is_empty();
+        if self.is_told_unchanging(&states) {
+            return;
+        }
         // What the event is to change is set to what it is, and that is told.
         let mut told = self.diagnostics.iter();
         let is_idle = |found: &Diagnostic| matches!(found.code, Code::W0303 | Code::W0308);
@@ -78,13 +83,49 @@ impl Checker<'_> {
         let message = "this is paid again in every tick that the robot stays".to_owned();
         self.warning(Code::W0519, at, message)
             .label(format!("where `{name}` has succeeded it succeeds again at once"))
-            .help(match asks_states {
-                false => format!(
+            .help(match (asks_states, kept) {
+                (false, _) => format!(
                     "pay for what changes: `success({name}) and STATE`, with a state that the event sets"
                 ),
-                true => "let the event change the state that it asks: `on EVENT { STATE = … }`"
+                (true, Some(state)) => format!(
+                    "the event sets `{state}` to what it asks for again: let it set another value"
+                ),
+                (true, None) => "let the event change the state that it asks: `on EVENT { STATE = … }`"
                     .to_owned(),
             });
+    }
+
+    /// The name of one of these states that an effect of the event itself sets.
+    fn set_by(
+        &self,
+        event: ExprId,
+        states: &BTreeSet<Id<State>>,
+        setters: &Setters,
+    ) -> Option<String> {
+        let program = &self.program;
+        let of_event = |at: &usize| {
+            let effect = program.effects.get(*at);
+            effect.is_some_and(|effect| {
+                effect.on == event || conjuncts(program, effect.on) == conjuncts(program, event)
+            })
+        };
+        let set = |state: &&Id<State>| {
+            let mut effects = setters.effects.get(*state).into_iter().flatten();
+            effects.any(of_event)
+        };
+        let state = states.iter().find(set)?;
+        Some(program.states[*state].name.to_string())
+    }
+
+    /// Whether it was told that one of these states never changes: what asks for another value never happens.
+    fn is_told_unchanging(&self, states: &BTreeSet<Id<State>>) -> bool {
+        let messages = states.iter().map(|state| {
+            let name = &self.program.states[*state].name.family;
+            unchanging(name)
+        });
+        let messages: BTreeSet<String> = messages.collect();
+        let mut found = self.diagnostics.iter();
+        found.any(|found| found.code == Code::W0205 && messages.contains(&found.message))
     }
 
     /// `on flat: -20`: an event that goes on to hold by itself is paid for in each tick of it.
@@ -116,8 +157,12 @@ impl Checker<'_> {
     }
 
     /// The behaviour whose success is all that a condition waits for, if it stands once it has come, and whether the condition
-    /// asks for states, too, which stay as they are.
-    fn standing(&mut self, condition: ExprId, setters: &Setters) -> Option<(Id<Behavior>, bool)> {
+    /// asks for states, too, which stay as they are: these.
+    fn standing(
+        &mut self,
+        condition: ExprId,
+        setters: &Setters,
+    ) -> Option<(Id<Behavior>, BTreeSet<Id<State>>)> {
         let program = &self.program;
         let (mut found, mut states) = (None, Vec::new());
         for id in conjuncts(program, condition) {
@@ -137,11 +182,19 @@ impl Checker<'_> {
                 _ => states.push(id),
             }
         }
-        let asks_states = !states.is_empty();
+        let mut asked = BTreeSet::new();
+        for id in &states {
+            program.pool.any(*id, &mut |part| {
+                if let Expr::State(state) = part {
+                    asked.insert(state);
+                }
+                false
+            });
+        }
         let stay = states
             .into_iter()
             .all(|id| self.keeps(id, (condition, found), setters));
-        found.filter(|_| stay).zip(Some(asks_states))
+        found.filter(|_| stay).zip(Some(asked))
     }
 
     /// Whether a condition on states alone holds in the next tick wherever it holds in one, as far as no behaviour ends.

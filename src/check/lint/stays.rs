@@ -20,6 +20,11 @@ type Setting = (Id<Robot>, ExprId);
 /// What sets each state.
 pub type Set = BTreeMap<Id<State>, Vec<Setting>>;
 
+/// What is told of a state that has one value for good.
+pub(super) fn unchanging(name: &str) -> String {
+    format!("the state `{name}` never changes")
+}
+
 impl<'a> Checker<'a> {
     /// Finds out which values the states of the program may have.
     ///
@@ -175,8 +180,7 @@ impl<'a> Checker<'a> {
                 true => "whatever sets it sets it to this value",
                 false => "what sets it to another value never happens",
             };
-            let message = format!("the state `{}` never changes", it.name.name);
-            self.warning(Code::W0205, it.name.span, message)
+            self.warning(Code::W0205, it.name.span, unchanging(&it.name.name))
                 .label("it stays as it is declared here")
                 .note(why);
         }
