@@ -18,7 +18,7 @@ pub(super) use characters::{no_remainder, unclosed_quote};
 use ends::OPEN_ENDS;
 pub(super) use ends::{ends_after, unfinished};
 pub(super) use foreign::{dashed, other_comment};
-pub(super) use units::{no_such_unit, one_unit, units_note};
+pub(super) use units::{no_such_unit, one_unit, unit_of_a_point, units_note};
 pub(super) use words::end_is_missing;
 
 use super::brackets::{innermost_open, unclosed};

@@ -212,6 +212,10 @@ fn one_of_a_habit(text: &str, told: Vec<Diagnostic>) -> Vec<Diagnostic> {
         let marked = found.help.iter().find(|help| help.starts_with(NAMES));
         let habit = match (found.code, marked) {
             (Code::E0118, _) => slice(text, &found).to_owned(),
+            // `goto(A);`
+            (Code::E0101, _) if slice(text, &found) == ";" && found.fixes.len() == 1 => {
+                format!("; {}", found.fixes.first().map_or("", |fix| &fix.title))
+            }
             (_, Some(help)) => help.clone(),
             _ => {
                 kept.push(found);
@@ -229,7 +233,10 @@ fn one_of_a_habit(text: &str, told: Vec<Diagnostic>) -> Vec<Diagnostic> {
         };
         further.push(found.span());
         if let (Some(all), Some(one)) = (habit.fixes.first_mut(), found.fixes.into_iter().next()) {
-            all.title = format!("drop every `{mark}` that nothing needs");
+            all.title = match found.code {
+                Code::E0118 => format!("drop every `{mark}` that nothing needs"),
+                _ => "part all of them by commas".to_owned(),
+            };
             all.edits.extend(one.edits);
         }
     }

@@ -56,10 +56,18 @@ impl<'a> Checker<'a> {
         let named = plain_ref(expr)
             .and_then(|name| self.names.value(&name.name.name, self.context.library));
         let is_variant = matches!(named, Some((Decl::Variant(..), _)));
+        // A second place is no measure of how near the first one is.
+        let is_place = typed.ty.is_named_target() || typed.ty == Type::Target;
+        let is_argument = role.contains("` of `");
+        let beside = is_place && is_argument && wanted.dim() == Some(Dim::LENGTH);
         let help = self
             .of_no_kind(typed, expr, wanted)
             .or_else(|| self.in_each_tick(typed, expr, wanted))
-            .or_else(|| conversion(typed, expr, wanted, is_variant))
+            .or_else(|| {
+                self.of_the_moment(typed, expr, wanted)
+                    .filter(|_| !is_argument)
+            })
+            .or_else(|| conversion(typed, expr, wanted, is_variant).filter(|_| !beside))
             .or_else(|| self.values_of(wanted));
         let kind = self.misspelt_kind(expr, &typed.ty, wanted);
         let place = (&typed.ty, wanted) == (&Type::Robot, &Type::Point);
@@ -102,6 +110,25 @@ impl<'a> Checker<'a> {
             Some((Decl::Place(..), _)) => Some(format!(
                 "a kind stands behind the name: `place {place}: {kind} = …`"
             )),
+            _ => None,
+        }
+    }
+
+    /// What keeps where the robot is, or a place, as the program runs.
+    fn of_the_moment(&self, typed: &Typed, expr: &Expr, wanted: &Type) -> Option<String> {
+        let runs = !matches!(
+            self.context.region,
+            Region::World | Region::Start | Region::StartHistory
+        );
+        let name = plain_ref(expr).map(|it| it.name.name.as_str());
+        match (&typed.ty, wanted) {
+            (Type::Point, Type::Place(_)) if matches!(name, Some("position" | "pose")) => {
+                Some("what keeps where a robot was is a point: `state NAME: point = (1 m, 2 m)`".to_owned())
+            }
+            (Type::Place(_), Type::Point) if runs => Some(
+                "where the robot is at this moment: `position`; what keeps a place is a `state NAME: place = …`"
+                    .to_owned(),
+            ),
             _ => None,
         }
     }

@@ -1,6 +1,7 @@
 //! Operators.
 
 use crate::check::Checker;
+use crate::check::context::Region;
 use crate::check::expr::expect::is_literal;
 use crate::check::expr::plain_ref;
 use crate::check::report::listed;
@@ -483,6 +484,30 @@ impl<'a> Checker<'a> {
         };
         let at = wrong.span;
         let elsewhere = (expr.span != left.span && expr.span != right.span).then_some(expr.span);
+        let sums = matches!(op.node, BinaryOp::Add | BinaryOp::Sub);
+        if self.context.region == Region::Reward && sums && wrong.ty == Type::NUMBER {
+            let measure = if fine.span == right.span { right } else { left };
+            let divided = fine.ty.dim().and_then(Dim::unit).map(|unit| {
+                let whole = match measure.kind {
+                    ExprKind::Ref(_) | ExprKind::Paren(_) | ExprKind::Number(_) => {
+                        print::expr(measure)
+                    }
+                    _ => format!("({})", print::expr(measure)),
+                };
+                let right = format!("{whole} / 1 {unit}");
+                (
+                    format!("a reward is a plain number: write `{right}`"),
+                    measure.span,
+                    right,
+                )
+            });
+            self.error(Code::E0301, at, message)
+                .this_is(&wrong.ty)
+                .also(fine.span, format!("this is {}", fine.ty))
+                .also_if(elsewhere, "declared without a unit")
+                .fix_if(divided);
+            return None;
+        }
         self.error(Code::E0301, at, message)
             .this_is(&wrong.ty)
             .also(fine.span, format!("this is {}", fine.ty))

@@ -50,7 +50,12 @@ impl<'a> Checker<'a> {
                 .label("only a selector or a sequence resumes at its running child")
                 .fix("take it away", span, "", Applicability::Unsafe);
         }
-        let number = self.node_argument(word, args);
+        let number = match args {
+            Some([arg]) if word.node == Word::Parallel && self.counts_children(arg, children) => {
+                None
+            }
+            args => self.node_argument(word, args),
+        };
         let built: Vec<Option<Node>> = children.iter().map(|child| self.node(child)).collect();
         if children.is_empty() {
             return self
@@ -102,6 +107,29 @@ impl<'a> Checker<'a> {
             kind,
             child: Box::new(children.pop()?),
         })
+    }
+
+    /// Reports `parallel(all)` and `parallel(any)`: so many successes are written as a number.
+    fn counts_children(&mut self, arg: &Arg, children: &[ast::Node]) -> bool {
+        let ArgKind::Positional(value) = &arg.kind else {
+            return false;
+        };
+        let word = plain_ref(value).filter(|word| word.args.is_none());
+        let number = match word.map(|word| word.name.name.as_str()) {
+            Some("all" | "every") => children.len(),
+            Some("any" | "one") => 1,
+            _ => return false,
+        };
+        let right = number.to_string();
+        self.error(Code::E0606, arg.span, "`parallel` takes a number")
+            .label("so many of its children have to succeed")
+            .fix(
+                format!("write `{right}`"),
+                arg.span,
+                right,
+                Applicability::Unsafe,
+            );
+        true
     }
 
     /// The number of `parallel(n)`, `retry(n)`, `repeat(n)`, the ticks of `timeout(t)`; the other words have none.

@@ -3,7 +3,7 @@
 use crate::check::Checker;
 use crate::check::signature::{Signature, Takes};
 use crate::check::types::Type;
-use crate::diagnostic::{Code, suggest};
+use crate::diagnostic::{Applicability, Code, suggest};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, Field, Ref};
 use crate::syntax::words::{SHAPES, home};
@@ -108,6 +108,20 @@ impl<'a> Checker<'a> {
                         _ => None,
                     };
                     self.names.lose(called);
+                    // `wall … when = not open`, `place … facing = 90 deg`
+                    if let Some(behind) = behind_a_shape(called)
+                        && !known.contains(&called.as_str())
+                    {
+                        let sign = name.span.after().to(field.value.span.before());
+                        self.error(
+                            Code::E0403,
+                            name.span,
+                            format!("{owner} has no field `{called}`"),
+                        )
+                        .label(behind)
+                        .fix("drop `=`", sign, " ", Applicability::Unsafe);
+                        continue;
+                    }
                     // What it was to be called, nobody knows.
                     self.names.lost_values |=
                         matches!(called.as_str(), "wall" | "place" | "robot" | "sensor");
@@ -132,6 +146,15 @@ impl<'a> Checker<'a> {
             }
         }
         found
+    }
+}
+
+/// What a word says that stands behind the shape of a wall or a place, without `=`.
+fn behind_a_shape(word: &str) -> Option<&'static str> {
+    match word {
+        "when" => Some("when a wall is shut is said behind its shape, without `=`"),
+        "facing" => Some("which way a place faces is said behind its shape, without `=`"),
+        _ => None,
     }
 }
 

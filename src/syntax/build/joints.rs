@@ -4,7 +4,7 @@ use super::Builder;
 use crate::diagnostic::{Applicability, Code, Diagnostic, suggest};
 use crate::source::Span;
 use crate::spelling::RESERVED;
-use crate::syntax::diagnose::{no_such_unit, one_unit};
+use crate::syntax::diagnose::{no_such_unit, one_unit, unit_of_a_point};
 use crate::syntax::tokens::is_blank;
 use crate::syntax::words::{CALLED, DRIVING, NODES, UNITS};
 
@@ -172,6 +172,9 @@ impl<'i> Builder<'i> {
             return None;
         }
         let amount = self.slice(before);
+        if amount.starts_with('(') && amount.ends_with(')') && UNITS.contains(&word) {
+            return Some(unit_of_a_point(next, amount, word));
+        }
         let (number, unit) = amount.rsplit_once(' ').unwrap_or(("", amount));
         if unit.ends_with(|c: char| c.is_ascii_digit()) {
             return Some(no_such_unit(next, word, &[]));

@@ -237,7 +237,15 @@ impl Place<'_> {
                 "what a robot runs is one of its entries: `runs = TREE`"
             }
             (_, ",") if self.is_third_coordinate() => {
-                "a point has two coordinates; where a robot looks is said by `heading = …`"
+                let line = self.begun().trim_start();
+                let robot = line.strip_prefix("pose(").and_then(|it| it.split_once(')'));
+                let heading = match robot {
+                    Some((robot, _)) => format!("heading({})", robot.trim()),
+                    None => "heading".to_owned(),
+                };
+                return diagnostic.help(format!(
+                    "a point has two coordinates; where a robot looks is said by `{heading} = …`"
+                ));
             }
             (_, "<" | "<=" | ">" | ">=" | "==" | "!=") if matches!(self.before(), "and" | "or") => {
                 "each comparison says what it compares: `x > 1 and x < 2`"
@@ -394,6 +402,13 @@ impl Place<'_> {
                     None => diagnostic.help("say of which kind it is: `x in KIND`"),
                 };
             }
+            // `dock(tap) succeeds`
+            (_, "succeeds" | "fails" | "succeeded" | "failed" | "runs")
+                if self.expects(Rule::or_op) && self.before() == ")" =>
+            {
+                "a behaviour is asked how it has ended: `success(BEHAVIOR)`, `failure(BEHAVIOR)`"
+            }
+            _ if SWITCHES.contains(&self.before()) && is_word(self.found) => CHOICE,
             (Rule::strict_child, "then") => "a guard is followed by `=>`: `CONDITION => NODE`",
             _ if self.is_choice_without_braces() => {
                 "both values of a choice stand in braces: `if CONDITION { … } else { … }`"
@@ -424,10 +439,15 @@ impl Place<'_> {
                 let gap = arrow.to(self.span().before());
                 return diagnostic.fix("drop `=>`", gap, "", Applicability::Unsafe);
             }
-            (_, "{") if wants_value => "a value stands without braces",
             (Rule::strict_item, "{") if self.before() == "=" && self.begins_with("behavior") => {
                 "the clauses of a behaviour follow its name, without `=`"
             }
+            (Rule::strict_item, "{") if self.before() == "=" && self.begins_with("on") => {
+                let sign = self.before.map_or(self.span(), |it| self.span_of(it));
+                let gap = sign.to(self.span().before());
+                return diagnostic.fix("drop `=`", gap, "", Applicability::Safe);
+            }
+            (_, "{") if wants_value => "a value stands without braces",
             (Rule::strict_item, "probability") if self.line_begins_with("claim") => {
                 "how sure it is follows `with`: `with probability >= 95%`"
             }

@@ -1,6 +1,7 @@
 //! Numbers, units and signs that stand in pieces or where none belongs.
 
 use super::Place;
+use super::units::unit_of_a_point;
 use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::grammar::Rule;
@@ -156,18 +157,18 @@ impl Place<'_> {
         if !unit || self.before() != ")" || !self.same_line_as_before() {
             return None;
         }
-        let message = "a unit follows a number";
         let close = self.before?.start;
         let open = self.text.get(..close)?.rfind('(')?;
-        let (what, right) = match self.is_point(open + 1, close) {
-            true => ("this follows a point", ""),
-            false => ("this follows a call", "uniform"),
-        };
+        if self.is_point(open + 1, close) {
+            let point = self.text.get(open..=close)?;
+            return Some(unit_of_a_point(self.span(), point, self.found()));
+        }
+        let message = "a unit follows a number";
         Some(
             Diagnostic::new(Code::E0114, self.span(), message)
-                .label(what)
+                .label("this follows a call")
                 .help(format!(
-                    "each number has its own: `{right}(1 {0}, 2 {0})`",
+                    "each number has its own: `uniform(1 {0}, 2 {0})`",
                     self.found()
                 )),
         )

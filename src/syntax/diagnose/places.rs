@@ -66,7 +66,7 @@ impl Place<'_> {
     }
 
     /// Whether a word of the language can stand here, as itself.
-    fn expected_here(&self, word: &str) -> bool {
+    pub(super) fn expected_here(&self, word: &str) -> bool {
         let words = expected::words(&self.failure.expected);
         words.contains(&word)
     }

@@ -7,7 +7,7 @@ use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::grammar::Rule;
 use crate::syntax::tokens::{Kind, Token};
-use crate::syntax::words::{CALLED, NODES, TYPES, UNITS};
+use crate::syntax::words::{CALLED, NODES, RANGING, TYPES, UNITS};
 
 /// The words that declare one name.
 const DECLARING: [&str; 5] = ["event", "predicate", "behavior", "task", "tree"];
@@ -28,6 +28,8 @@ impl Place<'_> {
         self.spaced_name()
             .or_else(|| self.typed_first())
             .or_else(|| self.filtered_binder())
+            .or_else(|| self.typed_binder())
+            .or_else(|| self.unset_start())
             .or_else(|| self.turned_place())
             .or_else(|| self.indexed())
             .or_else(|| self.bracketed_for())
@@ -357,6 +359,49 @@ impl Place<'_> {
         )
     }
 
+    /// `any(b: bed: ripe(b))`: a binder that is written as a parameter is.
+    fn typed_binder(&self) -> Option<Diagnostic> {
+        let open = self.open().filter(|_| self.found() == ":")?;
+        let at = self.tokens.partition_point(|it| it.end <= open.end);
+        let [name, colon, kind] = self.tokens.get(at..at + 3)? else {
+            return None;
+        };
+        let ranges = at
+            .checked_sub(2)
+            .and_then(|at| self.tokens.get(at))
+            .is_some_and(|word| RANGING.contains(&word.of(self.text)));
+        let typed = is_word(*name) && colon.of(self.text) == ":" && is_word(*kind);
+        if !ranges || !typed || self.before?.start != kind.start {
+            return None;
+        }
+        let gap = self.span_of(*name).after().to(self.span_of(*kind).before());
+        let message = "what ranges over a kind binds a name: `x in KIND: …`";
+        Some(
+            Diagnostic::new(Code::E0127, self.span_of(*colon), message)
+                .label("write `in`")
+                .fix("write `in`", gap, " in ", Applicability::Safe),
+        )
+    }
+
+    /// `pose anywhere`: a line of a start without its `=`.
+    fn unset_start(&self) -> Option<Diagnostic> {
+        let name = self.before?;
+        let first = name.start == self.failure.start && is_word(name);
+        let value = is_word(self.found) || self.found.kind == Kind::Number;
+        let is_line = self.failure.strict == Rule::strict_start_line && self.expects(Rule::is);
+        (is_line && first && value && self.same_line_as_before()).then(|| {
+            let message = format!("a `=` is missing before `{}`", self.found());
+            Diagnostic::new(Code::E0101, self.span(), message)
+                .label("what this line sets begins here")
+                .fix(
+                    "put a `=`",
+                    self.span_of(name).after(),
+                    " =",
+                    Applicability::Safe,
+                )
+        })
+    }
+
     /// `place A = disc(…) heading -90 deg`
     fn turned_place(&self) -> Option<Diagnostic> {
         let begins = |token: &Token| token.kind == Kind::Number || token.of(self.text) == "-";
@@ -376,7 +421,7 @@ impl Place<'_> {
     }
 
     /// What stands on the line before what was found.
-    fn begun(&self) -> &str {
+    pub(super) fn begun(&self) -> &str {
         let head = self.text.get(..self.found.start).unwrap_or_default();
         head.rsplit('\n').next().unwrap_or_default()
     }

@@ -140,6 +140,31 @@ fn comma_before(span: Span, word: &str, before: Option<Token>) -> Diagnostic {
     .fix("put a comma", at, ",", Applicability::Safe)
 }
 
+/// What is said of a unit behind a point, such as `(5, 2) m`.
+pub(in crate::syntax) fn unit_of_a_point(span: Span, point: &str, unit: &str) -> Diagnostic {
+    let inner = point.trim_start_matches('(').trim_end_matches(')');
+    let is_number = |part: &str| part.trim().parse::<f64>().is_ok();
+    let (x, y) = inner
+        .split_once(',')
+        .filter(|(x, y)| is_number(x) && is_number(y))
+        .map_or(("1", "2"), |(x, y)| (x.trim(), y.trim()));
+    Diagnostic::new(Code::E0114, span, "a unit follows a number")
+        .label("this follows a point")
+        .help(format!(
+            "each number has its own: `({x} {unit}, {y} {unit})`"
+        ))
+}
+
+/// `min30s`, which follows a number, with what adds its two amounts.
+fn parted_time(word: &str) -> Option<String> {
+    let digits = word.find(|c: char| c.is_ascii_digit())?;
+    let (first, rest) = word.split_at_checked(digits)?;
+    let letters = rest.find(|c: char| !c.is_ascii_digit())?;
+    let (number, second) = rest.split_at_checked(letters)?;
+    let known = UNITS.contains(&first) && UNITS.contains(&second);
+    known.then(|| format!("{first} + {number} {second}"))
+}
+
 /// The units, as advice.
 pub(in crate::syntax) fn units_note() -> String {
     format!(
@@ -195,6 +220,14 @@ pub(in crate::syntax) fn no_such_unit(span: Span, word: &str, others: &[&str]) -
             .label("this follows a number")
             .help(turns)
             .note(units_note());
+    }
+    if let Some(right) = parted_time(word) {
+        return diagnostic.label("two amounts are added").fix(
+            format!("write `{right}`"),
+            span,
+            right,
+            Applicability::Unsafe,
+        );
     }
     let near = foreign
         .or_else(|| suggest::nearest(word, units.chain(others.iter().copied())))

@@ -46,7 +46,8 @@ impl Place<'_> {
 
     pub(super) fn reserved(&self) -> Option<Diagnostic> {
         let word = self.found();
-        if !RESERVED.contains(&word) || !self.expects(Rule::name) {
+        let is_name = self.expects(Rule::name) || self.is_whole_argument();
+        if !RESERVED.contains(&word) || !is_name {
             return None;
         }
         if self.failure.at == self.failure.start && self.failure.strict == Rule::strict_item {
@@ -71,6 +72,12 @@ impl Place<'_> {
                 Rule::name | Rule::learner_name | Rule::family | Rule::param
             )
         });
+        // What a learner without a name learns.
+        if word == "learn" && self.before() == "claim" {
+            let message = format!("expected a name, found `{word}`");
+            let diagnostic = Diagnostic::new(Code::E0101, self.span(), message);
+            return Some(self.meant(diagnostic, self.found, Some("learned")));
+        }
         if names_next
             && !matches!(word, "for" | "if")
             && self.before.is_some_and(is_word)
@@ -90,7 +97,7 @@ impl Place<'_> {
             );
         }
         let is_set = matches!(self.after_found(), "=" | "+=" | "-=" | "*=" | "/=");
-        if !only_name && !is_set || word == "for" {
+        if !only_name && !is_set && !self.is_whole_argument() || word == "for" {
             return None;
         }
         Some(
@@ -108,6 +115,13 @@ impl Place<'_> {
                 Applicability::Unsafe,
             ),
         )
+    }
+
+    /// Whether the token stands alone between brackets and commas, as an argument does or the name of a parameter.
+    fn is_whole_argument(&self) -> bool {
+        let begins = matches!(self.before(), "(" | ",") && self.open_is_paren();
+        let begins_item = ITEMS.contains(&self.found()) && !self.expected_here(self.found());
+        begins && begins_item && matches!(self.after_found(), ":" | ")" | ",")
     }
 
     /// `let mut x`, `enum class x`: a word of another language before the name.
@@ -363,10 +377,10 @@ impl Place<'_> {
         let index = next.map(|next| self.tokens.partition_point(|token| token.end <= next.end));
         let second = index.and_then(|index| self.tokens.get(index).copied());
         let is_number = |token: &Option<Token>| token.is_some_and(|it| it.kind == Kind::Number);
-        let line = self.text.get(self.found.end..).unwrap_or_default();
-        let line = line.lines().next().unwrap_or_default();
+        let rest = self.text.get(self.found.end..).unwrap_or_default();
+        let line = rest.lines().next().unwrap_or_default();
         match meant {
-            "let" if self.failure.strict == Rule::strict_item && opens_a_body(line) => {
+            "let" if self.failure.strict == Rule::strict_item && opens_a_body(rest) => {
                 ("behavior", self.span())
             }
             "end" if is_number(&next) => ("end after", self.span()),
@@ -390,10 +404,23 @@ impl Place<'_> {
     }
 }
 
-/// Whether what follows on a line opens a block and gives no value before it.
-fn opens_a_body(line: &str) -> bool {
-    line.trim_end().ends_with('{') && !line.contains('=')
+/// Whether what follows on a line opens a block and gives no value before it, or the clauses of a behaviour stand below.
+fn opens_a_body(rest: &str) -> bool {
+    let mut lines = rest.lines();
+    let line = lines.next().unwrap_or_default().trim_end();
+    let below = lines.find(|line| !line.trim().is_empty());
+    let word = below.and_then(|line| line.split_whitespace().next());
+    let has_clauses = word.is_some_and(|word| CLAUSES.contains(&word));
+    let mut depth = 0_i32;
+    let gives = line.chars().any(|letter| {
+        depth += i32::from(letter == '(') - i32::from(letter == ')');
+        depth == 0 && letter == '='
+    });
+    !gives && (line.ends_with('{') || line.ends_with(':') && has_clauses)
 }
+
+/// The words that begin a clause of a behaviour.
+const CLAUSES: [&str; 5] = ["local", "requires", "succeed", "fail", "control"];
 
 /// How a place or a wall is made one of a kind.
 pub(super) fn of_kind(kind: &str) -> String {
