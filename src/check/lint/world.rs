@@ -157,12 +157,14 @@ impl<'a> Checker<'a> {
         if reached.iter().next().is_none() {
             return;
         }
-        let is_reached = |place: &Place| {
+        let gets_to = |place: &Place, cells: &Cells| {
             let near =
                 |at: Point| place.shape.contains(at) || clearance(&place.shape, at) <= grid.step;
-            reached.iter().any(|cell| near(grid.center(cell)))
+            cells.iter().any(|cell| near(grid.center(cell)))
         };
-        let apart = wanted.iter().filter(|(.., place)| !is_reached(place));
+        // One that the robot does not fit into is told as such.
+        let is_apart = |place: &Place| !gets_to(place, &reached) && gets_to(place, &free);
+        let apart = wanted.iter().filter(|(.., place)| is_apart(place));
         let apart: Vec<_> = apart.collect();
         for (name, span, _) in &apart {
             let message = format!("no way leads{from} to the place `{}`", name.name);
