@@ -141,11 +141,13 @@ impl Row {
 
     /// Whether some minterm is of both rows.
     pub fn meets(&self, other: &Self) -> bool {
-        let atoms = self.minterm.len();
-        let free = |row: &Self, at| row.free.as_ref().is_some_and(|free| free.get(at));
-        (0..atoms).all(|at| {
-            self.minterm.get(at) == other.minterm.get(at) || free(self, at) || free(other, at)
-        })
+        let free = |row: &Self, at: usize| {
+            let words = row.free.as_ref().map(Minterm::words);
+            words.and_then(|words| words.get(at).copied()).unwrap_or(0)
+        };
+        let words = self.minterm.words();
+        let either = (0..words.len()).map(|at| free(self, at) | free(other, at));
+        agree(words, other.minterm.words(), either)
     }
 
     /// The minterms that it stands for: two to the power of its free atoms.

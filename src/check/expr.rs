@@ -10,15 +10,15 @@ pub mod expect;
 mod finite;
 mod literal;
 mod operator;
-mod percent;
 mod quantifier;
+mod ratios;
 mod reading;
 mod reference;
 mod tune;
 
 pub use literal::grouped;
 use operator::is_arithmetic;
-pub use percent::InPercent;
+pub use ratios::InPercent;
 
 use super::Checker;
 use super::types::{Type, Typed, Value};

@@ -20,12 +20,29 @@ fn result_of(path: &str) -> Option<(&Path, Manifest)> {
     own.then_some((folder, manifest))
 }
 
-/// Why a file is not to be read: it belongs to a result whose files are not those of one run.
+/// Why a file is not to be read: it belongs to a result whose files are not those of one run, or is called like one of a result
+/// and nothing says that it is.
 pub(super) fn torn(path: &str) -> Option<Diagnostic> {
-    if let Some(refused) = damaged(Path::new(path)).or_else(|| unnamed(Path::new(path))) {
-        return Some(refused);
+    let path = Path::new(path);
+    let folder = folder_of(path);
+    let place = folder.to_string_lossy();
+    let name = path.file_name()?.to_str()?;
+    let is_called_so = learn::NAMES.contains(&name);
+    let manifest = match manifest::read(folder) {
+        Ok(manifest) => manifest?,
+        Err(manifest::Damaged) if is_called_so => {
+            let note = "`manifest.json` there is damaged, so that nothing says whether the files are those of one run";
+            let help = format!("delete `{place}/manifest.json`, and learn again with `-o {place}`");
+            return Some(not_one(&place, note.to_owned(), help));
+        }
+        Err(manifest::Damaged) => return None,
+    };
+    if !manifest.names(name) {
+        let note =
+            format!("its `manifest.json` does not name `{name}`, which comes from elsewhere");
+        let help = format!("give `{name}` another name, or learn again with `-o {place}`");
+        return (is_called_so && path.exists()).then(|| not_one(&place, note, help));
     }
-    let (folder, manifest) = result_of(path)?;
     let changed = manifest.changed(folder);
     if manifest.whole && changed.is_empty() {
         return None;
@@ -43,38 +60,10 @@ pub(super) fn torn(path: &str) -> Option<Diagnostic> {
             )
         }
     };
-    let folder = folder.to_string_lossy();
     let help = format!(
-        "learn again with `-o {folder}`; or, if the change is meant, delete `{folder}/manifest.json`: then nothing is claimed of it"
+        "learn again with `-o {place}`; or, if the change is meant, delete `{place}/manifest.json`: then nothing is claimed of it"
     );
-    Some(not_one(&folder, note, help))
-}
-
-/// Why a file of a result is not to be read whose manifest cannot be read.
-fn damaged(path: &Path) -> Option<Diagnostic> {
-    let folder = folder_of(path);
-    let name = path.file_name()?.to_str()?;
-    if !learn::NAMES.contains(&name) || !manifest::is_damaged(folder) {
-        return None;
-    }
-    let folder = folder.to_string_lossy();
-    let note = "`manifest.json` there is damaged, so that nothing says whether the files are those of one run";
-    let help = format!("delete `{folder}/manifest.json`, and learn again with `-o {folder}`");
-    Some(not_one(&folder, note.to_owned(), help))
-}
-
-/// Why a file that is called like one of a result is not to be read: the manifest beside it says nothing of it.
-fn unnamed(path: &Path) -> Option<Diagnostic> {
-    let folder = folder_of(path);
-    let name = path.file_name()?.to_str()?;
-    let manifest = Manifest::of_folder(folder)?;
-    if !learn::NAMES.contains(&name) || manifest.names(name) || !path.exists() {
-        return None;
-    }
-    let folder = folder.to_string_lossy();
-    let note = format!("its `manifest.json` does not name `{name}`, which comes from elsewhere");
-    let help = format!("give `{name}` another name, or learn again with `-o {folder}`");
-    Some(not_one(&folder, note, help))
+    Some(not_one(&place, note, help))
 }
 
 fn not_one(folder: &str, note: String, help: String) -> Diagnostic {

@@ -6,6 +6,7 @@ mod ends;
 mod foreign;
 mod forms;
 mod marks;
+mod names;
 mod pieces;
 mod places;
 mod respelled;

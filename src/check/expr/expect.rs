@@ -11,7 +11,7 @@ use crate::diagnostic::{Applicability, Code, suggest};
 use crate::ir::expr::ExprId;
 use crate::source::Span;
 use crate::spelling::spelled;
-use crate::syntax::ast::{Arg, ArgKind, BinaryOp, Choice, Expr, ExprKind, LetBody, Otherwise, Ref};
+use crate::syntax::ast::{ArgKind, BinaryOp, Expr, ExprKind, Ref};
 use crate::syntax::print;
 
 impl<'a> Checker<'a> {
@@ -243,114 +243,6 @@ impl<'a> Checker<'a> {
             }));
         }
         dim
-    }
-
-    /// The number that a name stands for, if it is written as one.
-    pub(super) fn plain_constant(&self, expr: &Expr) -> Option<&'a Expr> {
-        let reference = plain_ref(expr).filter(|reference| reference.args.is_none())?;
-        let name = reference.name.name.as_str();
-        if self.context.lookup(name).is_some() {
-            return None;
-        }
-        match self.names.value(name, self.context.library)? {
-            (Decl::Let(shared), false) if shared.params.is_none() => match &shared.body {
-                LetBody::Expr(value) => Some(value).filter(|value| is_literal(value)),
-                LetBody::Yield(_) => None,
-            },
-            _ => None,
-        }
-    }
-
-    fn plain_ratios_of(&mut self, choice: &Choice, wanted: &Type) {
-        self.warn_plain_ratio(&choice.then.value, wanted);
-        match &choice.otherwise {
-            Otherwise::If(choice, _) => self.plain_ratios_of(choice, wanted),
-            Otherwise::Yield(value) => self.warn_plain_ratio(&value.value, wanted),
-        }
-    }
-
-    /// Warns of the constants above 1 that were used as ratios by their names.
-    pub fn named_ratios(&mut self) {
-        for named in std::mem::take(&mut self.plain_ratios).into_values() {
-            self.warn_plain_ratio(named, &Type::Ratio);
-        }
-    }
-
-    /// `battery <= 25`: a plain number above 1 where a ratio is meant.
-    pub fn warn_plain_ratio(&mut self, expr: &Expr, wanted: &Type) {
-        if *wanted != Type::Ratio {
-            return;
-        }
-        if let ExprKind::Ref(Ref {
-            name,
-            args: Some(args),
-            ..
-        }) = &expr.kind
-            && PASSING.contains(&name.name.as_str())
-        {
-            // Beside 100, 1 is a percentage, too.
-            let plain = |arg: &Arg| match &arg.kind {
-                ArgKind::Positional(value) => plain_number(value),
-                _ => None,
-            };
-            let beside = args.iter().any(|arg| plain(arg).is_some_and(|it| it > 1.0));
-            for arg in args {
-                match &arg.kind {
-                    ArgKind::Positional(value) if beside && plain(arg) == Some(1.0) => {
-                        self.plain_ratio(value);
-                    }
-                    ArgKind::Positional(value) => self.warn_plain_ratio(value, wanted),
-                    ArgKind::Range(low, high) => {
-                        self.warn_plain_ratio(low, wanted);
-                        self.warn_plain_ratio(high, wanted);
-                    }
-                    ArgKind::Named(..) | ArgKind::Binder { .. } => {}
-                }
-            }
-        }
-        match &expr.kind {
-            ExprKind::Paren(inner) => self.warn_plain_ratio(inner, wanted),
-            ExprKind::If(choice) => self.plain_ratios_of(choice, wanted),
-            ExprKind::Binary { op, left, right }
-                if matches!(op.node, BinaryOp::Add | BinaryOp::Sub) =>
-            {
-                self.warn_plain_ratio(left, wanted);
-                self.warn_plain_ratio(right, wanted);
-            }
-            _ => {}
-        }
-        if let Some(named) = self.plain_constant(expr) {
-            self.plain_ratios.insert(named.span, named);
-        }
-        if plain_number(expr).is_some_and(|value| value > 1.0) {
-            self.plain_ratio(expr);
-        }
-    }
-
-    /// Warns of a plain number that was likely meant as a percentage.
-    fn plain_ratio(&mut self, expr: &Expr) {
-        let ExprKind::Number(literal) = &expr.kind else {
-            return;
-        };
-        let digits = &literal.digits;
-        let message = format!("`{digits}` stands for {} %", literal.value * 100.0);
-        let percent = format!("{digits}%");
-        self.warning(Code::W0301, expr.span, message)
-            .label("a ratio goes from 0 to 1, or from 0% to 100%")
-            .fix(
-                format!("write `{percent}`"),
-                expr.span,
-                percent,
-                Applicability::Unsafe,
-            );
-    }
-}
-
-/// The value of a number without a unit.
-pub fn plain_number(expr: &Expr) -> Option<f64> {
-    match &expr.kind {
-        ExprKind::Number(literal) if literal.unit.is_none() => Some(literal.value),
-        _ => None,
     }
 }
 

@@ -78,11 +78,14 @@ impl Folder {
             }
         }
         let manifest = self.path.join(manifest::NAME);
-        if manifest.exists() && Manifest::of_folder(&self.path).is_none() {
-            let message = match manifest::is_damaged(&self.path) {
-                true => "is damaged, so that nothing says which files here btc wrote; delete it",
-                false => "is not a manifest of btc, and would be overwritten",
-            };
+        let message = match manifest::read(&self.path) {
+            Err(manifest::Damaged) => {
+                Some("is damaged, so that nothing says which files here btc wrote; delete it")
+            }
+            Ok(None) => Some("is not a manifest of btc, and would be overwritten"),
+            Ok(Some(_)) => None,
+        };
+        if let Some(message) = message.filter(|_| manifest.exists()) {
             return Err(io::Error::other(format!(
                 "{}: {message}",
                 manifest.display()

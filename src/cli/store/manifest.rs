@@ -28,35 +28,36 @@ pub struct Manifest {
     pub files: BTreeMap<String, String>,
 }
 
-/// Whether a folder has a manifest of btc that no longer says what it said. A file of that name that says other things is somebody
-/// else's.
-pub fn is_damaged(folder: &Path) -> bool {
+/// A manifest of btc that no longer says what it said.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Damaged;
+
+/// The manifest in a folder; `None` if there is none, or one of somebody else, which says other things.
+///
+/// # Errors
+/// It is one of btc that was damaged, or no file.
+pub fn read(folder: &Path) -> Result<Option<Manifest>, Damaged> {
     let path = folder.join(NAME);
     let Ok(text) = regular(&path, TABLE) else {
-        // Something else that can be there: a folder, a pipe, a link to nowhere.
-        return path.symlink_metadata().is_ok();
+        // Something else may be there: a folder, a pipe, a link to nowhere.
+        return match path.symlink_metadata() {
+            Ok(_) => Err(Damaged),
+            Err(_) => Ok(None),
+        };
     };
-    let (_, damaged) = read(&text);
-    damaged
-}
-
-/// What a manifest says, if it is one of btc, and whether it is one that was damaged.
-fn read(text: &[u8]) -> (Option<Manifest>, bool) {
     // A result has no files elsewhere: what names some is none that btc wrote.
     let is_here = |name: &String| Path::new(name).file_name() == Some(name.as_ref());
-    if let Ok(manifest) = serde_json::from_slice::<Manifest>(text) {
-        return (
-            manifest.files.keys().all(is_here).then_some(manifest),
-            false,
-        );
+    if let Ok(manifest) = serde_json::from_slice::<Manifest>(&text) {
+        return Ok(Some(manifest).filter(|found| found.files.keys().all(is_here)));
     }
-    let damaged = match serde_json::from_slice::<serde_json::Value>(text) {
+    let foreign = match serde_json::from_slice::<serde_json::Value>(&text) {
         Ok(serde_json::Value::Object(found)) => {
-            found.contains_key("btc") || found.keys().all(|key| FIELDS.contains(&key.as_str()))
+            let is_field = |key: &String| FIELDS.contains(&key.as_str());
+            !found.contains_key("btc") && !found.keys().all(is_field)
         }
-        Ok(_) | Err(_) => true,
+        Ok(_) | Err(_) => false,
     };
-    (None, damaged)
+    if foreign { Ok(None) } else { Err(Damaged) }
 }
 
 impl Manifest {
@@ -73,10 +74,9 @@ impl Manifest {
         }
     }
 
-    /// The manifest in a folder, if there is one.
+    /// The manifest in a folder, if there is one that says what it has to.
     pub fn of_folder(folder: &Path) -> Option<Self> {
-        let text = regular(&folder.join(NAME), TABLE).ok()?;
-        read(&text).0
+        read(folder).ok().flatten()
     }
 
     /// The text of the file.

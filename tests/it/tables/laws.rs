@@ -21,17 +21,42 @@ fn rows() -> impl Strategy<Value = Vec<(Vec<char>, usize)>> {
     proptest::collection::vec(row, 1..16).prop_map(|rows| {
         let mut kept: Vec<(Vec<char>, usize)> = Vec::new();
         for (cells, behavior) in rows {
-            let overlap = |other: &[char]| {
-                cells
-                    .iter()
-                    .zip(other)
-                    .all(|(a, b)| a == b || *a == '-' || *b == '-')
-            };
-            if !kept.iter().any(|(other, _)| overlap(other)) {
+            if !kept.iter().any(|(other, _)| overlap(&cells, other)) {
                 kept.push((cells, behavior));
             }
         }
         kept
+    })
+}
+
+fn overlap(cells: &[char], other: &[char]) -> bool {
+    let mut pairs = cells.iter().zip(other);
+    pairs.all(|(a, b)| a == b || *a == '-' || *b == '-')
+}
+
+/// A table each of whose rows allows some of three behaviours. Those that overlap allow the same.
+fn permissive() -> impl Strategy<Value = String> {
+    let cell = prop_oneof![2 => Just('0'), 2 => Just('1'), 2 => Just('-')];
+    let row = (proptest::collection::vec(cell, 4), 1..8_usize);
+    proptest::collection::vec(row, 1..12).prop_map(|rows| {
+        let mut kept: Vec<(Vec<char>, usize)> = Vec::new();
+        for (cells, allowed) in rows {
+            // A row that overlaps others takes what the first of them allows, if that makes all of them agree.
+            let mut met = kept.iter().filter(|(other, _)| overlap(&cells, other));
+            let allowed = met.next().map_or(allowed, |(_, first)| *first);
+            if met.all(|(_, other)| *other == allowed) {
+                kept.push((cells, allowed));
+            }
+        }
+        let mut text = "a,b,c,d,action\n".to_owned();
+        for (cells, allowed) in kept {
+            let names = ["x", "y", "z"].into_iter().enumerate();
+            let names = names.filter(|(bit, _)| allowed >> bit & 1 == 1);
+            let names: Vec<&str> = names.map(|(_, name)| name).collect();
+            let cells: Vec<String> = cells.iter().map(char::to_string).collect();
+            text += &format!("{},{}\n", cells.join(","), names.join("|"));
+        }
+        text
     })
 }
 
@@ -128,6 +153,15 @@ proptest! {
         let mut other = rows.clone();
         other[0].1 = (other[0].1 + 1) % BEHAVIORS.len();
         is_found(&tree, &csv(&other));
+    }
+
+    /// What is made of a table that allows several behaviours takes one of them in each row.
+    #[test]
+    fn what_is_made_takes_an_allowed_behaviour(source in permissive()) {
+        let table = text("t.csv", source.as_bytes());
+        let tree = made(table, None, &USUAL).unwrap_or_else(|r| panic!("{source}{}", shown(&r)));
+        let proved = compared(&tree, table);
+        prop_assert!(proved.holds(), "{source}{}", proved.text);
     }
 
     /// Bytes of any kind are read or refused.
