@@ -10,7 +10,7 @@ use crate::driver::load::{self, Loaded};
 use crate::facade::disk::{TABLE, bounded};
 use crate::source::Sources;
 use std::collections::BTreeMap;
-use std::io::{self, Write};
+use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 /// The name that stands for standard input, and for standard output.
@@ -46,7 +46,13 @@ pub(super) fn read(path: &str) -> Result<File, Failure> {
 pub(super) fn read_alone(path: &str, most: u64) -> Result<File, Failure> {
     let bytes = bytes(path, most).map_err(|error| {
         let place = if path == DASH { "standard input" } else { path };
-        complain(&format!("{place}: {error}"))
+        let advice = match error.kind() == io::ErrorKind::NotFound && results::is_unfinished(path) {
+            true => {
+                ": the run that keeps its states there has not ended; `--resume` goes on with it"
+            }
+            false => "",
+        };
+        complain(&format!("{place}: {error}{advice}"))
     })?;
     let name = shown(path).to_owned();
     Ok(File { name, bytes })
@@ -223,9 +229,14 @@ pub(super) fn put(path: Option<&Path>, text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Writes to standard output; a reader that has gone away is not an error.
+/// Writes to standard output; a reader that has gone away is not an error. What would change what a terminal shows is written
+/// out there; a file or a pipe gets the bytes as they are.
 pub(super) fn print(text: &str) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
+    let text = match out.is_terminal() {
+        true => render::visible(text),
+        false => text.into(),
+    };
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
             Err(complain(&format!("standard output: {error}")))

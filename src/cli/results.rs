@@ -1,5 +1,6 @@
 //! Folders of results as they are read: whether they are still what was written, and where their programs are now.
 
+use super::store::checkpoint;
 use super::store::file::folder_of;
 use super::store::manifest::{self, Manifest};
 use crate::diagnostic::{Code, Diagnostic, render};
@@ -64,6 +65,14 @@ pub(super) fn torn(path: &str) -> Option<Diagnostic> {
         "learn again with `-o {place}`; or, if the change is meant, delete `{place}/manifest.json`: then nothing is claimed of it"
     );
     Some(not_one(&place, note, help))
+}
+
+/// Whether a file of a result is missing where a run has kept its states and not yet ended.
+pub(super) fn is_unfinished(path: &str) -> bool {
+    let path = Path::new(path);
+    let name = path.file_name().and_then(|name| name.to_str());
+    name.is_some_and(|name| learn::NAMES.contains(&name))
+        && folder_of(path).join(checkpoint::FOLDER).is_dir()
 }
 
 fn not_one(folder: &str, note: String, help: String) -> Diagnostic {

@@ -2,14 +2,15 @@
 
 use std::borrow::Cow;
 
-/// The text with each such character written as its code.
+/// The text with each such character written as its code, as a `\r` is that ends no line.
 pub fn visible(text: &str) -> Cow<'_, str> {
-    if !text.contains(is_hidden) {
+    if !text.contains(|letter| is_hidden(letter) || letter == '\r') {
         return Cow::Borrowed(text);
     }
     let mut shown = String::with_capacity(text.len());
-    for letter in text.chars() {
-        if is_hidden(letter) {
+    let mut letters = text.chars().peekable();
+    while let Some(letter) = letters.next() {
+        if is_hidden(letter) || letter == '\r' && letters.peek() != Some(&'\n') {
             shown.push_str(&format!("\\u{{{:x}}}", u32::from(letter)));
         } else {
             shown.push(letter);
@@ -43,4 +44,17 @@ fn is_hidden(letter: char) -> bool {
         '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}'
     );
     turns || letter.is_control() && !matches!(letter, '\n' | '\r' | '\t')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::visible;
+
+    #[test]
+    fn what_changes_a_terminal_is_written_as_its_code() {
+        assert_eq!(visible("a\r\nb\tc\n"), "a\r\nb\tc\n");
+        assert_eq!(visible("p\rq\r"), "p\\u{d}q\\u{d}");
+        assert_eq!(visible("\u{1b}]0;x\u{7}"), "\\u{1b}]0;x\\u{7}");
+        assert_eq!(visible("x\u{202e}y\u{9b}z"), "x\\u{202e}y\\u{9b}z");
+    }
 }

@@ -76,6 +76,9 @@ fn a_damaged_checkpoint_is_left_out() {
     }
     run.kill().unwrap();
     run.wait().unwrap();
+    let unfinished = ran(&["verify", "out/learned.bt", "learned", "expert"], at);
+    let said = told(&unfinished);
+    assert!(said.contains("`--resume` goes on with it"), "{said}");
     for entry in fs::read_dir(&states).into_iter().flatten() {
         let path = entry.unwrap().path();
         if path.extension().is_some_and(|ending| ending == "state") {
