@@ -31,10 +31,14 @@ impl Account {
         self.spent.fetch_add(work, Ordering::Relaxed);
     }
 
+    /// The work that was counted.
+    pub fn spent(&self) -> u64 {
+        self.spent.load(Ordering::Relaxed)
+    }
+
     /// The work that is left.
     pub fn left(&self) -> u64 {
-        let spent = self.spent.load(Ordering::Relaxed);
-        self.limit.saturating_sub(spent)
+        self.limit.saturating_sub(self.spent())
     }
 
     /// Whether nothing is left.
@@ -68,7 +72,7 @@ impl Account {
 
     /// Counts what was spent of a part.
     pub fn settle(&self, part: &Self) {
-        self.spend(part.spent.load(Ordering::Relaxed));
+        self.spend(part.spent());
     }
 }
 

@@ -56,6 +56,8 @@ pub struct Mixture {
     total: u32,
     /// The sum of a term for each class from which the impurity is calculated.
     sum: f64,
+    /// The rows of the most frequent class, if the impurity asks for them.
+    most: Most,
 }
 
 impl Mixture {
@@ -66,6 +68,7 @@ impl Mixture {
             counts: vec![0; classes],
             total: 0,
             sum: 0.0,
+            most: Most::default(),
         }
     }
 
@@ -85,6 +88,9 @@ impl Mixture {
         let new = count.saturating_add_signed(by);
         self.sum += self.term(new) - self.term(count);
         self.total = self.total.saturating_add_signed(by);
+        if self.impurity == Impurity::Error {
+            self.most.change(count, new);
+        }
         if let Some(slot) = self.counts.get_mut(class) {
             *slot = new;
         }
@@ -102,11 +108,40 @@ impl Mixture {
             _ if self.total == 0 => 0.0,
             Impurity::Gini => total - self.sum / total,
             Impurity::Entropy => n_log_n(self.total) - self.sum,
-            Impurity::Error => {
-                let most = self.counts.iter().copied().max();
-                total - f64::from(most.unwrap_or(0))
+            Impurity::Error => total - f64::from(self.most.count),
+        }
+    }
+}
+
+/// The greatest of some counts that change one by one. It moves no further than they do, so that many classes cost no more than few.
+#[derive(Clone, Debug, Default)]
+struct Most {
+    count: u32,
+    /// How many classes have each count, from 1.
+    classes: Vec<u32>,
+}
+
+impl Most {
+    fn change(&mut self, old: u32, new: u32) {
+        if self.classes.len() < new as usize {
+            self.classes.resize(new as usize, 0);
+        }
+        for (count, change) in [(old, -1), (new, 1)] {
+            if let Some(classes) = self.classes_of(count) {
+                *classes = classes.saturating_add_signed(change);
             }
         }
+        self.count = self.count.max(new);
+        while self
+            .classes_of(self.count)
+            .is_some_and(|classes| *classes == 0)
+        {
+            self.count -= 1;
+        }
+    }
+
+    fn classes_of(&mut self, count: u32) -> Option<&mut u32> {
+        self.classes.get_mut((count as usize).checked_sub(1)?)
     }
 }
 

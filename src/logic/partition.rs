@@ -8,6 +8,9 @@ use super::cube::Literal;
 use super::impurity::{Impurity, Mixture};
 use rustc_hash::FxHashMap;
 
+/// The depth from which parts are divided evenly. Two classes in turns along one number would be taken off row by row.
+pub const DEPTH: usize = 128;
+
 /// Rows divided until each part holds one class.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Partition {
@@ -64,7 +67,7 @@ impl<'a> Classified<'a> {
             impurity,
             account,
         };
-        search.divide(&self.rows)
+        search.divide(&self.rows, 0)
     }
 }
 
@@ -198,7 +201,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    fn divide(&self, rows: &[Row]) -> Option<Partition> {
+    fn divide(&self, rows: &[Row], depth: usize) -> Option<Partition> {
         // The classes in this part, numbered from 0.
         let mut numbers: FxHashMap<usize, usize> = FxHashMap::default();
         let local = rows.iter().map(|row| {
@@ -216,22 +219,35 @@ impl Search<'_> {
         if self.account.is_spent() {
             return None;
         }
-        let atom = self.best(rows, &local, classes, turns)?;
+        // Where all rows are of classes of their own, no division tells more than another, and the most even one is shallow.
+        let evenly = classes == rows.len() || depth >= DEPTH;
+        let atom = self.best(rows, (&local, classes), turns, evenly)?;
         let part = |positive| {
             let (column, inside) = self.columns.meeting(Literal { atom, positive });
             let meets =
                 |row: &&Row| column.is_some_and(|column| column.contains(row.number) == inside);
             rows.iter().filter(meets).copied().collect::<Vec<Row>>()
         };
-        let parts = [self.divide(&part(false))?, self.divide(&part(true))?];
+        let below = depth + 1;
+        let parts = [
+            self.divide(&part(false), below)?,
+            self.divide(&part(true), below)?,
+        ];
         Some(Partition::Split {
             atom,
             parts: Box::new(parts),
         })
     }
 
-    /// The atom that makes the parts least mixed; `None` where every atom leaves all rows on one side.
-    fn best(&self, rows: &[Row], local: &[usize], classes: usize, turns: usize) -> Option<usize> {
+    /// The atom that makes the parts least mixed, or that divides the rows most evenly; `None` where every atom leaves all rows on one
+    /// side.
+    fn best(
+        &self,
+        rows: &[Row],
+        (local, classes): (&[usize], usize),
+        turns: usize,
+        evenly: bool,
+    ) -> Option<usize> {
         let total = rows.len() as u32;
         let mut zero = Mixture::new(self.impurity, classes);
         let mut one = zero.clone();
@@ -247,7 +263,10 @@ impl Search<'_> {
             }
             // Some rows are on one side only, and some on the other.
             let divides = zero.total() < total && one.total() < total;
-            let mixed = zero.mixed() + one.mixed();
+            let mixed = match evenly {
+                true => f64::from(zero.total().abs_diff(one.total())),
+                false => zero.mixed() + one.mixed(),
+            };
             if divides && best.is_none_or(|(least, _)| Impurity::better(mixed, least)) {
                 best = changes.first().map(|change| (mixed, change.atom as usize));
             }
@@ -293,5 +312,51 @@ impl Search<'_> {
             one,
         });
         changed.collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Classified, DEPTH, Partition};
+    use crate::logic::impurity::Impurity;
+    use crate::logic::{Account, Bits, Columns};
+
+    fn depth(partition: &Partition) -> usize {
+        match partition {
+            Partition::Leaf(_) => 0,
+            Partition::Split { parts, .. } => 1 + parts.iter().map(depth).max().unwrap_or(0),
+        }
+    }
+
+    /// Numbers from 0, and whether each is at most 0, at most 1, and so on.
+    fn numbers(count: usize) -> Columns {
+        let words = count.div_ceil(64);
+        let rows = (0..count).map(|row| {
+            let asks = |word: usize| {
+                let bits = (0..64).filter(|bit| word * 64 + bit >= row);
+                bits.fold(0_u64, |asks, bit| asks | 1 << bit)
+            };
+            (0..words).map(asks).collect()
+        });
+        let rows: Vec<Vec<u64>> = rows.collect();
+        Columns::new(count - 1, rows.iter().map(Vec::as_slice))
+    }
+
+    #[test]
+    fn no_part_is_deep() {
+        const COUNT: usize = 1500;
+        let columns = numbers(COUNT);
+        for (behaviors, most) in [(2, DEPTH + 11), (COUNT, 11)] {
+            let own = |class: usize| (0..COUNT).filter(move |row| row % behaviors == class);
+            let classes = (0..behaviors).map(|class| Bits::collect(COUNT, own(class)));
+            let classes: Vec<Bits> = classes.collect();
+            for impurity in Impurity::ALL {
+                let partition = Classified::new(&columns, &classes)
+                    .partition(impurity, &Account::unlimited())
+                    .unwrap();
+                assert_eq!(partition.leaves(), COUNT);
+                assert!(depth(&partition) <= most, "{behaviors} {impurity:?}");
+            }
+        }
     }
 }

@@ -64,7 +64,10 @@ pub fn top_down(
     let rows = table.columns.rows();
     let whole = Bits::full(rows);
     if leaves(&table, &whole, rows / RARE, account).is_none() {
-        let shuffled = (sought == Sought::Any).then(|| table.shuffled(&mut search.random))?;
+        // No tree has fewer leaves than there are classes.
+        let classes = table.classes.len() as f64;
+        let may_be = sought == Sought::Any && classes <= BY_CHANCE * rows as f64;
+        let shuffled = may_be.then(|| table.shuffled(&mut search.random))?;
         let own = leaves(&table, &whole, rows, account)? as f64;
         let by_chance = leaves(&shuffled, &whole, rows, account)? as f64;
         if own > BY_CHANCE * by_chance {

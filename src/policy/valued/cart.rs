@@ -4,6 +4,7 @@ use super::cuts::shortest;
 use super::ordered::Ordered;
 use super::{Asks, Comparison, Kind, OPEN, Valued};
 use crate::logic::impurity::{Impurity, Mixture};
+use crate::logic::partition::DEPTH;
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
 
@@ -24,8 +25,8 @@ pub(super) fn used(
     let rows = u32::try_from(valued.len()).unwrap_or(u32::MAX);
     let rows: Vec<u32> = (0..rows).collect();
     let mut classes = Classes(vec![0; rows.len()]);
-    let mut open = vec![(Ordered::new(valued, &rows), rows)];
-    while let Some((ordered, rows)) = open.pop() {
+    let mut open = vec![(Ordered::new(valued, &rows), rows, 0)];
+    while let Some((ordered, rows, depth)) = open.pop() {
         work = work.saturating_add(rows.len() * valued.columns.len());
         if work > WORK {
             return None;
@@ -34,7 +35,9 @@ pub(super) fn used(
             true => classes.favoured(valued, &rows),
             false => classes.decided(valued, &rows),
         };
-        let best = (count > 1).then(|| best(valued, &ordered, (&classes, count), impurity));
+        let evenly = count == rows.len() || depth >= DEPTH;
+        let best = || best(valued, &ordered, (&classes, count), (impurity, evenly));
+        let best = (count > 1).then(best);
         let Some(best) = best.flatten() else {
             continue;
         };
@@ -48,7 +51,7 @@ pub(super) fn used(
                 code => best.asks.holds(code) == wanted,
             };
             let on = rows.iter().copied().filter(|row| is_on(*row));
-            (ordered.only(is_on), on.collect())
+            (ordered.only(is_on), on.collect(), depth + 1)
         }));
     }
     Some(found)
@@ -133,12 +136,12 @@ impl Classes {
     }
 }
 
-/// The comparison that makes the two sides least mixed by their classes; `None` where nothing divides them.
+/// The comparison that makes the two sides least mixed by their classes, or most even; `None` where nothing divides them.
 fn best(
     valued: &Valued,
     ordered: &Ordered,
     (classes, count): (&Classes, usize),
-    impurity: Impurity,
+    (impurity, evenly): (Impurity, bool),
 ) -> Option<Split> {
     let none = Mixture::new(impurity, count);
     let mut best: Option<(f64, Split)> = None;
@@ -171,7 +174,10 @@ fn best(
             }
             let next = groups.peek().and_then(|group| group.first());
             divided = next.is_some() || divided && !ordered;
-            let mixed = taken.mixed() + rest.mixed();
+            let mixed = match evenly {
+                true => f64::from(taken.total().abs_diff(rest.total())),
+                false => taken.mixed() + rest.mixed(),
+            };
             let better = |(least, _): &(f64, Split)| Impurity::better(mixed, *least);
             if divided && best.as_ref().is_none_or(better) {
                 let asks = if ordered {

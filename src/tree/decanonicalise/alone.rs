@@ -42,6 +42,8 @@ pub(super) const THOROUGH: usize = 3000;
 const PRICED: usize = 16_384;
 const READS: u64 = 4;
 const LEAF: u64 = 2500;
+/// One part in so many of an account that the partition of a smaller table may take free of charge.
+const SMALL: usize = 32;
 
 /// Partitions of all rows, and the trees that they come to.
 pub(super) struct Held {
@@ -61,8 +63,11 @@ pub(super) fn held(problem: &Problem, account: &Account) -> Held {
         }
         let unlimited = Account::unlimited();
         let partition = classified.partition(impurity, &unlimited);
-        if columns.rows() > PRICED {
+        // So has a small one whose partition is not worth the name, as of two behaviours in turns.
+        if columns.rows() > PRICED || !account.part(SMALL).affords(unlimited.spent()) {
             account.settle(&unlimited);
+        }
+        if columns.rows() > PRICED {
             let leaves = partition.as_ref().map_or(0, Partition::leaves) as u64;
             let words = (columns.atoms() * columns.rows()) as u64 / 64;
             account.spend(READS * words + LEAF * leaves);

@@ -8,6 +8,7 @@ use crate::logic::{Bits, Cover};
 use crate::policy::Minterm;
 use crate::tree::guard::cover;
 use crate::tree::unit::{guarded, memory};
+use std::collections::BTreeSet;
 
 /// Two subunits that a memory node may join: a history literal holds on all rows of the second.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -40,30 +41,35 @@ pub(super) fn followers(problem: &Problem, subunits: &[Subunit]) -> Vec<Pair> {
 }
 
 fn from_the_first(mut pairs: Vec<Pair>) -> Vec<Pair> {
-    let seconds: Vec<usize> = pairs.iter().map(|pair| pair.second).collect();
+    let seconds: BTreeSet<usize> = pairs.iter().map(|pair| pair.second).collect();
     pairs.sort_by_key(|pair| (seconds.contains(&pair.first), *pair));
     pairs
 }
 
 fn following(problem: &Problem, subunits: &[Subunit]) -> Vec<Pair> {
     let mut pairs = Vec::new();
-    for first in 0..subunits.len() {
+    for (first, one) in subunits.iter().enumerate() {
         for by in [Status::Success, Status::Failure] {
-            for (second, other) in subunits.iter().enumerate() {
-                let pair = Pair { first, second, by };
-                let guards_itself = |i| subunits.get(i).is_none_or(|s: &Subunit| s.guards_itself);
-                let follows = |column| other.rows.is_subset(column);
-                if first != second
-                    && !guards_itself(first)
-                    && !guards_itself(second)
-                    && pair.column(problem, subunits).is_some_and(follows)
-                {
-                    pairs.push(pair);
-                }
-            }
+            let Some(column) = column(problem, one, by).filter(|_| !one.guards_itself) else {
+                continue;
+            };
+            let others = subunits.iter().enumerate();
+            let follow = others.filter(|(second, other)| {
+                first != *second && !other.guards_itself && other.rows.is_subset(column)
+            });
+            pairs.extend(follow.map(|(second, _)| Pair { first, second, by }));
         }
     }
     pairs
+}
+
+/// The rows in which the history says that what a subunit ends with has ended so.
+fn column<'a>(problem: &'a Problem, subunit: &Subunit, by: Status) -> Option<&'a Bits> {
+    let last = subunit.last?;
+    problem.column(match by {
+        Status::Failure => Atom::Failed(last),
+        _ => Atom::Done(last),
+    })
 }
 
 impl Pair {
@@ -74,11 +80,7 @@ impl Pair {
 
     /// The rows with c.
     fn column<'a>(&self, problem: &'a Problem, subunits: &[Subunit]) -> Option<&'a Bits> {
-        let last = subunits.get(self.first)?.last?;
-        problem.column(match self.by {
-            Status::Failure => Atom::Failed(last),
-            _ => Atom::Done(last),
-        })
+        column(problem, subunits.get(self.first)?, self.by)
     }
 
     /// Both guards without the literal, c_i and c_j, as ON and OFF rows: each is minimised on its own side of c.

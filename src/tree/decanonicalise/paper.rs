@@ -42,6 +42,8 @@ fn rewrite(
         return Some(subunits);
     }
     loop {
+        let copied = subunits.len() as u64 * minimiser.words();
+        minimiser.account.spend(copied);
         if minimiser.account.is_spent() {
             return None;
         }
@@ -50,6 +52,7 @@ fn rewrite(
             .or_else(|| z(minimiser, &subunits));
         match next {
             Some(next) => subunits = next,
+            None if minimiser.account.is_spent() => return None,
             None => return Some(subunits),
         }
     }
@@ -83,19 +86,26 @@ fn memory(
 
 /// Z: `selector { c => B_j, B_i }` for the first literal that discriminates two subunits.
 fn z(minimiser: &Minimiser, subunits: &[Subunit]) -> Option<Vec<Subunit>> {
+    let columns = minimiser.problem.columns();
     for (i, first) in subunits.iter().enumerate() {
+        // The literals that no row of the first has.
+        let own = columns.iter().filter(|(_, c)| first.rows.is_disjoint(c));
+        let own: Vec<(usize, &Bits)> = own.collect();
+        minimiser.account.spend(columns.atoms() as u64);
+        if minimiser.account.is_spent() {
+            return None;
+        }
         for (j, second) in subunits.iter().enumerate() {
             if i == j {
                 continue;
             }
-            let discriminates =
-                |column: &Bits| first.rows.is_disjoint(column) && second.rows.is_subset(column);
-            let mut columns = minimiser.problem.columns().iter();
-            let Some((atom, _)) = columns.find(|(_, column)| discriminates(column)) else {
+            let mut columns = own.iter();
+            let Some((atom, _)) = columns.find(|(_, column)| second.rows.is_subset(column)) else {
+                minimiser.account.spend(own.len() as u64);
                 continue;
             };
             let c = Literal {
-                atom,
+                atom: *atom,
                 positive: true,
             };
             let guard = literal(c, &minimiser.problem.policy.atoms);

@@ -18,6 +18,8 @@ use rustc_hash::FxHashMap;
 /// The most kinds of rows, and children of a window that others follow.
 const KINDS: usize = 12;
 const CHILDREN: usize = 8;
+/// The work of copying a child and counting its nodes.
+const COPY: u64 = 50;
 /// One window may take this part of what is left.
 const WINDOWS: u64 = 16;
 
@@ -55,6 +57,12 @@ impl<'a, 'p> Windows<'a, 'p> {
     ) -> Option<Vec<Node>> {
         let own = children.get(from..to)?;
         let after = children.get(to..)?;
+        // What follows is copied and counted, whatever becomes of the window.
+        let copied = (children.len() - from) as u64 * COPY;
+        self.reach.account.spend(copied);
+        if self.reach.account.is_spent() {
+            return None;
+        }
         for whole in [false, true] {
             let mut decided = Some(Decided::new());
             let mut left = rows.clone();

@@ -8,6 +8,9 @@ use crate::logic::impurity::{Impurity, n_log_n};
 /// Rows that are so many times fewer than their table are read faster alone.
 const FEW: usize = 4;
 
+/// The work of the rows of a class, besides their words.
+const CLASS: usize = 16;
+
 /// The leaves of a decision tree for these rows, by the entropy of its parts; `None` if they are more than `most`, or the account is spent.
 pub(super) fn leaves(table: &Table, among: &Bits, most: usize, account: &Account) -> Option<usize> {
     let mut left = most;
@@ -26,11 +29,17 @@ fn count(table: &Table, among: &Bits, left: &mut usize, account: &Account) -> Op
 }
 
 fn divide(table: &Table, among: &Bits, left: &mut usize, account: &Account) -> Option<()> {
+    account.spend((table.classes.len() * (CLASS + table.columns.rows() / 64)) as u64);
     let classes = table.classes.iter().map(|(_, own)| own.and(among));
     let classes: Vec<Bits> = classes.filter(|own| !own.is_empty()).collect();
     // A row may be of several classes.
     let rows = among.count();
-    let divided = classes.iter().all(|own| own.count() < rows);
+    let mut sizes = classes.iter().map(Bits::count);
+    if sizes.clone().sum::<usize>() == rows && classes.len() > *left {
+        // Each class has a leaf at least.
+        return None;
+    }
+    let divided = sizes.all(|own| own < rows);
     let atom = divided.then(|| best(table, &classes, account));
     let Some(atom) = atom.flatten() else {
         *left = left.checked_sub(1)?;
