@@ -79,7 +79,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
                     say.count(&found.diagnostics);
                     files::print("ok\n")?;
                 } else if clean(found) {
-                    files::print(&format!("{}: ok\n", render::visible(&found.name)))?;
+                    files::print(&format!("{}: ok\n", render::on_one_line(&found.name)))?;
                 }
             }
             if all.len() > 1 || !all.iter().all(clean) {
@@ -114,7 +114,7 @@ pub(super) fn programs(path: &str) -> Result<Vec<String>, Failure> {
         let entries = std::fs::read_dir(folder).and_then(Iterator::collect::<io::Result<Vec<_>>>);
         let entries = entries.map_err(|error| {
             let folder = folder.to_string_lossy();
-            files::complain(&format!("{}: {error}", render::visible(&folder)))
+            files::complain(&format!("{folder}: {error}"))
         })?;
         let mut paths: Vec<PathBuf> = entries.iter().map(fs::DirEntry::path).collect();
         paths.sort();

@@ -37,7 +37,7 @@ impl Checkpoints {
     /// The states there are of another run, or one that is not over keeps its own there.
     pub(super) fn begin(&self, checkpoint: &mut Checkpoint, place: &Path) -> Result<(), Failure> {
         let place = place.to_string_lossy();
-        let place = render::visible(&place);
+        let place = render::on_one_line(&place);
         match (self.resume, checkpoint.found()) {
             (true, Ok(())) => checkpoint.resume(),
             (true, Err(Unlike::Nothing)) => tell(&format!(

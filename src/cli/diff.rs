@@ -62,7 +62,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     let found = found.map_err(|refused| say.refused(&refused))?;
     files::print(&written(&found, arguments.format, &arguments.new))?;
     match &found.outcome {
-        Outcome::Same | Outcome::Equal(_) => Ok(()),
+        Outcome::Same(_) | Outcome::Equal(_) => Ok(()),
         Outcome::Other(_) | Outcome::Onward(..) | Outcome::Parts(_) => Err(Failure::Input),
         Outcome::Undecided(_) => Err(Failure::Undecided),
     }

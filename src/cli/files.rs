@@ -102,7 +102,7 @@ pub(super) fn refuse(mistake: &Diagnostic) -> Failure {
 
 /// A mistake that has no place in a text.
 pub(super) fn complain(message: &str) -> Failure {
-    tell(&format!("error: {message}"));
+    tell(&format!("error: {}", render::on_one_line(message)));
     Failure::Input
 }
 

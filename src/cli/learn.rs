@@ -179,7 +179,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     let written = files::write_all(&folder, &files.chain(more).collect::<Vec<_>>(), program);
     // Whoever reads this may have gone: all is written. What could not be written is printed at least.
     let printed = files::print(&learned.text);
-    if written.is_err() && checkpoint.found().is_ok() {
+    if written.is_err() && checkpoint.is_up_to_date() {
         tell(
             "note: the run is kept: once its folder can be written, `--resume` writes the results",
         );
@@ -207,7 +207,7 @@ pub(super) fn run(arguments: &Arguments, say: &Reporter) -> Result<(), Failure> 
     }
     tell(&format!(
         "written to {}",
-        render::visible(&place.to_string_lossy())
+        render::on_one_line(&place.to_string_lossy())
     ));
     printed.and(super::verify::together(&claims))
 }

@@ -3,7 +3,6 @@
 use super::files::DASH;
 use super::store::file::folder_of;
 use super::{Failure, files};
-use crate::diagnostic::render;
 use crate::driver::digest::sha256;
 use crate::driver::load::Loaded;
 use std::collections::BTreeMap;
@@ -36,10 +35,8 @@ pub(super) fn used_from(folder: &Path, file: &Path) -> Result<String, Failure> {
     } else {
         return Ok(path);
     };
-    let message = format!(
-        "`{}` has {why}, so that no `use` can name it as a program: rename it",
-        render::visible(&path).replace('\n', "\\n")
-    );
+    let message =
+        format!("`{path}` has {why}, so that no `use` can name it as a program: rename it");
     Err(files::complain(&message))
 }
 

@@ -196,7 +196,7 @@ impl Reader for Found {
                 Some((folder, _)) => {
                     let folder = folder.to_string_lossy();
                     let name = path.rsplit('/').next().unwrap_or(path);
-                    let (folder, name) = (render::visible(&folder), render::visible(name));
+                    let (folder, name) = (render::on_one_line(&folder), render::on_one_line(name));
                     format!("{why}; the `{name}` that was learned from belongs here, or beside `{folder}`")
                 }
             })

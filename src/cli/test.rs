@@ -160,7 +160,7 @@ fn nothing(named: &str, programs: usize, no_learn: bool) -> String {
     };
     format!(
         "there is nothing to test in `{}`: {why}",
-        render::visible(named)
+        render::on_one_line(named)
     )
 }
 
@@ -200,7 +200,7 @@ fn one(
                 _ => {
                     format!(
                         "{}: there is no snapshot yet; `btc test --accept` writes it\n",
-                        render::visible(&shown)
+                        render::on_one_line(&shown)
                     )
                 }
             })?;
@@ -229,7 +229,7 @@ fn one(
         count.passed += 1;
         files::print(&match arguments.format {
             Form::Json => text,
-            _ => format!("{}: ok\n", render::visible(&shown)),
+            _ => format!("{}: ok\n", render::on_one_line(&shown)),
         })?;
         return Ok(learned);
     }

@@ -11,4 +11,4 @@ pub use human::human;
 pub use json::json;
 pub use sarif::sarif;
 pub use short::{github, short};
-pub use visible::{hidden, visible};
+pub use visible::{hidden, on_one_line, visible};

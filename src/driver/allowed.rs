@@ -95,7 +95,7 @@ fn divided(policy: &mut Policy, table: &Table, root: &Node) -> Option<()> {
 }
 
 /// What each row allows.
-fn sets(policy: &Policy, table: &Table) -> Vec<Vec<Id<Behavior>>> {
+pub(super) fn sets(policy: &Policy, table: &Table) -> Vec<Vec<Id<Behavior>>> {
     let of = |numbers: Vec<usize>| {
         let numbers = numbers.into_iter();
         let own = numbers.filter_map(|number| policy.behaviors.get(number).copied());

@@ -17,8 +17,8 @@ use crate::learn::episode::Episode;
 use crate::learn::simulated::Purpose;
 use crate::learn::statistics::Mean;
 use crate::policy::table::Table;
-use crate::policy::{Policy, decisions};
-use crate::report::difference::{Difference, Figures, Outcome};
+use crate::policy::{Policy, Row, decisions};
+use crate::report::difference::{Difference, Figures, Outcome, What};
 use crate::report::verdict;
 use crate::syntax::ast::ItemKind;
 use crate::tree::atoms::atoms;
@@ -57,6 +57,18 @@ pub fn diff(old: Side, new: Side, episodes: u64, seed: u64) -> Result<Difference
     let mut program = base.map_or_else(Program::default, |loaded| loaded.program.clone());
     let mut after = read(new, base, &mut program)?;
     let mut before = read(old, base, &mut program)?;
+    let names = [called(old)?, called(new)?];
+    if let (Read::Table(old, before), Read::Table(new, after)) = (&before, &after)
+        && is_same((old, before), (new, after))
+    {
+        return Ok(Difference {
+            names,
+            outcome: Outcome::Same(What::Tables),
+            by_predicates: false,
+            figures: None,
+            program,
+        });
+    }
     let several = |side: Side<'_>, read: &Read| match (side, read) {
         (Side::Table(_), Read::Table(_, table)) => table.has_sets().then(|| table.header.clone()),
         _ => None,
@@ -76,11 +88,10 @@ pub fn diff(old: Side, new: Side, episodes: u64, seed: u64) -> Result<Difference
             allowed::refused(text, header, message)
         })?;
     }
-    let names = [called(old)?, called(new)?];
     let history = history(&program, &before, &after);
     let (outcome, by_predicates) = outcome(&program, &before, &after, history, &names);
     let figures = match outcome {
-        Outcome::Same | Outcome::Equal(_) => None,
+        Outcome::Same(_) | Outcome::Equal(_) => None,
         _ => played(&program, &before, &after, episodes, seed),
     };
     Ok(Difference {
@@ -90,6 +101,21 @@ pub fn diff(old: Side, new: Side, episodes: u64, seed: u64) -> Result<Difference
         figures,
         program,
     })
+}
+
+/// Whether two tables have the same rows over the same atoms, and allow the same.
+fn is_same((old, before): (&Policy, &Table), (new, after): (&Policy, &Table)) -> bool {
+    let mut rows = old.rows.iter().zip(&new.rows);
+    let is_row = |(a, b): (&Row, &Row)| (&a.minterm, &a.free) == (&b.minterm, &b.free);
+    let does = |policy: &Policy, table: &Table| {
+        let allowed = allowed::sets(policy, table).into_iter();
+        let sets = allowed.map(|own| own.into_iter().collect::<BTreeSet<_>>());
+        sets.collect::<Vec<_>>()
+    };
+    old.atoms == new.atoms
+        && old.rows.len() == new.rows.len()
+        && rows.all(is_row)
+        && does(old, before) == does(new, after)
 }
 
 /// Where a row allows several behaviours, takes the one that the other side takes there, if it is among them; `None` if that cannot
@@ -280,7 +306,7 @@ fn outcome(
     let mut by_predicates = false;
     if let [Read::Tree(old, _), Read::Tree(new, _)] = sides {
         if old == new {
-            return (Outcome::Same, false);
+            return (Outcome::Same(What::Trees), false);
         }
         let environment = Environment::Any(history);
         // Any environment knows every atom.

@@ -10,11 +10,20 @@ use crate::learn::statistics::Mean;
 use crate::tree::change::Change;
 use serde_json::{Value, json};
 
+/// What two sides are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum What {
+    /// Trees.
+    Trees,
+    /// Policy tables.
+    Tables,
+}
+
 /// What became of a policy.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// The trees are the same.
-    Same,
+    /// The trees are the same, or the tables.
+    Same(What),
     /// Another shape, which decides the same; how that was proved.
     Equal(String),
     /// Other decisions.
@@ -59,12 +68,12 @@ pub struct Difference {
 impl Difference {
     /// Whether nothing has changed at all.
     pub fn is_same(&self) -> bool {
-        self.outcome == Outcome::Same
+        matches!(self.outcome, Outcome::Same(_))
     }
 
     /// Whether the same is decided.
     pub fn is_equal(&self) -> bool {
-        matches!(self.outcome, Outcome::Same | Outcome::Equal(_))
+        matches!(self.outcome, Outcome::Same(_) | Outcome::Equal(_))
     }
 
     fn behavior(&self, id: Option<Id<Behavior>>) -> String {
@@ -125,7 +134,7 @@ impl Difference {
             | Outcome::Onward(_, text)
             | Outcome::Parts(text)
             | Outcome::Undecided(text) => text,
-            Outcome::Same | Outcome::Other(_) => "",
+            Outcome::Same(_) | Outcome::Other(_) => "",
         };
         Some(detail).filter(|text| !text.is_empty())
     }
@@ -143,7 +152,8 @@ impl Difference {
             false => String::new(),
         };
         match &self.outcome {
-            Outcome::Same => format!("same: {new} is the tree of {old}"),
+            Outcome::Same(What::Trees) => format!("same: {new} is the tree of {old}"),
+            Outcome::Same(What::Tables) => format!("same: {new} has the rows of {old}"),
             Outcome::Equal(how) => {
                 format!(
                     "equal: {new} has another shape than {old} and decides the same, {how}{within}"
@@ -231,7 +241,7 @@ impl Difference {
     /// A JSON document.
     pub fn json(&self) -> String {
         let outcome = match &self.outcome {
-            Outcome::Same => "same",
+            Outcome::Same(_) => "same",
             Outcome::Equal(_) => "equal",
             Outcome::Onward(..) => "onward",
             Outcome::Other(_) | Outcome::Parts(_) => "different",

@@ -173,6 +173,30 @@ fn allowed_behaviors_are_those_of_the_other_side() {
     }
 }
 
+/// A table is the same as itself, whatever its rows allow or leave open.
+#[test]
+fn a_table_is_the_same_as_itself() {
+    let open = "tests/cases/tables/good/allows_several_by_two_rows.csv";
+    for [old, new, said] in [
+        [
+            "old.csv",
+            "old.csv",
+            "same: old.csv has the rows of old.csv",
+        ],
+        [
+            "sets_old.csv",
+            "sets_other_order.csv",
+            "same: sets_other_order.csv has the rows of sets_old.csv",
+        ],
+    ] {
+        let output = btc(&cases(), &["diff", old, new]);
+        assert_eq!(out(&output).lines().next(), Some(said));
+        assert_eq!(output.status.code(), Some(0));
+    }
+    let output = btc(Path::new(env!("CARGO_MANIFEST_DIR")), &["diff", open, open]);
+    assert!(out(&output).starts_with("same: "), "{}", out(&output));
+}
+
 /// One row of many columns has changed: a condition of a few literals tells it from the other rows.
 #[test]
 fn a_changed_row_is_told_in_a_few_words() {

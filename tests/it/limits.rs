@@ -318,6 +318,32 @@ fn characters_that_are_not_seen() {
     assert!(!text.contains(['\u{202e}', '\u{2066}', '\u{1b}']), "{text}");
 }
 
+/// A file may be called so that its name would read as lines of btc's own.
+#[test]
+fn a_name_is_said_on_one_line() {
+    let name = "no\nerror: forged\u{1b}[2K.bt";
+    for arguments in [
+        ["check", name],
+        ["size", name],
+        ["run", name],
+        ["diff", name],
+    ] {
+        let second = (arguments[0] == "diff").then_some(name);
+        let arguments: Vec<&str> = arguments.into_iter().chain(second).collect();
+        let output = btc(&arguments, Path::new("."), b"");
+        let text = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(1), "{text}");
+        assert!(
+            text.contains("no\\u{a}error: forged\\u{1b}[2K.bt"),
+            "{text}"
+        );
+        assert!(
+            !text.lines().any(|line| line.starts_with("error: forged")),
+            "{text}"
+        );
+    }
+}
+
 /// A proof that would take days is given up, and says what would settle it; a tree is equal to itself without one.
 #[test]
 fn proofs() {

@@ -60,6 +60,8 @@ struct Kept {
     held: Option<File>,
     /// Whether it was told that a state could not be kept, or could not be read.
     told: bool,
+    /// Whether the last state could not be kept.
+    lost: bool,
 }
 
 /// Why a run cannot be resumed.
@@ -97,6 +99,7 @@ impl<'d> Checkpoint<'d> {
                 ready: false,
                 held: None,
                 told: false,
+                lost: false,
             }),
         }
     }
@@ -130,6 +133,11 @@ impl<'d> Checkpoint<'d> {
             true => Ok(()),
             false => Err(Unlike::Other(differences)),
         }
+    }
+
+    /// Whether the last state of this very run is kept.
+    pub fn is_up_to_date(&self) -> bool {
+        self.found().is_ok() && !self.lock().lost
     }
 
     /// Goes on from the states that were found.
@@ -235,6 +243,7 @@ impl<'d> Checkpoint<'d> {
                 kept.ready = self.folder.is_dir();
             }
         });
+        kept.lost = done.is_err();
         if let Err(why) = done {
             kept.tell(&format!("warning: no checkpoint could be kept: {why}"));
         }

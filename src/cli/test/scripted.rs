@@ -52,8 +52,8 @@ pub(super) fn skip(
         let (title, tree) = (&due.test.title, &due.test.tree);
         files::print(&format!(
             "{}: {}: skipped, for `{tree}` is not learned\n",
-            render::visible(path),
-            render::visible(title)
+            render::on_one_line(path),
+            render::on_one_line(title)
         ))
     })
 }

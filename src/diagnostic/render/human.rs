@@ -1,7 +1,7 @@
 //! Diagnostics for a person at a terminal.
 
 use super::excerpt::Excerpt;
-use super::visible::{in_place, visible};
+use super::visible::{in_place, on_one_line, visible};
 use crate::diagnostic::{Diagnostic, Fix, Severity};
 use crate::source::Sources;
 use codespan_reporting::diagnostic as report;
@@ -92,7 +92,7 @@ fn reported(sources: &Sources, diagnostic: &Diagnostic) -> report::Diagnostic<us
         .filter_map(|fix| offered(sources, fix, said));
     report::Diagnostic::new(severity)
         .with_code(diagnostic.code)
-        .with_message(told(&diagnostic.message))
+        .with_message(told(&on_one_line(&diagnostic.message)))
         .with_labels(labels)
         .with_notes(
             notes
@@ -178,7 +178,7 @@ impl<'a> SourceFiles<'a> {
         Self {
             sources,
             texts: all().map(|source| in_place(&source.text)).collect(),
-            names: all().map(|source| visible(&source.name)).collect(),
+            names: all().map(|source| on_one_line(&source.name)).collect(),
             cut: None,
         }
     }

@@ -1,6 +1,6 @@
 //! Diagnostics in one line each: for editors and for the annotations of GitHub.
 
-use super::visible;
+use super::on_one_line;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::source::{Source, Sources};
 
@@ -13,7 +13,7 @@ pub fn short(sources: &Sources, diagnostics: &[Diagnostic]) -> String {
         let (severity, code, message) = (word(found), found.code, &found.message);
         format!(
             "{}\n",
-            visible(&format!("{place}{severity}[{code}]: {message}"))
+            on_one_line(&format!("{place}{severity}[{code}]: {message}"))
         )
     };
     diagnostics.iter().map(line).collect()

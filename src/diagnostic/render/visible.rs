@@ -19,6 +19,22 @@ pub fn visible(text: &str) -> Cow<'_, str> {
     Cow::Owned(shown)
 }
 
+/// The text on one line: as [`visible`], and so are the ends of lines in it. A file may be called so.
+pub fn on_one_line(text: &str) -> Cow<'_, str> {
+    match text.contains(['\n', '\r', '\t']) {
+        true => Cow::Owned(text.chars().map(written).collect()),
+        false => visible(text),
+    }
+}
+
+/// A character, or its code if it would change what a terminal shows or ends a line.
+fn written(letter: char) -> String {
+    match is_hidden(letter) || matches!(letter, '\n' | '\r' | '\t') {
+        true => format!("\\u{{{:x}}}", u32::from(letter)),
+        false => letter.to_string(),
+    }
+}
+
 /// The characters that would, each with its place.
 pub fn hidden(text: &str) -> impl Iterator<Item = (usize, char)> {
     text.char_indices().filter(|(_, letter)| is_hidden(*letter))
@@ -48,7 +64,7 @@ fn is_hidden(letter: char) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::visible;
+    use super::{on_one_line, visible};
 
     #[test]
     fn what_changes_a_terminal_is_written_as_its_code() {
@@ -56,5 +72,11 @@ mod tests {
         assert_eq!(visible("p\rq\r"), "p\\u{d}q\\u{d}");
         assert_eq!(visible("\u{1b}]0;x\u{7}"), "\\u{1b}]0;x\\u{7}");
         assert_eq!(visible("x\u{202e}y\u{9b}z"), "x\\u{202e}y\\u{9b}z");
+    }
+
+    #[test]
+    fn a_name_has_one_line() {
+        assert_eq!(on_one_line("a\nerror: b\u{7}"), "a\\u{a}error: b\\u{7}");
+        assert_eq!(on_one_line("a b"), "a b");
     }
 }

@@ -1,7 +1,7 @@
 //! The claims of a program.
 
 use super::{Pair, Proved, compared};
-use crate::diagnostic::render::visible;
+use crate::diagnostic::render::on_one_line;
 use crate::driver::learn::Learned;
 use crate::driver::load::Loaded;
 use crate::driver::run::Subject;
@@ -189,7 +189,7 @@ fn failing(
             .position(|line| line.events.contains(&never.event));
         lines.truncate(first.map_or(lines.len(), |at| at + 1));
     }
-    let file = visible(file);
+    let file = on_one_line(file);
     let mut text = format!(
         "\n  the shortest run in which it fails, shown by `btc run {file} --tree {} --episode {episode} --trace -`:",
         loaded.program.trees[tree].name
