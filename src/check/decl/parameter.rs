@@ -2,7 +2,7 @@
 
 use crate::check::Checker;
 use crate::check::context::{Binding, Context, Region};
-use crate::check::expr::expect::is_literal;
+use crate::check::expr::expect::{Role, is_literal};
 use crate::check::names::Decl;
 use crate::check::report::listed;
 use crate::check::signature::{Signature, Takes};
@@ -94,7 +94,7 @@ impl<'a> Checker<'a> {
         let mut fine = matched.fine;
         let mut bindings: Vec<Binding<'a>> = Vec::new();
         for (param, given) in params.iter().zip(matched.values()) {
-            let role = format!("`{}` of `{name}`", param.name.name);
+            let role = Role::Argument(&param.name.name, name);
             let ty = match self.unsure.contains(&param.span) {
                 true => Type::Error,
                 false => self.in_library(library, |checker| checker.type_expr(&param.ty)),
@@ -119,7 +119,7 @@ impl<'a> Checker<'a> {
                     if !library && !typed.ty.fits(&ty) {
                         self.clashes_with_parameter(&param.name, &ty, &typed);
                     }
-                    let value = self.coerce(typed, value, &ty, &role);
+                    let value = self.coerce(typed, value, &ty, role);
                     self.given = outer;
                     value
                 }
@@ -143,7 +143,8 @@ impl<'a> Checker<'a> {
                         is_given: false,
                     };
                     let outer = std::mem::replace(&mut self.context, context);
-                    let (value, _) = self.captured(|checker| checker.expect(default, &ty, &role));
+                    let (value, _) =
+                        self.captured(|checker| checker.expect(default, &ty, "a default"));
                     self.context = outer;
                     value
                 }

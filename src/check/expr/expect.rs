@@ -13,6 +13,37 @@ use crate::source::Span;
 use crate::spelling::spelled;
 use crate::syntax::ast::{ArgKind, BinaryOp, Expr, ExprKind, Ref};
 use crate::syntax::print;
+use std::fmt;
+
+/// What an expression is there for, as a message calls it.
+#[derive(Clone, Copy, Debug)]
+pub enum Role<'r> {
+    /// What stands at one place of the text, such as "a condition".
+    Called(&'r str),
+    /// A parameter that is given a value, and whose it is.
+    Argument(&'r str, &'r str),
+}
+
+impl fmt::Display for Role<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Called(what) => f.write_str(what),
+            Self::Argument(parameter, of) => write!(f, "`{parameter}` of `{of}`"),
+        }
+    }
+}
+
+impl<'r> From<&'r str> for Role<'r> {
+    fn from(what: &'r str) -> Self {
+        Self::Called(what)
+    }
+}
+
+impl<'r> From<&'r String> for Role<'r> {
+    fn from(what: &'r String) -> Self {
+        Self::Called(what)
+    }
+}
 
 impl<'a> Checker<'a> {
     /// Checks an expression that has to be of a type.
@@ -22,14 +53,20 @@ impl<'a> Checker<'a> {
     }
 
     /// Reports an expression that is not of the wanted type; what comes back is of that type or an error.
-    pub fn coerce(&mut self, typed: Typed, expr: &Expr, wanted: &Type, role: &str) -> Typed {
+    pub fn coerce<'r>(
+        &mut self,
+        typed: Typed,
+        expr: &Expr,
+        wanted: &Type,
+        role: impl Into<Role<'r>>,
+    ) -> Typed {
         if typed.ty.fits(wanted) {
             if typed.ty != Type::Error {
                 self.warn_plain_ratio(expr, wanted);
             }
             return typed;
         }
-        let found = self.mismatch(&typed, expr, wanted, role).typed();
+        let found = self.mismatch(&typed, expr, wanted, role.into()).typed();
         self.clashes(expr, typed.span, wanted);
         found
     }
@@ -46,19 +83,19 @@ impl<'a> Checker<'a> {
             self.warn_plain_ratio(expr, &first.ty);
             return typed;
         }
-        self.mismatch(&typed, expr, &first.ty, role)
+        self.mismatch(&typed, expr, &first.ty, role.into())
             .also(first.span, format!("this is {}", first.ty))
             .typed()
     }
 
-    fn mismatch(&mut self, typed: &Typed, expr: &Expr, wanted: &Type, role: &str) -> Draft<'_> {
+    fn mismatch(&mut self, typed: &Typed, expr: &Expr, wanted: &Type, role: Role) -> Draft<'_> {
         let message = format!("{role} is {wanted}, not {}", typed.ty);
         let named = plain_ref(expr)
             .and_then(|name| self.names.value(&name.name.name, self.context.library));
         let is_variant = matches!(named, Some((Decl::Variant(..), _)));
         // A second place is no measure of how near the first one is.
         let is_place = typed.ty.is_named_target() || typed.ty == Type::Target;
-        let is_argument = role.contains("` of `");
+        let is_argument = matches!(role, Role::Argument(..));
         let beside = is_place && is_argument && wanted.dim() == Some(Dim::LENGTH);
         let help = self
             .of_no_kind(typed, expr, wanted)
