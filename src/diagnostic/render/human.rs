@@ -8,6 +8,7 @@ use codespan_reporting::diagnostic as report;
 use codespan_reporting::files::{Error, Files, column_index};
 use codespan_reporting::term::{self, Config, termcolor};
 use std::borrow::Cow;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 /// The text that shows `diagnostics`, one after another, each with the lines that it is about; with colours as ANSI
@@ -133,6 +134,7 @@ fn offered(sources: &Sources, fix: &Fix, said: &str) -> Option<String> {
             }
         })
         .collect();
+    counted(&mut edits);
     let more = edits.len().saturating_sub(MOST);
     if more > 0 {
         edits.truncate(MOST);
@@ -149,6 +151,21 @@ fn offered(sources: &Sources, fix: &Fix, said: &str) -> Option<String> {
             format!("help: {}: {edits}", fix.title)
         },
     )
+}
+
+/// Says once, with the number of places, what is to be replaced in several.
+fn counted(edits: &mut Vec<String>) {
+    let mut places: BTreeMap<String, usize> = BTreeMap::new();
+    for edit in edits.iter() {
+        *places.entry(edit.clone()).or_default() += 1;
+    }
+    let mut said = BTreeSet::new();
+    edits.retain(|edit| !edit.starts_with("replace ") || said.insert(edit.clone()));
+    for edit in edits.iter_mut().filter(|edit| said.contains(*edit)) {
+        if let Some(count) = places.get(edit).filter(|count| **count > 1) {
+            *edit = format!("{edit} in {count} places");
+        }
+    }
 }
 
 /// The beginning of a line, for a hint.
