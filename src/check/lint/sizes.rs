@@ -152,6 +152,15 @@ impl<'a> Checker<'a> {
                         self.warning(Code::W0402, field.value.span, message)
                             .label(label);
                     }
+                    let (noise, turn) = (robot.drive.turn_noise, robot.drive.max_turn);
+                    if noise > turn && turn > 0.0 {
+                        let message = "the robot turns by chance, not as it is told";
+                        let (noise, turn) = (short(noise), short(turn));
+                        let label =
+                            format!("its noise is {noise} rad/s, its rate of turn {turn} rad/s");
+                        self.warning(Code::W0402, field.value.span, message)
+                            .label(label);
+                    }
                     let learns = robot.name == world.robot.name;
                     let sent = self.sent_to();
                     let passed = world.places.values().find(|place| {
@@ -214,7 +223,7 @@ impl<'a> Checker<'a> {
 }
 
 /// Whether a place has all of the arena in it, as far as its bounds show.
-fn covers(place: &Shape, world: &World) -> bool {
+pub(super) fn covers(place: &Shape, world: &World) -> bool {
     let ([left, bottom], [right, top]) = world.arena.bounds();
     let corners = [[left, bottom], [right, bottom], [left, top], [right, top]];
     place.is_convex() && corners.into_iter().all(|corner| place.contains(corner))

@@ -5,6 +5,7 @@ use super::starts::starts;
 use crate::check::Checker;
 use crate::check::builtin::Constant;
 use crate::check::expr::plain_ref;
+use crate::check::report::short;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{Point, Shape, minus};
 use crate::ir::Name;
@@ -19,6 +20,9 @@ use std::ops::Range;
 
 /// The part of the free arena from which on a start that may be shut in is told.
 const SHUT_IN: f64 = 0.002;
+
+/// Where a body of this part of the size would fit everywhere, its size is the mistake.
+const TENTH: f64 = 10.0;
 
 /// The blocks of the grid on which ways are looked for, and the cells of a block, along each axis.
 const BLOCKS: usize = 120;
@@ -38,8 +42,7 @@ impl<'a> Checker<'a> {
                 self.walls_alike(declared, &world);
                 self.sensors_alike(declared, &world);
                 self.places_alike(declared, &world);
-                self.places_apart(declared, &world, &anywhere);
-                self.places_too_small(declared, &world);
+                self.places_out_of_reach(declared, &world, &anywhere);
             }
         }
     }
@@ -118,6 +121,54 @@ impl<'a> Checker<'a> {
         self.warning(Code::W0401, here, message)
             .label(format!("the same {what} under another name"))
             .also(first, "the first");
+    }
+
+    /// Places that no way leads to, or that the robot does not fit into; of most places for a body that is too large, one warning
+    /// is enough.
+    fn places_out_of_reach(&mut self, declared: &'a ast::World, world: &World, anywhere: &[Span]) {
+        let (found, too_small) = self.out_of_reach(declared, world, anywhere);
+        let is_place = |found: &&Diagnostic| found.code == Code::W0401;
+        let apart: Vec<Span> = found
+            .iter()
+            .filter(is_place)
+            .map(Diagnostic::span)
+            .collect();
+        let sent = self.sent_to();
+        let wanted = places(declared, world).filter(|(.., it)| sent.contains(&it.name.to_string()));
+        // What one gap keeps it from, that gap is the mistake of.
+        let most = too_small > 0 && apart.len() >= 2 && 2 * apart.len() > wanted.count();
+        let body = body(declared, world).filter(|_| most);
+        let too_large = body.filter(|_| {
+            let mut small = world.clone();
+            small.robot.radius /= TENTH;
+            let (left, _) = self.out_of_reach(declared, &small, &[]);
+            !left.iter().any(|found| is_place(&found))
+        });
+        match too_large {
+            Some(at) => {
+                let message = "the robot is too large for most of the places that it is sent to";
+                let width = short(2.0 * world.robot.radius);
+                self.warning(Code::W0402, at, message)
+                    .label(format!("it is {width} m wide"))
+                    .and_at(&apart, "it does not get here");
+            }
+            None => self.diagnostics.extend(found),
+        }
+    }
+
+    /// What is to be told of places that the robot does not get to, and how many of them it does not fit into.
+    fn out_of_reach(
+        &mut self,
+        declared: &'a ast::World,
+        world: &World,
+        anywhere: &[Span],
+    ) -> (Vec<Diagnostic>, usize) {
+        let before = self.diagnostics.len();
+        self.places_apart(declared, world, anywhere);
+        let apart = self.diagnostics.len();
+        self.places_too_small(declared, world);
+        let too_small = self.diagnostics.len() - apart;
+        (self.diagnostics.split_off(before), too_small)
     }
 
     /// Places that the robot is sent to and no way leads to: from where it starts, or if that may be anywhere from the one of
@@ -271,6 +322,19 @@ impl<'a> Checker<'a> {
     }
 }
 
+/// Where the body of the robot that learns is declared.
+fn body(declared: &ast::World, world: &World) -> Option<Span> {
+    declared.entries.iter().find_map(|entry| match &entry.kind {
+        WorldEntryKind::Robot { name, entries, .. } if world.robot.name.is(&name.name) => {
+            entries.iter().find_map(|entry| match &entry.kind {
+                RobotEntryKind::Field(field) if field.name.name == "body" => Some(field.value.span),
+                _ => None,
+            })
+        }
+        _ => None,
+    })
+}
+
 /// Of things with a text that says all of them but their names, those that are there already, each behind the first.
 fn alike<'a>(
     things: impl Iterator<Item = (String, &'a Ident, Span)>,
@@ -342,7 +406,7 @@ impl Cells {
     }
 
     fn place((column, row): Cell) -> Option<usize> {
-        (column < ALL && row < ALL).then_some(column * ALL + row)
+        (column < ALL && row < ALL).then(|| column * ALL + row)
     }
 
     fn contains(&self, cell: Cell) -> bool {
