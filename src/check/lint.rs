@@ -44,6 +44,7 @@ mod unused;
 mod view;
 mod widening;
 mod world;
+mod worth;
 
 use super::{Checker, Input};
 use crate::diagnostic::{Code, Diagnostic};

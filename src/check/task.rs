@@ -8,6 +8,7 @@ mod start;
 use super::Checker;
 use super::context::{Context, Region};
 use super::expr::plain_ref;
+use super::lint::Quantity;
 use super::names::Decl;
 use super::report::Draft;
 use super::types::Type;
@@ -232,6 +233,10 @@ impl<'a> Checker<'a> {
         let exact = seconds / tick;
         let ticks = exact.round();
         if (1.0..=1e15).contains(&ticks) {
+            // Of an episode of one tick something else is told.
+            if role != "`end after`" {
+                self.quantities.insert(expr.span, Quantity::Time(seconds));
+            }
             return Some(ticks as u64);
         }
         self.less_than_a_tick(expr.span, role, exact)

@@ -1,5 +1,9 @@
 //! Claims that speak of more time than there is, or cannot hold.
 
+use super::cases::of_expr;
+use super::ranges::range;
+use super::rewards::waits_for_others;
+use super::view::View;
 use crate::check::Checker;
 use crate::check::tree::written;
 use crate::diagnostic::Code;
@@ -37,6 +41,9 @@ impl<'a> Checker<'a> {
                     self.beyond_episodes(claim, checked.tree, occurrence);
                     if matches!(checked.kind, ClaimKind::Never(_)) {
                         self.pays_for_it(at, checked.tree, occurrence, items.clone());
+                    }
+                    if self.cannot_be_reached(claim, checked.tree, occurrence) {
+                        continue;
                     }
                     if occurrence.probability == 0.0 {
                         self.always_holds(claim);
@@ -92,14 +99,12 @@ impl<'a> Checker<'a> {
                 _ => None,
             });
         let line = lines.next().and_then(|lines| lines.get(place?));
-        let pays = |value: &ast::Expr| match &value.kind {
-            ExprKind::Number(number) => number.value > 0.0,
-            ExprKind::Unary { op, operand } => {
-                op.node == UnaryOp::Pos && matches!(operand.kind, ExprKind::Number(_))
-            }
-            _ => false,
-        };
-        if let Some(line) = line.filter(|line| pays(&line.value)) {
+        let paid = task.reward.iter().filter(|line| asks(line.event));
+        let mut least = paid.map(|line| range(View::from(program), line.value).ends().0);
+        let pays = least.all(|least| least > 0.0);
+        // Of the second sign of `--10` that is told.
+        let is_signed = |value: &ast::Expr| matches!(&value.kind, ExprKind::Unary { op, .. } if op.node == UnaryOp::Neg);
+        if let Some(line) = line.filter(|line| pays && !is_signed(&line.value)) {
             let name = program.events[occurrence.event].name.clone();
             self.warning(
                 Code::W0527,
@@ -122,6 +127,45 @@ impl<'a> Checker<'a> {
         self.warning(Code::W0303, weaker, message)
             .label("it claims nothing more")
             .also(stronger, "the other claim");
+    }
+
+    /// `reaches` an event that waits for the end of a behaviour which the tree does not run; warned of if so.
+    fn cannot_be_reached(
+        &mut self,
+        claim: &'a Claim,
+        tree: TreeRef,
+        occurrence: &Occurrence,
+    ) -> bool {
+        let ClaimWhat::Reaches(event) = &claim.what else {
+            return false;
+        };
+        let run = match tree {
+            TreeRef::Tree(id) => {
+                let mut run = self.run_by_others();
+                self.program.trees[id].root.visit_behaviors(&mut |id| {
+                    run.insert(id);
+                });
+                Some(run)
+            }
+            TreeRef::Learned(id) => self.run_in_learning(self.program.learners[id].task),
+        };
+        let event_of = &self.program.events[occurrence.event];
+        let cases = of_expr(&self.program, event_of.when, true);
+        let missing = run.and_then(|run| waits_for_others(&self.program, &run, &[cases]));
+        let Some(missing) = missing.filter(|_| occurrence.probability > 0.0) else {
+            return false;
+        };
+        let (tree, event_of) = (&claim.tree.name, event_of.name.clone());
+        let behavior = self.program.behaviors[missing].name.clone();
+        self.warning(
+            Code::W0526,
+            event.span,
+            format!("`{tree}` never reaches `{event_of}`"),
+        )
+        .label(format!(
+            "it waits for `{behavior}`, which the tree does not run"
+        ));
+        true
     }
 
     /// `with probability >= 0%`

@@ -55,10 +55,10 @@ impl Checker<'_> {
         let lines = lines.filter(|(of, _)| **of == place).map(|(_, line)| line);
         let (mut stands, mut kept) = (None, None);
         for line in lines {
-            let pays = self.program.pool.constant(line.value);
+            let pays = range(View::from(&self.program), line.value).ends().0 > 0.0;
             let happens = of_expr(&self.program, line.event, true)
                 .and(&at_success(&self.program, line.event));
-            if pays.is_some_and(|pays| pays > 0.0) && !happens.is_never() {
+            if pays && !happens.is_never() {
                 stands = self.standing(line.event, setters);
             }
             if let Some((_, states)) = &stands {

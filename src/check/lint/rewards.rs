@@ -11,7 +11,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::expr::{Expr, ExprId};
 use crate::ir::law::Behavior;
 use crate::ir::task::Task;
-use crate::ir::{Id, Name};
+use crate::ir::{Id, Name, Program};
 use crate::source::Span;
 use crate::syntax::ast::{
     self, AspectKind, BinaryOp, ExprKind, Item, ItemKind, Paid, RewardLine, UnaryOp,
@@ -167,6 +167,7 @@ impl<'a> Checker<'a> {
             if let Some(run) = &run {
                 self.pays_for_others(here, run, &cases);
             }
+            self.chooses_what_is_so(&line.value, (checked, place));
             if before.len() < MOST {
                 before.extend(cases.into_iter().map(|cases| (here, cases)));
             }
@@ -197,7 +198,7 @@ impl<'a> Checker<'a> {
     }
 
     /// The behaviours that end where a task is learned: those of its policies, and of other robots. `None` if nobody learns it.
-    fn run_in_learning(&self, id: Id<Task>) -> Option<BTreeSet<Id<Behavior>>> {
+    pub(super) fn run_in_learning(&self, id: Id<Task>) -> Option<BTreeSet<Id<Behavior>>> {
         let learners = self.program.learners.values();
         let mut learners = learners.filter(|learner| learner.task == id).peekable();
         learners.peek()?;
@@ -209,26 +210,7 @@ impl<'a> Checker<'a> {
 
     /// Warns of a line that waits for the end of a behaviour which what is learned does not run.
     fn pays_for_others(&mut self, here: Span, run: &BTreeSet<Id<Behavior>>, cases: &[Cases]) {
-        let missing = |case: &Case| {
-            case.iter().find_map(|(about, says)| match about {
-                About::Truth(asked) if *says == Says::Is(true) => {
-                    match self.program.pool.get(*asked) {
-                        Expr::Ended(behavior, _) if !run.contains(&behavior) => Some(behavior),
-                        _ => None,
-                    }
-                }
-                About::Ended(behavior) if says.is_an_end() => {
-                    (!run.contains(behavior)).then_some(*behavior)
-                }
-                _ => None,
-            })
-        };
-        let cases = cases.iter().map(|cases| match cases {
-            Cases::Some(cases) => cases.iter().map(missing).collect(),
-            Cases::Unknown => None,
-        });
-        let missing: Option<Vec<Vec<Id<Behavior>>>> = cases.collect();
-        let Some(&behavior) = missing.iter().flatten().flatten().next() else {
+        let Some(behavior) = waits_for_others(&self.program, run, cases) else {
             return;
         };
         let name = self.program.behaviors[behavior].name.clone();
@@ -411,6 +393,32 @@ impl<'a> Checker<'a> {
             self.tells(cause);
         }
     }
+}
+
+/// The behaviour, which is not among those that are `run`, for whose end each of these cases waits.
+pub(super) fn waits_for_others(
+    program: &Program,
+    run: &BTreeSet<Id<Behavior>>,
+    cases: &[Cases],
+) -> Option<Id<Behavior>> {
+    let missing = |case: &Case| {
+        case.iter().find_map(|(about, says)| match about {
+            About::Truth(asked) if *says == Says::Is(true) => match program.pool.get(*asked) {
+                Expr::Ended(behavior, _) if !run.contains(&behavior) => Some(behavior),
+                _ => None,
+            },
+            About::Ended(behavior) if says.is_an_end() => {
+                (!run.contains(behavior)).then_some(*behavior)
+            }
+            _ => None,
+        })
+    };
+    let cases = cases.iter().map(|cases| match cases {
+        Cases::Some(cases) => cases.iter().map(missing).collect(),
+        Cases::Unknown => None,
+    });
+    let missing: Option<Vec<Vec<Id<Behavior>>>> = cases.collect();
+    missing.into_iter().flatten().flatten().next()
 }
 
 /// What lines of `reward` wait for the absence of.
