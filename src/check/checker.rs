@@ -24,7 +24,7 @@ use super::types::Type;
 use super::{Checked, Input};
 use crate::diagnostic::{self, Diagnostic};
 use crate::geometry::Point;
-use crate::ir::expr::Local;
+use crate::ir::expr::{ExprId, Local, Temp};
 use crate::ir::law::Behavior;
 use crate::ir::table::Table;
 use crate::ir::task::History;
@@ -91,6 +91,8 @@ pub struct Checker<'a> {
     pub idle: BTreeSet<Span>,
     /// The times that behaviours are given and the speeds in control laws, as they are written.
     pub quantities: BTreeMap<Span, Quantity>,
+    /// The names that statements bind, with their values.
+    pub lets: Vec<(Id<Temp>, ExprId)>,
     /// Where a state is to be exactly so much.
     pub equalities: Vec<Equality<'a>>,
     /// The states that a value of a block hides.
@@ -191,6 +193,7 @@ impl<'a> Checker<'a> {
             assigned: Vec::new(),
             idle: BTreeSet::new(),
             quantities: BTreeMap::new(),
+            lets: Vec::new(),
             equalities: Vec::new(),
             hidden: BTreeSet::new(),
             positions: Vec::new(),

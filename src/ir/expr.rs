@@ -25,10 +25,12 @@ pub struct Local {
 }
 
 /// A name that a statement binds.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Temp {
     /// The name.
     pub name: Name,
+    /// The values that it may have, as far as what the world allows shows.
+    pub stays: Stays,
 }
 
 /// An expression of the [`Pool`].

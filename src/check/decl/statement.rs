@@ -11,7 +11,7 @@ use crate::diagnostic::{Applicability, Code, Diagnostic};
 use crate::ir::Pool;
 use crate::ir::expr::{Binary, Expr, ExprId, Local, Temp};
 use crate::ir::law::{Block, Stmt};
-use crate::ir::program::State;
+use crate::ir::program::{State, Stays};
 use crate::ir::{Id, Name};
 use crate::source::Span;
 use crate::syntax::ast::{self, AssignOp, Else, Ref, StmtKind};
@@ -98,8 +98,10 @@ impl<'a> Checker<'a> {
             }
             let temp = self.program.temps.push(Temp {
                 name: Name::word(&name.name),
+                stays: Stays::ANY,
             });
             stmts.push(Stmt::Let(temp, id));
+            self.lets.push((temp, id));
             self.program.pool.leaf(Expr::Temp(temp))
         });
         let known = value != Value::Unknown;
@@ -231,6 +233,7 @@ impl<'a> Checker<'a> {
     fn kept(&mut self, name: &str, value: ExprId, stmts: &mut Vec<Stmt>) -> ExprId {
         let temp = self.program.temps.push(Temp {
             name: Name::word(name),
+            stays: Stays::ANY,
         });
         stmts.push(Stmt::Let(temp, value));
         self.program.pool.leaf(Expr::Temp(temp))

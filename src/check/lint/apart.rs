@@ -1,12 +1,19 @@
 //! How near a robot's centre comes to what its body does not go into: walls, and other robots.
 
+use super::ranges::range;
 use super::view::View;
+use crate::check::report::short;
+use crate::geometry::{Point, minus};
 use crate::ir::expr::{Binary, Echo, Expr, ExprId, Pose, Unary};
 use crate::ir::world::{Robot, Sensor, SensorKind, World};
 use crate::ir::{Id, Program};
+use crate::math::hypot;
 
 /// What bodies in touch are nearer than their radii say, at most: a bound that no rounding reaches.
 pub const SLACK: f64 = 1e-6;
+
+/// What a length is off that is told in centimetres.
+const ROUNDED: f64 = 1e-5;
 
 /// The least distance that an expression can be, in metres, if it is one from a robot's centre to a wall or to
 /// another robot, or what a sensor without noise measures to them.
@@ -27,6 +34,31 @@ pub fn least(View { program, robot, .. }: View, id: ExprId) -> Option<f64> {
     Some(bound - SLACK)
 }
 
+/// The most that the distance to the nearest wall, or to one wall, can be: the arena ends somewhere.
+pub fn most(View { program, .. }: View, id: ExprId) -> Option<f64> {
+    let world = program.world.as_ref()?;
+    let (low, high) = world.arena.bounds();
+    let [width, height] = minus(high, low);
+    let bound = match program.pool.get(id) {
+        Expr::NearestWall(Echo::Distance) => width.min(height) / 2.0,
+        Expr::Wall(wall, Echo::Distance) => {
+            let shape = &world.walls[wall].shape;
+            let center = shape.rim().map(|_| shape.center());
+            let points = shape.corners().into_iter().chain(center);
+            let corners = [low, [low[0], high[1]], [high[0], low[1]], high];
+            let farthest = |from: Point| {
+                let ways = corners.map(|corner| minus(corner, from));
+                ways.map(|[x, y]| hypot(x, y))
+                    .into_iter()
+                    .fold(0.0, f64::max)
+            };
+            points.map(farthest).reduce(f64::min)?
+        }
+        _ => return None,
+    };
+    Some(bound + SLACK)
+}
+
 /// How far a sensor reads that measures what bodies do not go into, exactly.
 fn echo(sensor: &Sensor) -> Option<f64> {
     match sensor.kind {
@@ -37,26 +69,33 @@ fn echo(sensor: &Sensor) -> Option<f64> {
     }
 }
 
-/// Why a condition may hold never or always, as a note: it compares such a distance with less than it can be.
+/// A number that is compared with a constant, and that constant.
+fn compared(program: &Program, part: ExprId) -> Option<(ExprId, f64)> {
+    let Expr::Binary(Binary::Lt | Binary::Le, one, other) = program.pool.get(part) else {
+        return None;
+    };
+    match [one, other].map(|id| program.pool.constant(id)) {
+        [None, Some(with)] => Some((one, with)),
+        [Some(with), None] => Some((other, with)),
+        _ => None,
+    }
+}
+
+/// Why a condition may hold never or always, as a note: it compares a distance with less or more than it can be, or asks for a line
+/// of sight where nothing is in the way.
 pub fn because<'p>(view: impl Into<View<'p>>, condition: ExprId) -> Option<String> {
     let view = view.into();
     let program = view.program;
     let world = program.world.as_ref()?;
     let too_near = |part: ExprId| {
-        let Expr::Binary(Binary::Lt | Binary::Le, one, other) = program.pool.get(part) else {
-            return None;
-        };
-        let constants = [one, other].map(|id| program.pool.constant(id));
-        let (compared, with) = match constants {
-            [None, Some(with)] => (one, with),
-            [Some(with), None] => (other, with),
-            _ => return None,
-        };
+        let (compared, with) = compared(program, part)?;
         let mut parts = parts(program, compared).into_iter();
         parts.find_map(|id| Some((id, least(view, id).filter(|least| *least >= with - SLACK)?)))
     };
-    let asked = conditions(program, condition).into_iter();
-    let (distance, least) = asked.filter_map(too_near).next()?;
+    let asked = conditions(program, condition);
+    let Some((distance, least)) = asked.iter().find_map(|part| too_near(*part)) else {
+        return beyond(view, &asked);
+    };
     let centimetres = ((least + SLACK) * 1000.0).round() / 10.0;
     let of = match robots(program, distance) {
         None => "a wall".to_owned(),
@@ -69,6 +108,38 @@ pub fn because<'p>(view: impl Into<View<'p>>, condition: ExprId) -> Option<Strin
     Some(format!(
         "distances are from the robot's centre, which comes no nearer than {centimetres} cm to {of}: there the bodies touch"
     ))
+}
+
+/// Why one of these conditions, the first of which is the whole, may hold never or always: it compares a distance with more than the
+/// arena has room for, or asks whether something is seen where nothing is in the way.
+fn beyond(view: View, asked: &[ExprId]) -> Option<String> {
+    let program = view.program;
+    let world = program.world.as_ref()?;
+    let whole = asked.first().map(|whole| program.pool.get(*whole));
+    if view.open && matches!(whole, Some(Expr::Visible(..))) {
+        return Some(
+            "no wall is in this world, and no corner of the arena is in the way".to_owned(),
+        );
+    }
+    let (low, high) = world.arena.bounds();
+    let [width, height] = minus(high, low).map(short);
+    asked.iter().find_map(|part| {
+        let (distance, with) = compared(program, *part)?;
+        let of_the_world = matches!(
+            program.pool.get(distance),
+            Expr::NearestWall(Echo::Distance)
+                | Expr::Wall(_, Echo::Distance)
+                | Expr::Binary(Binary::Hypot, ..)
+        );
+        let (_, most) = range(view, distance).ends();
+        if !of_the_world || most > with + SLACK {
+            return None;
+        }
+        let most = short(((most - ROUNDED) * 100.0).ceil() / 100.0);
+        Some(format!(
+            "the arena is {width} m × {height} m: this distance is never more than {most} m"
+        ))
+    })
 }
 
 /// How many parts of a condition are looked at.

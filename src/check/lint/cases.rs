@@ -318,11 +318,14 @@ impl Reader<'_> {
                 let is = truth(pool, b) == Some(op == Binary::Eq);
                 of(a, wanted == is)
             }
-            variable @ (Expr::State(_) | Expr::Local(_)) => match self.view.stays(variable) {
-                Some(Stays::Among(FALSE)) => Cases::constant(!wanted),
-                Some(Stays::Among(TRUE)) => Cases::constant(wanted),
-                _ => Cases::one(About::Truth(id), Says::Is(wanted)),
-            },
+            variable @ (Expr::State(_) | Expr::Local(_) | Expr::Temp(_)) => {
+                match self.view.stays(variable) {
+                    Some(Stays::Among(FALSE)) => Cases::constant(!wanted),
+                    Some(Stays::Among(TRUE)) => Cases::constant(wanted),
+                    _ => Cases::one(About::Truth(id), Says::Is(wanted)),
+                }
+            }
+            Expr::Visible(..) if self.view.open => Cases::constant(wanted),
             Expr::Inside(place) if self.is_in(place) => Cases::constant(wanted),
             Expr::Inside(place) if wanted => self.inside(id, place),
             Expr::Ended(behavior, status) if status != Status::Running => {
@@ -385,7 +388,11 @@ impl Reader<'_> {
             Binary::Ne | Binary::Lt => Some(false),
             _ => None,
         };
-        if let Some(holds) = of_itself {
+        let bounded = |op| {
+            let known = self.numbers == Numbers::Numbers;
+            known.then(|| bounded(&self.view.program.pool, op, a, b))?
+        };
+        if let Some(holds) = of_itself.or_else(|| bounded(op)) {
             return Some(Cases::constant(holds == wanted));
         }
         let (of, within) = comparison(&self.view.program.pool, op, a, b, wanted)?;
@@ -446,6 +453,19 @@ fn is_count(pool: &Pool, id: ExprId) -> bool {
         }
     }
     true
+}
+
+/// Whether a comparison with the least or the greatest of what is compared holds whatever that is: `min(x, y) <= x`.
+fn bounded(pool: &Pool, op: Binary, a: ExprId, b: ExprId) -> Option<bool> {
+    let of = |bound: Binary, whole: ExprId, part: ExprId| match pool.get(whole) {
+        Expr::Binary(op, one, other) => op == bound && [one, other].contains(&part),
+        _ => false,
+    };
+    match op {
+        Binary::Le if of(Binary::Min, a, b) || of(Binary::Max, b, a) => Some(true),
+        Binary::Lt if of(Binary::Max, a, b) || of(Binary::Min, b, a) => Some(false),
+        _ => None,
+    }
 }
 
 /// What a literal on a number is about.

@@ -69,11 +69,13 @@ impl Lacks {
             Self::Less if is_first => {
                 format!("in an episode nothing makes `{name}` less than it is declared")
             }
-            Self::Less => format!("nothing that sets `{name}` makes it small enough"),
+            Self::Less => format!("in an episode nothing that sets `{name}` makes it small enough"),
             Self::Greater if is_first => {
                 format!("in an episode nothing makes `{name}` greater than it is declared")
             }
-            Self::Greater => format!("nothing that sets `{name}` makes it great enough"),
+            Self::Greater => {
+                format!("in an episode nothing that sets `{name}` makes it great enough")
+            }
             Self::Value(value) => match variants.get(value as usize) {
                 Some(variant) => format!("nothing sets `{name}` to `{variant}`"),
                 None => format!("nothing sets `{name}` to `{}`", value == 1),

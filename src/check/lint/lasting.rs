@@ -45,7 +45,7 @@ struct Settings {
 
 impl Checker<'_> {
     /// The ticks of the longest episode, if there is any task.
-    fn longest_episode(&self) -> Option<u64> {
+    pub(super) fn longest_episode(&self) -> Option<u64> {
         let tasks = self.program.tasks.values().map(|task| task.end_after);
         let learners = self.program.learners.values();
         let learners = learners.map(|learner| learner.episode_ticks);

@@ -1,11 +1,13 @@
 //! Which values the locals of behaviours may have: what they start with, and what the control law sets them to.
 
+use super::cases::of_expr;
 use super::causes::Lacks;
+use super::ranges::range;
 use super::view::View;
 use super::widening::{one_of_these, settle};
 use crate::check::Checker;
 use crate::diagnostic::Code;
-use crate::ir::expr::{Expr, ExprId, Local};
+use crate::ir::expr::{Expr, ExprId, Local, Temp};
 use crate::ir::law::{Behavior, Block, Law, Stmt};
 use crate::ir::program::Stays;
 use crate::ir::table::Table;
@@ -27,6 +29,7 @@ impl<'a> Checker<'a> {
         if self.values_are_unsure() {
             return;
         }
+        self.values_of_names();
         for at in 0..self.program.behaviors.len() {
             let id = Id::new(at);
             let locals = settled(&self.program, &self.program.behaviors[id]);
@@ -45,6 +48,38 @@ impl<'a> Checker<'a> {
             {
                 self.locals_that_stay(behavior, instances);
             }
+        }
+    }
+
+    /// Finds out which values the names may have that statements bind to what is read of the world, where one robot reads it. Of what
+    /// is made of a state or a local, nothing is found out: why that has its values is told of it by its own name.
+    fn values_of_names(&mut self) {
+        let lets = std::mem::take(&mut self.lets);
+        if !self.has_one_robot() {
+            return;
+        }
+        let program = &self.program;
+        let view = View::from(program);
+        let of_world = lets.into_iter().filter(|(_, value)| {
+            !program.pool.any(*value, &mut |part| {
+                matches!(part, Expr::State(_) | Expr::Local(_) | Expr::Temp(_))
+            })
+        });
+        let found = of_world.map(|(temp, value)| {
+            let never = |wanted| of_expr(view, value, wanted).is_never();
+            let stays = match [true, false].map(never) {
+                [true, _] => Stays::Among(0b01),
+                [_, true] => Stays::Among(0b10),
+                _ => {
+                    let (low, high) = range(view, value).ends();
+                    Stays::Within(low..=high)
+                }
+            };
+            (temp, stays)
+        });
+        let found: Vec<(Id<Temp>, Stays)> = found.collect();
+        for (temp, stays) in found {
+            self.program.temps[temp].stays = stays;
         }
     }
 

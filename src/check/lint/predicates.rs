@@ -97,7 +97,7 @@ impl<'a> Checker<'a> {
         let program = &self.program;
         let read = program.predicates.values();
         let read = read.filter(|predicate| predicate.name.family == name);
-        let read = read.filter_map(|it| Some((View::of(program, &it.name), it.when?)));
+        let read = read.filter_map(|it| Some((View::of_predicate(program, &it.name), it.when?)));
         let read: Vec<(View, ExprId)> = read.collect();
         let Some(&(view, when)) = read.first() else {
             return;
@@ -106,14 +106,15 @@ impl<'a> Checker<'a> {
             return;
         }
         let why = because(view, when);
-        let read: Vec<(Id<Robot>, ExprId)> = read
+        let read: Vec<(Id<Robot>, bool, ExprId)> = read
             .iter()
-            .map(|(view, when)| (view.robot, *when))
+            .map(|(view, when)| (view.robot, view.open, *when))
             .collect();
         let never = |program: &Program, wanted| {
-            read.iter().all(|(robot, when)| {
+            read.iter().all(|(robot, open, when)| {
                 let view = View {
                     robot: *robot,
+                    open: *open,
                     ..View::from(program)
                 };
                 of_expr(view, *when, wanted).is_never()
@@ -124,7 +125,7 @@ impl<'a> Checker<'a> {
             [_, true] => ("always", false),
             _ => return,
         };
-        let asked: Vec<ExprId> = read.iter().map(|(_, when)| *when).collect();
+        let asked: Vec<ExprId> = read.iter().map(|(.., when)| *when).collect();
         let cause = self.cause(&asked, &|program| never(program, wanted));
         if self.has_told(cause, value.span, &format!("{says} holds")) {
             return;
@@ -145,7 +146,7 @@ impl<'a> Checker<'a> {
             let Some(when) = predicate.when else {
                 continue;
             };
-            let view = View::of(program, &predicate.name);
+            let view = View::of_predicate(program, &predicate.name);
             // What an argument makes constant depends on the argument.
             let open = predicate.name.arguments.is_empty() || program.pool.constant(when).is_none();
             let family = families.entry(&predicate.name.family).or_insert([true; 2]);
@@ -171,7 +172,7 @@ impl<'a> Checker<'a> {
     }
 
     /// The references of a list of the task, each with the predicate that it observes.
-    fn observed_by(&self, task: &'a Task) -> Vec<(&'a Ref, Id<Predicate>)> {
+    pub(super) fn observed_by(&self, task: &'a Task) -> Vec<(&'a Ref, Id<Predicate>)> {
         let name = Name::word(&task.name.name);
         let Some(id) = self.program.tasks.named(&name) else {
             return Vec::new();
@@ -202,6 +203,14 @@ impl<'a> Checker<'a> {
                 ) else {
                     continue;
                 };
+                // Of what always or never holds that is told.
+                let constant = |id| {
+                    let name = &self.program.predicates[id].name;
+                    self.constant.contains(&name.family)
+                };
+                if constant(id) && constant(other) {
+                    continue;
+                }
                 let cases = |id, wanted| of_expr(&self.program, id, wanted);
                 let same = |wanted| {
                     let (one, two) = (cases(one, true), cases(two, wanted));

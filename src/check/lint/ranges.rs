@@ -85,10 +85,12 @@ impl Ranges<'_> {
         self.left = left;
         match self.view.program.pool.get(id) {
             Expr::Num(value) => hull([value]),
-            variable @ (Expr::State(_) | Expr::Local(_)) => match self.view.stays(variable) {
-                Some(Stays::Within(within)) => hull([*within.start(), *within.end()]),
-                Some(Stays::Among(_)) | None => Interval::ALL,
-            },
+            variable @ (Expr::State(_) | Expr::Local(_) | Expr::Temp(_)) => {
+                match self.view.stays(variable) {
+                    Some(Stays::Within(within)) => hull([*within.start(), *within.end()]),
+                    Some(Stays::Among(_)) | None => Interval::ALL,
+                }
+            }
             Expr::Draw(_, Draw::Uniform(a, b)) => {
                 let ((a, b), (c, d)) = (self.of(a).ends(), self.of(b).ends());
                 hull([a, b, c, d])
@@ -101,8 +103,9 @@ impl Ranges<'_> {
             Expr::Elapsed | Expr::Visits => LENGTH,
             Expr::Progress => Interval::between(0.0, 1.0),
             Expr::NearestWall(Echo::Distance) | Expr::Wall(_, Echo::Distance) => {
-                let least = apart::least(self.view, id);
-                least.map_or(LENGTH, |least| Interval::between(least, f64::INFINITY))
+                let least = apart::least(self.view, id).unwrap_or(0.0);
+                let most = apart::most(self.view, id).unwrap_or(f64::INFINITY);
+                Interval::between(least, most)
             }
             Expr::Sensor(sensor, Echo::Distance) => {
                 let least = apart::least(self.view, id).unwrap_or(0.0);

@@ -4,6 +4,7 @@ use super::apart::because;
 use super::cases::{About, Case, Cases, Says, of_expr};
 use super::interval::Interval;
 use super::ranges::range;
+use super::sizes::covers;
 use super::view::View;
 use crate::check::Checker;
 use crate::diagnostic::Code;
@@ -112,18 +113,54 @@ impl<'a> Checker<'a> {
                 }
                 continue;
             }
-            let over = law.is_some_and(|law| {
-                let always = |asked| of_expr(view, asked, false).is_never();
+            let always = |asked| of_expr(view, asked, false).is_never();
+            let (over, allowed) = law.map_or((false, false), |law| {
                 let starts = || starting.case(view, law);
-                always(law.requires)
-                    && (always(law.succeed) || starts().implies(&of_expr(view, law.succeed, true)))
+                let allowed = always(law.requires);
+                let over = always(law.succeed) && (allowed || !self.goes_everywhere(behavior))
+                    || allowed && starts().implies(&of_expr(view, law.succeed, true));
+                (over, allowed)
             });
             let name = behavior.name.bare();
             if over && told.insert(id) {
-                self.warning(Code::W0302, at, format!("`{name}` succeeds at once"))
-                    .label("it takes no time and does nothing");
+                let (message, label) = match allowed {
+                    true => (
+                        format!("`{name}` succeeds at once"),
+                        "it takes no time and does nothing",
+                    ),
+                    false => (
+                        format!("`{name}` is over at once"),
+                        "where it does not fail it succeeds: it takes no time and does nothing",
+                    ),
+                };
+                let why = law.and_then(|law| because(view, law.succeed));
+                self.warning(Code::W0302, at, message)
+                    .label(label)
+                    .note_if(why);
+            } else if let Some(end) = to_and_fro(behavior).filter(|_| told.insert(id)) {
+                self.warning(
+                    Code::W0303,
+                    at,
+                    format!("both ends of this patrol are `{end}`"),
+                )
+                .label("the robot drives there and stays")
+                .help("give it two places to drive to and fro between");
             }
         }
+    }
+
+    /// Whether a behaviour is given a place that is the whole arena: that is told of the place.
+    fn goes_everywhere(&self, behavior: &Behavior) -> bool {
+        let Some(world) = &self.program.world else {
+            return false;
+        };
+        let given = behavior
+            .name
+            .given()
+            .next()
+            .map(|(_, given)| given.to_string());
+        let mut places = world.places.values();
+        places.any(|place| given == Some(place.name.to_string()) && covers(&place.shape, world))
     }
 
     /// Warns of each `fail when` that what is looked at before it leaves nothing to say.
@@ -148,6 +185,10 @@ impl<'a> Checker<'a> {
             if !says || found.is_empty() || self.says_one_thing_twice(test.span) {
                 continue;
             }
+            if self.fails_too_late(test, &found) {
+                continue;
+            }
+            let program = &self.program;
             let implies = |asked: fn(&FailClause) -> ExprId, wanted: bool| {
                 found.iter().all(|it| {
                     let when = of_expr(program, it.when, true);
@@ -459,6 +500,13 @@ impl<'a> Checker<'a> {
             .label("this always fails, whatever happens");
         true
     }
+}
+
+/// The place that both ends of a patrol are.
+fn to_and_fro(behavior: &Behavior) -> Option<String> {
+    let mut given = behavior.name.given().map(|(_, given)| given.to_string());
+    let (from, to) = (given.next()?, given.next()?);
+    (behavior.name.family == "patrol" && from == to).then_some(from)
 }
 
 /// Whether this is so of the law of a behaviour, read as its robot does.

@@ -3,12 +3,13 @@
 use crate::check::Checker;
 use crate::check::expr::plain_ref;
 use crate::check::names::Decl;
-use crate::diagnostic::Code;
+use crate::diagnostic::{Applicability, Code};
 use crate::source::Span;
 use crate::syntax::ast::{
     Arg, ArgKind, BinaryOp, Block, Branch, Clause, ClauseKind, Else, Expr, ExprKind, Literal, Ref,
     Spanned, Stmt, StmtKind,
 };
+use crate::syntax::print;
 
 /// The functions whose value is another one each time.
 const DRAWS: [&str; 4] = ["uniform", "normal", "chance", "one_of"];
@@ -53,6 +54,21 @@ impl<'a> Checker<'a> {
     pub fn same_draws(&mut self, draw: &'a Ref) {
         if matches!(draw.name.name.as_str(), "uniform" | "one_of") {
             self.same_values(draw, "draws from one value");
+        }
+        if let ("one_of", Some([only])) = (draw.name.name.as_str(), draw.args.as_deref())
+            && let ArgKind::Positional(value) = &only.kind
+            && is_literal(value)
+            && !self.context.library
+        {
+            let right = print::expr(value);
+            self.warning(Code::W0303, draw.span, "`one_of` draws from one value")
+                .label("this is always the same")
+                .fix(
+                    format!("write `{right}`"),
+                    draw.span,
+                    right,
+                    Applicability::Unsafe,
+                );
         }
     }
 

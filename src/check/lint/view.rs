@@ -17,6 +17,8 @@ pub struct View<'p> {
     pub robot: Id<Robot>,
     /// Where it is; `None` for anywhere in the arena.
     pub near: Option<[Interval; 2]>,
+    /// Whether nothing is taken to be between two points: a family may be written for other worlds, too.
+    pub open: bool,
     /// The law whose locals are read; `None` where nothing is known of locals.
     pub law: Option<&'p Law>,
 }
@@ -31,6 +33,7 @@ impl<'p> View<'p> {
             program,
             robot: at.map_or_else(World::acting, Id::new),
             near: None,
+            open: false,
             law: None,
         }
     }
@@ -43,12 +46,23 @@ impl<'p> View<'p> {
         }
     }
 
-    /// The values that a state or a local may have.
+    /// The values that a state, a local or a name that a statement binds may have.
     pub fn stays(self, variable: Expr) -> Option<&'p Stays> {
         match variable {
+            Expr::Temp(temp) => Some(&self.program.temps[temp].stays),
             Expr::State(state) => Some(&self.program.states[state].stays),
             Expr::Local(local) => self.law.map(|law| &law.locals[local].stays),
             _ => None,
+        }
+    }
+
+    /// Of a predicate without parameters, which is written for this world: where no wall is, nothing is ever between two points.
+    pub fn of_predicate(program: &'p Program, name: &Name) -> Self {
+        let world = program.world.as_ref();
+        let open = world.is_some_and(|world| world.walls.is_empty() && world.arena.is_convex());
+        Self {
+            open: open && name.arguments.is_empty(),
+            ..Self::of(program, name)
         }
     }
 
@@ -70,6 +84,7 @@ impl<'p> From<&'p Program> for View<'p> {
             program,
             robot: World::acting(),
             near: None,
+            open: false,
             law: None,
         }
     }

@@ -336,7 +336,10 @@ impl Inventor {
                 0..=2 => {
                     let value = self.number(3, draws);
                     let name = Name::default();
-                    let temp = self.program.temps.push(Temp { name });
+                    let temp = self.program.temps.push(Temp {
+                        name,
+                        stays: Stays::ANY,
+                    });
                     let read = self.program.pool.leaf(Expr::Temp(temp));
                     self.numbers.extend([read; 4]);
                     Stmt::Let(temp, value)
@@ -629,7 +632,10 @@ fn a_let_is_computed_where_it_is_read() {
     let mut program = Program::default();
     let heading = program.pool.leaf(Expr::Pose(Pose::Heading));
     let sine = program.pool.unary(Unary::Sin, heading);
-    let temp = program.temps.push(Temp { name: "s".into() });
+    let temp = program.temps.push(Temp {
+        name: "s".into(),
+        stays: Stays::ANY,
+    });
     let read = program.pool.leaf(Expr::Temp(temp));
     let condition = program.pool.leaf(Expr::Touching);
     let zero = program.pool.num(0.0);
