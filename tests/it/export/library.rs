@@ -32,7 +32,6 @@ pub(super) fn job(program: &Program) -> Value {
     json!({ "leaves": leaves.collect::<Vec<_>>(), "plays": [] })
 }
 
-/// The library's own clock is the one on the wall, so trees with a timeout are ticked ten times a second.
 #[test]
 #[ignore = "needs the programs of BehaviorTree.CPP, in the folder that BTC_BTCPP names"]
 fn plain_trees_do_the_same_in_each_tick() {

@@ -7,29 +7,22 @@
 
 #include <behaviortree_cpp/bt_factory.h>
 #include <behaviortree_cpp/contrib/json.hpp>
+#include <behaviortree_cpp/utils/timer_queue.h>
 
-#include <algorithm>
 #include <chrono>
-#include <deque>
 #include <iostream>
 #include <map>
 #include <memory>
 #include <set>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
 using Json = nlohmann::json;
-using Clock = std::chrono::steady_clock;
 using Ports = std::map<std::string, std::string>;
 
 // A tick of the world.
 constexpr std::chrono::milliseconds TICK{100};
-// The ticks from the beginning of the longest timeout to its end, both of them counted.
-constexpr std::size_t LONGEST = 5;
-// How many trees with a timeout are ticked in turn.
-constexpr std::size_t TOGETHER = 400;
 
 // The leaves of a program.
 struct Leaves {
@@ -132,23 +125,11 @@ public:
         if (history_) {
             history_->beginTick();
         }
-        times_.push_back(Clock::now());
+        if (!done_.empty()) {
+            BT::TimerClock::advance(TICK);
+        }
         const auto status = tree_.tickExactlyOnce();
         done_.push_back({stage_.calls, BT::toStr(status).substr(0, 1)});
-    }
-
-    // Whether a timer of some ticks, less a half, has fired between the ticks before and at its end.
-    bool wasInTime() const
-    {
-        for (std::size_t from = 0; from < times_.size(); ++from) {
-            for (std::size_t to = from; to < std::min(from + LONGEST, times_.size()); ++to) {
-                const auto late = times_[to] - times_[from] - static_cast<int>(to - from) * TICK;
-                if (late > TICK * 2 / 5 || late < -TICK / 5) {
-                    return false;
-                }
-            }
-        }
-        return true;
     }
 
     Json answer() const { return done_; }
@@ -181,66 +162,19 @@ private:
     std::unique_ptr<History> history_;
     BT::Tree tree_;
     Json done_ = Json::array();
-    std::vector<Clock::time_point> times_;
 };
-
-// What trees do that look at the clock on the wall: some are ticked in turn, a tick of the world at a time. A timer may
-// come late where the machine is busy, so a trace counts if its ticks came in time and it has come out the same twice.
-void playInTime(std::deque<std::size_t> waiting, const Json& plays, const Leaves& leaves, std::vector<Json>& answers)
-{
-    std::map<std::size_t, int> attempts;
-    while (!waiting.empty()) {
-        std::vector<std::pair<std::size_t, std::unique_ptr<Run>>> runs;
-        while (!waiting.empty() && runs.size() < TOGETHER) {
-            const auto place = waiting.front();
-            waiting.pop_front();
-            if (++attempts[place] > 100) {
-                throw std::runtime_error("this machine is too busy to play in time");
-            }
-            runs.emplace_back(place, std::make_unique<Run>(plays[place], leaves));
-        }
-        const auto start = Clock::now();
-        bool more = true;
-        for (int tick = 0; more; ++tick) {
-            std::this_thread::sleep_until(start + tick * TICK);
-            more = false;
-            for (const auto& [place, run] : runs) {
-                if (!run->done()) {
-                    run->tick();
-                    more = true;
-                }
-            }
-        }
-        for (const auto& [place, run] : runs) {
-            const bool counts = run->wasInTime() && answers[place] == run->answer();
-            if (run->wasInTime()) {
-                answers[place] = run->answer();
-            }
-            if (!counts) {
-                waiting.push_back(place);
-            }
-        }
-    }
-}
 
 int main()
 {
     const auto job = Json::parse(std::cin);
     const Leaves leaves(job["leaves"]);
-    std::vector<Json> answers(job["plays"].size());
-    std::deque<std::size_t> timed;
-    for (std::size_t at = 0; at < answers.size(); ++at) {
-        const auto& play = job["plays"][at];
-        if (play["file"].get<std::string>().find("<Timeout") != std::string::npos) {
-            timed.push_back(at);
-            continue;
-        }
+    Json answers = Json::array();
+    for (const auto& play : job["plays"]) {
         Run run(play, leaves);
         while (!run.done()) {
             run.tick();
         }
-        answers[at] = run.answer();
+        answers.push_back(run.answer());
     }
-    playInTime(timed, job["plays"], leaves, answers);
     std::cout << Json{{"plays", answers}} << '\n';
 }
