@@ -24,6 +24,24 @@ impl Impurity {
     }
 }
 
+/// The depth from which parts are divided evenly. Two classes in turns along one number would be taken off row by row.
+pub const DEPTH: usize = 128;
+
+/// Whether a part of so many classes and rows is divided evenly: deep down, and where all rows are of classes of their own. There no
+/// division tells more than another, and an even one is shallow.
+pub fn evenly(classes: usize, rows: usize, depth: usize) -> bool {
+    classes == rows || depth >= DEPTH
+}
+
+/// What a division into these parts is measured by, the less the better: how mixed they are or, if it is to be even, by how many rows
+/// one of them is larger.
+pub fn of_division([one, other]: [&Mixture; 2], evenly: bool) -> f64 {
+    match evenly {
+        true => f64::from(one.total().abs_diff(other.total())),
+        false => one.mixed() + other.mixed(),
+    }
+}
+
 /// The logarithms of small numbers, and of those that count the rows of a large table.
 static SMALL: LazyLock<Vec<f64>> = LazyLock::new(|| (0..1 << 12).map(calculated).collect());
 static LARGE: LazyLock<Vec<f64>> = LazyLock::new(|| (0..1 << 17).map(calculated).collect());

@@ -5,11 +5,8 @@ use super::account::Account;
 use super::bits::Bits;
 use super::columns::Columns;
 use super::cube::Literal;
-use super::impurity::{Impurity, Mixture};
+use super::impurity::{self, Impurity, Mixture};
 use rustc_hash::FxHashMap;
-
-/// The depth from which parts are divided evenly. Two classes in turns along one number would be taken off row by row.
-pub const DEPTH: usize = 128;
 
 /// Rows divided until each part holds one class.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -219,8 +216,7 @@ impl Search<'_> {
         if self.account.is_spent() {
             return None;
         }
-        // Where all rows are of classes of their own, no division tells more than another, and the most even one is shallow.
-        let evenly = classes == rows.len() || depth >= DEPTH;
+        let evenly = impurity::evenly(classes, rows.len(), depth);
         let atom = self.best(rows, (&local, classes), turns, evenly)?;
         let part = |positive| {
             let (column, inside) = self.columns.meeting(Literal { atom, positive });
@@ -263,10 +259,7 @@ impl Search<'_> {
             }
             // Some rows are on one side only, and some on the other.
             let divides = zero.total() < total && one.total() < total;
-            let mixed = match evenly {
-                true => f64::from(zero.total().abs_diff(one.total())),
-                false => zero.mixed() + one.mixed(),
-            };
+            let mixed = impurity::of_division([&zero, &one], evenly);
             if divides && best.is_none_or(|(least, _)| Impurity::better(mixed, least)) {
                 best = changes.first().map(|change| (mixed, change.atom as usize));
             }
@@ -317,8 +310,8 @@ impl Search<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Classified, DEPTH, Partition};
-    use crate::logic::impurity::Impurity;
+    use super::{Classified, Partition};
+    use crate::logic::impurity::{DEPTH, Impurity};
     use crate::logic::{Account, Bits, Columns};
 
     fn depth(partition: &Partition) -> usize {

@@ -8,7 +8,7 @@ use codespan_reporting::diagnostic as report;
 use codespan_reporting::files::{Error, Files, column_index};
 use codespan_reporting::term::{self, Config, termcolor};
 use std::borrow::Cow;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// The text that shows `diagnostics`, one after another, each with the lines that it is about; with colours as ANSI
@@ -115,26 +115,25 @@ fn offered(sources: &Sources, fix: &Fix, said: &str) -> Option<String> {
         return None;
     }
     let edits = fix.edits.iter();
-    let mut edits: Vec<String> = edits
-        .map(|(span, new)| {
-            let old = sources.text(*span);
-            let next = sources
-                .get(span.file)
-                .and_then(|source| source.text.get(span.range().end..))
-                .and_then(|rest| rest.lines().next())
-                .unwrap_or_default()
-                .trim();
-            match (old, new.as_str()) {
-                ("", new) if new.contains('\n') => format!("insert `{}`", new.trim()),
-                ("", new) if next.is_empty() => format!("insert `{new}` at the end of the line"),
-                ("", new) => format!("insert `{new}` before `{}`", shortened(next)),
-                (old, "") if old.trim().is_empty() => "delete the blank".to_owned(),
-                (old, "") => format!("delete `{old}`"),
-                (old, new) => format!("replace `{old}` with `{new}`"),
-            }
-        })
-        .collect();
-    counted(&mut edits);
+    let edits = edits.map(|(span, new)| {
+        let old = sources.text(*span);
+        let next = sources
+            .get(span.file)
+            .and_then(|source| source.text.get(span.range().end..))
+            .and_then(|rest| rest.lines().next())
+            .unwrap_or_default()
+            .trim();
+        let edit = match (old, new.as_str()) {
+            ("", new) if new.contains('\n') => format!("insert `{}`", new.trim()),
+            ("", new) if next.is_empty() => format!("insert `{new}` at the end of the line"),
+            ("", new) => format!("insert `{new}` before `{}`", shortened(next)),
+            (old, "") if old.trim().is_empty() => "delete the blank".to_owned(),
+            (old, "") => format!("delete `{old}`"),
+            (old, new) => format!("replace `{old}` with `{new}`"),
+        };
+        (edit, !old.is_empty() && !new.is_empty())
+    });
+    let mut edits = counted(edits);
     let more = edits.len().saturating_sub(MOST);
     if more > 0 {
         edits.truncate(MOST);
@@ -153,19 +152,26 @@ fn offered(sources: &Sources, fix: &Fix, said: &str) -> Option<String> {
     )
 }
 
-/// Says once, with the number of places, what is to be replaced in several.
-fn counted(edits: &mut Vec<String>) {
-    let mut places: BTreeMap<String, usize> = BTreeMap::new();
-    for edit in edits.iter() {
-        *places.entry(edit.clone()).or_default() += 1;
-    }
-    let mut said = BTreeSet::new();
-    edits.retain(|edit| !edit.starts_with("replace ") || said.insert(edit.clone()));
-    for edit in edits.iter_mut().filter(|edit| said.contains(*edit)) {
-        if let Some(count) = places.get(edit).filter(|count| **count > 1) {
-            *edit = format!("{edit} in {count} places");
+/// These edits, each with whether it replaces something. What is to be replaced in several places is said once, with their number.
+fn counted(edits: impl Iterator<Item = (String, bool)>) -> Vec<String> {
+    let mut said: Vec<(String, usize)> = Vec::new();
+    let mut known: BTreeMap<String, usize> = BTreeMap::new();
+    for (edit, replaces) in edits {
+        let at = match replaces {
+            true => *known.entry(edit.clone()).or_insert(said.len()),
+            false => said.len(),
+        };
+        match said.get_mut(at) {
+            Some((_, places)) => *places += 1,
+            None => said.push((edit, 1)),
         }
     }
+    let said = said.into_iter();
+    said.map(|(edit, places)| match places {
+        1 => edit,
+        _ => format!("{edit} in {places} places"),
+    })
+    .collect()
 }
 
 /// The beginning of a line, for a hint.

@@ -3,8 +3,7 @@
 use super::cuts::shortest;
 use super::ordered::Ordered;
 use super::{Asks, Comparison, Kind, OPEN, Valued};
-use crate::logic::impurity::{Impurity, Mixture};
-use crate::logic::partition::DEPTH;
+use crate::logic::impurity::{self, Impurity, Mixture};
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
 
@@ -35,7 +34,7 @@ pub(super) fn used(
             true => classes.favoured(valued, &rows),
             false => classes.decided(valued, &rows),
         };
-        let evenly = count == rows.len() || depth >= DEPTH;
+        let evenly = impurity::evenly(count, rows.len(), depth);
         let best = || best(valued, &ordered, (&classes, count), (impurity, evenly));
         let best = (count > 1).then(best);
         let Some(best) = best.flatten() else {
@@ -174,10 +173,7 @@ fn best(
             }
             let next = groups.peek().and_then(|group| group.first());
             divided = next.is_some() || divided && !ordered;
-            let mixed = match evenly {
-                true => f64::from(taken.total().abs_diff(rest.total())),
-                false => taken.mixed() + rest.mixed(),
-            };
+            let mixed = impurity::of_division([&taken, &rest], evenly);
             let better = |(least, _): &(f64, Split)| Impurity::better(mixed, *least);
             if divided && best.as_ref().is_none_or(better) {
                 let asks = if ordered {

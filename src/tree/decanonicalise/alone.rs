@@ -63,7 +63,7 @@ pub(super) fn held(problem: &Problem, account: &Account) -> Held {
         }
         let unlimited = Account::unlimited();
         let partition = classified.partition(impurity, &unlimited);
-        // So has a small one whose partition is not worth the name, as of two behaviours in turns.
+        // So has a small one that takes long to divide, as of two behaviours in turns.
         if columns.rows() > PRICED || !account.part(SMALL).affords(unlimited.spent()) {
             account.settle(&unlimited);
         }
