@@ -98,7 +98,7 @@ impl<'a> Checker<'a> {
                     }
                 }
                 AspectKind::EndAfter(ticks) => {
-                    built.end_after = self.ticks(ticks, "`end after`").unwrap_or(0);
+                    built.end_after = self.end_after(ticks).unwrap_or(0);
                 }
                 AspectKind::Reward { lines, otherwise } => {
                     self.reward(lines, otherwise.as_ref(), &mut built);
@@ -209,35 +209,48 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// How many ticks an episode has at most.
+    fn end_after(&mut self, expr: &'a Expr) -> Option<u64> {
+        const ROLE: &str = "`end after`";
+        // `end after 5 min or ruined`
+        if let Some((draft, other)) = self.joined(expr, ROLE) {
+            let help = "what else ends an episode has a line of its own";
+            return draft.help(format!("{help}: `end on {other}`")).none();
+        }
+        // Of an episode of one tick something else is told.
+        self.counted(expr, ROLE).map(|(ticks, _)| ticks)
+    }
+
     /// A time as a whole number of ticks, at least one.
     pub fn ticks(&mut self, expr: &'a Expr, role: &str) -> Option<u64> {
-        // `end after 5 min or ruined`
-        if let ExprKind::Binary { op, right, .. } = &expr.kind
-            && matches!(op.node, BinaryOp::And | BinaryOp::Or)
-        {
-            let other = print::expr(right);
-            let draft = self
-                .error(Code::E0302, op.span, format!("{role} takes a time alone"))
-                .label("joins conditions");
-            return match role {
-                "`end after`" => draft
-                    .help(format!(
-                        "what else ends an episode has a line of its own: `end on {other}`"
-                    ))
-                    .none(),
-                _ => draft.none(),
-            };
+        if let Some((draft, _)) = self.joined(expr, role) {
+            return draft.none();
         }
+        let (ticks, time) = self.counted(expr, role)?;
+        self.quantities.insert(expr.span, time);
+        Some(ticks)
+    }
+
+    /// Reports conditions that are joined where a time stands, and gives the second of them.
+    fn joined(&mut self, expr: &'a Expr, role: &str) -> Option<(Draft<'_>, String)> {
+        let ExprKind::Binary { op, right, .. } = &expr.kind else {
+            return None;
+        };
+        if !matches!(op.node, BinaryOp::And | BinaryOp::Or) {
+            return None;
+        }
+        let draft = self.error(Code::E0302, op.span, format!("{role} takes a time alone"));
+        Some((draft.label("joins conditions"), print::expr(right)))
+    }
+
+    /// A time as a whole number of ticks, at least one, and as it is written.
+    fn counted(&mut self, expr: &'a Expr, role: &str) -> Option<(u64, Quantity)> {
         let seconds = self.constant(expr, &Type::TIME, role)?;
         let tick = self.tick?;
         let exact = seconds / tick;
         let ticks = exact.round();
         if (1.0..=1e15).contains(&ticks) {
-            // Of an episode of one tick something else is told.
-            if role != "`end after`" {
-                self.quantities.insert(expr.span, Quantity::Time(seconds));
-            }
-            return Some(ticks as u64);
+            return Some((ticks as u64, Quantity::Time(seconds)));
         }
         self.less_than_a_tick(expr.span, role, exact)
             .note_if((tick >= 1.0).then(|| format!("a tick of this world takes {tick} s")))

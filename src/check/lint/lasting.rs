@@ -29,6 +29,11 @@ impl Reach {
         high: f64::NEG_INFINITY,
     };
 
+    const NOTHING: Self = Self {
+        low: 0.0,
+        high: 0.0,
+    };
+
     fn or(self, other: Self) -> Self {
         Self {
             low: self.low.min(other.low),
@@ -73,10 +78,7 @@ impl Checker<'_> {
                     low: initial.0,
                     high: initial.1,
                 },
-                change: Reach {
-                    low: 0.0,
-                    high: 0.0,
-                },
+                change: Reach::NOTHING,
             };
             let known = settings
                 .get(&id)
@@ -138,8 +140,17 @@ fn setting(view: View, state: Id<State>, value: ExprId) -> Option<Settings> {
         }
         match pool.get(id) {
             Expr::State(_) => {}
-            Expr::Select(_, a, b) | Expr::Binary(Binary::Min | Binary::Max, a, b) => {
-                open.extend([a, b]);
+            Expr::Select(_, a, b) => open.extend([a, b]),
+            Expr::Binary(op @ (Binary::Min | Binary::Max), a, b) => {
+                for part in [a, b] {
+                    match reads(part) {
+                        true => open.push(part),
+                        false => {
+                            let bound = bound(op, range(view, part).ends());
+                            found.values = found.values.or(bound);
+                        }
+                    }
+                }
             }
             Expr::Binary(Binary::Add, a, b) if is_state(a) && !reads(b) => {
                 let (low, high) = range(view, b).ends();
@@ -156,8 +167,33 @@ fn setting(view: View, state: Id<State>, value: ExprId) -> Option<Settings> {
                     high: -low,
                 });
             }
+            // A part of what it is lies between that and nothing.
+            Expr::Binary(Binary::Mul, a, b) if is_state(a) && is_part(view, b) => {
+                found.values = found.values.or(Reach::NOTHING);
+            }
+            Expr::Binary(Binary::Mul, a, b) if is_state(b) && is_part(view, a) => {
+                found.values = found.values.or(Reach::NOTHING);
+            }
             _ => return None,
         }
     }
     Some(found)
+}
+
+/// Whether this is from 0 to 1, whatever happens.
+fn is_part(view: View, id: ExprId) -> bool {
+    let (low, high) = range(view, id).ends();
+    0.0 <= low && high <= 1.0
+}
+
+/// What `min` or `max` may make of a state that it bounds by these values: it holds the state back on one side, and only a state that
+/// is beyond them comes to them.
+fn bound(op: Binary, (low, high): (f64, f64)) -> Reach {
+    match op {
+        Binary::Min => Reach { low, ..Reach::NONE },
+        _ => Reach {
+            high,
+            ..Reach::NONE
+        },
+    }
 }

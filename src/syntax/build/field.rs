@@ -174,7 +174,9 @@ impl<'i> Builder<'i> {
             if one_of(&["heading"]) {
                 return Err(None);
             }
-            if self.glance().declares_by(&["state", "let"], owner) {
+            // `pose(b).position`: that is a point already.
+            let is_point = owner.starts_with("pose(");
+            if is_point || self.glance().declares_by(&["state", "let"], owner) {
                 return Ok(owner.to_owned());
             }
             return Ok(format!("pose({owner})"));
