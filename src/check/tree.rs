@@ -12,11 +12,13 @@ use super::Checker;
 use super::context::Region;
 use super::expr::plain_ref;
 use super::names::Decl;
+use crate::diagnostic::{Applicability, Code};
 use crate::ir::task::Task;
 use crate::ir::tree::Tree;
 use crate::ir::world::Robot;
 use crate::ir::{Id, Name};
-use crate::syntax::ast::{self, Expr};
+use crate::source::Span;
+use crate::syntax::ast::{self, Expr, Ident};
 
 impl<'a> Checker<'a> {
     /// `tree name(params) for task = node`
@@ -29,6 +31,9 @@ impl<'a> Checker<'a> {
             return;
         }
         if let Some(robot) = self.runs(tree) {
+            if let Some(task) = &tree.task {
+                self.for_a_robot(tree, task);
+            }
             let scope = self.unknown_parameters(tree.params.as_ref());
             self.as_robot(robot, |checker| {
                 checker.body_for_itself(&tree.name, Region::Tree, scope, |checker| {
@@ -64,7 +69,7 @@ impl<'a> Checker<'a> {
         });
     }
 
-    /// The first of the robots that run a tree as their own, if it is for no task.
+    /// The first of the robots that run a tree as their own, if it is not for a task.
     fn runs(&self, tree: &'a ast::Tree) -> Option<Id<Robot>> {
         let runs = |runs: &Expr| {
             let reference = plain_ref(runs)?;
@@ -72,7 +77,39 @@ impl<'a> Checker<'a> {
         };
         let mut scripts = self.scripts.iter();
         let at = scripts.position(|(_, script)| runs(script) == Some(true))?;
-        tree.task.is_none().then(|| Id::new(at + 1))
+        let for_no_task = tree.task.as_ref().is_none_or(|task| self.is_scripted(task));
+        for_no_task.then(|| Id::new(at + 1))
+    }
+
+    /// Whether a robot of this name runs a tree of its own.
+    fn is_scripted(&self, name: &Ident) -> bool {
+        self.scripts
+            .iter()
+            .any(|(robot, _)| robot.name == name.name)
+    }
+
+    /// Reports `tree NAME for ROBOT`: which robot runs a tree is said in the world.
+    fn for_a_robot(&mut self, tree: &'a ast::Tree, robot: &'a Ident) {
+        let before = tree
+            .params
+            .as_ref()
+            .map_or(tree.name.span, |params| params.span);
+        let called = &robot.name;
+        self.error(
+            Code::E0203,
+            robot.span,
+            format!("`{called}` is a robot, not a task"),
+        )
+        .label("only a task is named here")
+        .fix(
+            format!("`runs` in the world says what `{called}` runs"),
+            Span {
+                start: before.end,
+                ..robot.span
+            },
+            "",
+            Applicability::Safe,
+        );
     }
 
     /// `done(b)` and `failed(b)` ask a window that the task has to keep.

@@ -1,5 +1,5 @@
-//! Plain numbers where ratios are meant, `battery <= 25`, and percentages beside a state that starts as a whole number:
-//! `state battery: number = 100`, and then `battery <= 30%`.
+//! Plain numbers where ratios are meant, `battery <= 25`, also beside a state that only starts as one, `battery: number = 100%`;
+//! and percentages beside a state that starts as a whole number: `battery: number = 100`, and then `battery <= 30%`.
 
 use super::expect::{PASSING, is_literal};
 use super::plain_ref;
@@ -84,7 +84,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Notes the percentages of a value that a state is compared with, or set to, if it is declared as a whole number.
+    /// Notes the percentages of a value that a state is compared with, or set to, if it is declared as a whole number; and warns of
+    /// the plain numbers of it, if the state starts in percent.
     pub fn percent_of(&mut self, name: &Ident, ty: &Type, value: &'a Expr) {
         if *ty != Type::NUMBER || self.context.lookup(&name.name).is_some() {
             return;
@@ -93,6 +94,9 @@ impl<'a> Checker<'a> {
         let Some((Decl::State(state), false)) = declared else {
             return;
         };
+        if is_percentage(&state.value) {
+            self.warn_plain_ratio(value, &Type::Ratio);
+        }
         if plain_number(&state.value).is_some_and(|start| start >= WHOLE) {
             let beside = self.percents.entry(state.value.span);
             let (_, beside) = beside.or_insert((state, Vec::new()));
@@ -138,12 +142,20 @@ pub fn plain_number(expr: &Expr) -> Option<f64> {
 /// The percentages up to 100 % in a value, with how they are written.
 fn percents(value: &Expr, found: &mut Vec<(Span, String)>) {
     for (part, _) in parts(value) {
-        if let ExprKind::Number(literal) = &part.kind {
-            let is_percent = literal.unit.as_ref().is_some_and(|unit| unit.text == "%");
-            if is_percent && literal.value <= 100.0 {
-                found.push((part.span, print::expr(part)));
-            }
+        if let ExprKind::Number(literal) = &part.kind
+            && is_percentage(part)
+            && literal.value <= 100.0
+        {
+            found.push((part.span, print::expr(part)));
         }
+    }
+}
+
+/// Whether this is a number in percent.
+fn is_percentage(expr: &Expr) -> bool {
+    match &expr.kind {
+        ExprKind::Number(literal) => literal.unit.as_ref().is_some_and(|unit| unit.text == "%"),
+        _ => false,
     }
 }
 

@@ -3,8 +3,9 @@
 use super::Decl;
 use crate::check::Checker;
 use crate::check::builtin::{BuiltIn, Constant};
+use crate::check::context::Region;
 use crate::check::expr::plain_ref;
-use crate::check::report::Draft;
+use crate::check::report::{Draft, LISTED};
 use crate::check::types::Value;
 use crate::diagnostic::{Applicability, Code, suggest};
 use crate::ir::law::Behavior;
@@ -118,12 +119,25 @@ impl<'a> Checker<'a> {
                 "name one of its variants, or range over all: `x in {}`",
                 name.name
             ),
-            _ => format!("name one of them, or range over all: `x in {}`", name.name),
+            _ => match self.by_chance(name) {
+                Some(choice) => format!("name one of them, or let chance choose: `{choice}`"),
+                None => format!("name one of them, or range over all: `x in {}`", name.name),
+            },
         };
         let message = format!("`{}` is {what}, not one of them", name.name);
         self.error(Code::E0203, name.span, message)
             .label("one is needed here")
             .help(help)
+    }
+
+    /// What draws one of the places of a kind where a start is said, if they are few.
+    fn by_chance(&self, kind: &Ident) -> Option<String> {
+        let of_kind = self.kinds.places.iter();
+        let of_kind = of_kind.filter(|(_, of)| of.as_deref() == Some(kind.name.as_str()));
+        let names: Vec<String> = of_kind.map(|(place, _)| place.to_string()).collect();
+        let is_short = (1..=LISTED).contains(&names.len());
+        (is_short && self.context.region == Region::Start)
+            .then(|| format!("one_of({})", names.join(", ")))
     }
 
     /// Reports an undeclared name where a `what` is expected, unless its declaration was not understood; `likely` is the name that was probably meant.
