@@ -54,7 +54,8 @@ impl<W: World> Grower<'_, '_, '_, W> {
             return (base, Step::Climb(Stage::of(stage.number + 1)));
         }
         self.report(&base);
-        let price = self.price * factor;
+        let node = if *only { self.full } else { self.price };
+        let price = node * factor;
         let terms = Terms::of(price, *harm);
         if stage.number > 0 {
             self.charge(terms);
@@ -105,7 +106,7 @@ impl<W: World> Grower<'_, '_, '_, W> {
             return (base, Step::Done);
         };
         if self.judge.seen.ticks < until {
-            let price = self.price * factor;
+            let price = self.full * factor;
             let terms = Terms::taking(price);
             self.charge(terms);
             let trees = self.proposals(&base, price, true, &mut stage.tried);
