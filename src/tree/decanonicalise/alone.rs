@@ -167,15 +167,15 @@ fn from_the_top(
         return Vec::new();
     }
     let whole = account.part(2);
-    let found = samples(problem, Sought::Plain, core, known, &whole);
+    let found = samples(problem, (Sought::Plain, usize::MAX), core, known, &whole);
     account.settle(&whole);
     found
 }
 
-/// Lists from the top for as many samples as an account allows.
+/// Lists from the top for as many samples as an account allows; but for one where the first has more than `most` nodes.
 pub(super) fn samples(
     problem: &Problem,
-    sought: Sought,
+    (sought, most): (Sought, usize),
     core: &mut Core,
     known: &mut Known,
     whole: &Account,
@@ -192,6 +192,9 @@ pub(super) fn samples(
         whole.settle(&part);
         let Some(list) = made else { break };
         found.push(Children::grouped(problem, &list).node());
+        if list.nodes() > most {
+            break;
+        }
         let part = whole.part(2);
         found.extend(core.groups(list, QUICK, known, &part));
         whole.settle(&part);

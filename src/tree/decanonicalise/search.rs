@@ -202,7 +202,9 @@ fn further(
     if least * CLEAR <= held {
         return Vec::new();
     }
-    let mut found = alone::samples(problem, Sought::Any, core, known, &account.again(FURTHER));
+    // A list that is not clearly smaller is as long as the table asks for, so other samples have none that is.
+    let sought = (Sought::Any, held / CLEAR);
+    let mut found = alone::samples(problem, sought, core, known, &account.again(FURTHER));
     let least = smallest_of(&found).map_or(least, |own| own.min(least));
     found.extend(finish(core, known, least));
     found
