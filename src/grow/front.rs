@@ -110,7 +110,7 @@ pub(super) fn choose<W: World>(
     starts: &Starts,
     settings: &Settings,
 ) -> Result<Grown, Atom> {
-    let price = grower.full;
+    let price = grower.full_price;
     let judge = &mut grower.judge;
     let of = episodes(settings);
     let race = judge.fresh();

@@ -58,7 +58,7 @@ pub struct Grower<'g, 'w, 'a, W> {
     /// The price of a node while trees change.
     price: f64,
     /// Its price where trees only get smaller and where one is taken.
-    pub full: f64,
+    pub full_price: f64,
     /// What the price of harm is a part of.
     scale: f64,
     /// The trees that were the best of their time.
@@ -84,7 +84,7 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
             random: Random::new(ground.seed, 1 << 41, 0),
             collected: 0,
             price: 0.0,
-            full: 0.0,
+            full_price: 0.0,
             scale: 0.0,
             visited: Vec::new(),
             single: None,
@@ -135,7 +135,7 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
             random: self.random.clone(),
             collected: self.collected,
             price: self.price,
-            full: self.full,
+            full_price: self.full_price,
             scale: self.scale,
             visited: self.visited.clone(),
             single: self.single.clone(),
@@ -151,7 +151,7 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
         self.random = halted.random;
         self.collected = halted.collected;
         self.price = halted.price;
-        self.full = halted.full;
+        self.full_price = halted.full_price;
         self.scale = halted.scale;
         self.visited = halted.visited;
         self.single = halted.single;
@@ -212,7 +212,7 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
         };
         let scale = (top - least).min(top.abs().max(spread)).max(0.1 * spread);
         self.price = PRICE * scale.max(1e-6);
-        self.full = self.price;
+        self.full_price = self.price;
         self.scale = exact.scale();
         let mean = |single: &Entrant| single.contender.returns().mean;
         let best = singles

@@ -18,7 +18,7 @@ pub(super) struct Halted {
     pub(super) random: Random,
     pub(super) collected: u64,
     pub(super) price: f64,
-    pub(super) full: f64,
+    pub(super) full_price: f64,
     pub(super) scale: f64,
     pub(super) visited: Vec<Visited>,
     pub(super) single: Option<Node>,

@@ -54,7 +54,7 @@ impl<W: World> Grower<'_, '_, '_, W> {
             return (base, Step::Climb(Stage::of(stage.number + 1)));
         }
         self.report(&base);
-        let node = if *only { self.full } else { self.price };
+        let node = if *only { self.full_price } else { self.price };
         let price = node * factor;
         let terms = Terms::of(price, *harm);
         if stage.number > 0 {
@@ -106,7 +106,7 @@ impl<W: World> Grower<'_, '_, '_, W> {
             return (base, Step::Done);
         };
         if self.judge.seen.ticks < until {
-            let price = self.full * factor;
+            let price = self.full_price * factor;
             let terms = Terms::taking(price);
             self.charge(terms);
             let trees = self.proposals(&base, price, true, &mut stage.tried);

@@ -271,7 +271,7 @@ fn a_file_is_the_old_or_the_new() {
             assert!(done.is_ok() || found == "old", "call {at}");
             assert!(done.is_err() || found == "new", "call {at}");
             for _ in 0..100 {
-                file::write(&Faulty::sound(), &path, b"new").unwrap();
+                file::write(&System, &path, b"new").unwrap();
                 if leftovers(folder.path()).is_empty() {
                     break;
                 }
@@ -364,10 +364,10 @@ fn what_is_held_is_left_alone() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(".btc-file-1-0");
     let held = System.create(&path).unwrap();
-    file::write(&Faulty::sound(), &folder.path().join("other"), b"text").unwrap();
+    file::write(&System, &folder.path().join("other"), b"text").unwrap();
     assert!(path.exists());
     drop(held);
     while path.exists() {
-        file::write(&Faulty::sound(), &folder.path().join("other"), b"text").unwrap();
+        file::write(&System, &folder.path().join("other"), b"text").unwrap();
     }
 }

@@ -85,7 +85,7 @@ fn printed(text: &str) -> BTreeMap<String, (String, String)> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 40, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 96, ..ProptestConfig::default() })]
 
     #[test]
     fn the_tree_takes_the_decision_of_each_row(rows in rows()) {
