@@ -172,7 +172,7 @@ fn from_the_top(
     found
 }
 
-/// Lists from the top for as many samples as an account allows; but for one where the first has more than `most` nodes.
+/// Lists from the top for as many samples as an account allows. One with more than `most` nodes is the last.
 pub(super) fn samples(
     problem: &Problem,
     (sought, most): (Sought, usize),

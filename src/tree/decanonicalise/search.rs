@@ -202,7 +202,7 @@ fn further(
     if least * CLEAR <= held {
         return Vec::new();
     }
-    // A list that is not clearly smaller is as long as the table asks for, so other samples have none that is.
+    // Other samples cost as much as the first, and seldom lead to a clearly smaller list where that did not.
     let sought = (Sought::Any, held / CLEAR);
     let mut found = alone::samples(problem, sought, core, known, &account.again(FURTHER));
     let least = smallest_of(&found).map_or(least, |own| own.min(least));
