@@ -14,6 +14,9 @@ use crate::policy::table::{self, Table};
 use crate::policy::{Policy, decisions, transitions};
 use crate::source::{FileId, Span};
 
+/// How many values of a column are listed at most.
+const LISTED: usize = 6;
+
 /// The record of a process under a policy.
 #[derive(Clone, Copy, Debug)]
 pub struct Recorded<'t> {
@@ -189,10 +192,19 @@ fn located(file: FileId, text: &str, error: &TableError) -> Diagnostic {
         TableErrorKind::UnknownUnit(_) => {
             found.note("the units are those of the language: m, cm, mm, km, s, ms, min, h, deg, rad, Hz, %, and quotients such as m/s")
         }
-        TableErrorKind::NoValue { found: word, values, .. } => {
+        TableErrorKind::NoValue { found: word, column, values, cells } => {
+            let found = match cells {
+                1 => found,
+                cells => found.note(format!("{cells} cells hold it")),
+            };
             match suggest::nearest(word, values.iter().map(String::as_str)) {
                 Some(likely) => found.label(format!("did you mean `{likely}`?")),
-                None => found,
+                None if word.is_empty() => found.help("`-` stands for any value"),
+                None => {
+                    let some: Vec<&str> = values.iter().take(LISTED).map(String::as_str).collect();
+                    let more = if values.len() > LISTED { ", …" } else { "" };
+                    found.help(format!("the values of `{column}` are {}{more}", some.join(", ")))
+                }
             }
         }
         TableErrorKind::UnknownValue { found: cell, expected } if expected.starts_with("a number") => {

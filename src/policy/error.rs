@@ -12,6 +12,32 @@ pub struct TableError {
     pub kind: TableErrorKind,
 }
 
+impl TableError {
+    /// Counts another cell that has the same wrong value: it is one mistake in many rows. Whether the other error is about such a
+    /// one.
+    pub fn has_again(&mut self, other: &Self) -> bool {
+        let (
+            TableErrorKind::NoValue {
+                found,
+                column,
+                cells,
+                ..
+            },
+            TableErrorKind::NoValue {
+                found: again,
+                column: of,
+                ..
+            },
+        ) = (&mut self.kind, &other.kind)
+        else {
+            return false;
+        };
+        let same = found == again && column == of;
+        *cells += usize::from(same);
+        same
+    }
+}
+
 /// What can be wrong with a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum TableErrorKind {
@@ -121,6 +147,8 @@ pub enum TableErrorKind {
         column: String,
         /// The values that it may have.
         values: Vec<String>,
+        /// How many cells have it; the first of them is told.
+        cells: usize,
     },
     /// A behaviour is called as an input is.
     SharedInput(String),

@@ -48,6 +48,9 @@ impl Builder {
     /// Says what is wrong.
     pub fn mistake(&mut self, error: TableError) {
         self.clean = false;
+        if self.mistakes.iter_mut().any(|known| known.has_again(&error)) {
+            return;
+        }
         if self.mistakes.len() < MISTAKES {
             self.mistakes.push(error);
         }
@@ -286,6 +289,7 @@ impl Open {
                         found: value.to_owned(),
                         column: self.column.name.clone(),
                         values: values.clone(),
+                        cells: 1,
                     });
                 }
                 if let Some(why) = spelling::unusable(value) {

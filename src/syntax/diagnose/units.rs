@@ -208,7 +208,7 @@ pub(in crate::syntax) fn no_such_unit(span: Span, word: &str, others: &[&str]) -
     if matches!(word, "k" | "K") {
         return diagnostic
             .label("this follows a number")
-            .help("thousands are written out: `4_000`");
+            .help("thousands are written out: 1k is `1_000`");
     }
     if matches!(word, "rpm" | "RPM" | "rps") {
         let turns = if word == "rps" {
