@@ -48,7 +48,11 @@ impl Builder {
     /// Says what is wrong.
     pub fn mistake(&mut self, error: TableError) {
         self.clean = false;
-        if self.mistakes.iter_mut().any(|known| known.has_again(&error)) {
+        if self
+            .mistakes
+            .iter_mut()
+            .any(|known| known.has_again(&error))
+        {
             return;
         }
         if self.mistakes.len() < MISTAKES {
