@@ -270,6 +270,16 @@ where
         .or_else(|| within(name, &candidates))
 }
 
+/// How many names are listed where one of them is asked for.
+const FIRST: usize = 8;
+
+/// The first of these names, and whether there are more, for a message that lists what may stand somewhere.
+pub fn first(names: &[impl AsRef<str>]) -> String {
+    let some: Vec<&str> = names.iter().take(FIRST).map(AsRef::as_ref).collect();
+    let more = if names.len() > FIRST { ", …" } else { "" };
+    format!("{}{more}", some.join(", "))
+}
+
 /// Whether a name is a slip of another one: a letter too much, too few or wrong, or two neighbours exchanged. Names that are
 /// told apart by a number, an ending or a letter that stands alone, such as `door_a` and `door_b`, are two names.
 pub fn is_slip(name: &str, meant: &str) -> bool {

@@ -14,9 +14,6 @@ use crate::policy::table::{self, Table};
 use crate::policy::{Policy, decisions, transitions};
 use crate::source::{FileId, Span};
 
-/// How many values of a column are listed at most.
-const LISTED: usize = 6;
-
 /// The record of a process under a policy.
 #[derive(Clone, Copy, Debug)]
 pub struct Recorded<'t> {
@@ -200,11 +197,7 @@ fn located(file: FileId, text: &str, error: &TableError) -> Diagnostic {
             match suggest::nearest(word, values.iter().map(String::as_str)) {
                 Some(likely) => found.label(format!("did you mean `{likely}`?")),
                 None if word.is_empty() => found.help("`-` stands for any value"),
-                None => {
-                    let some: Vec<&str> = values.iter().take(LISTED).map(String::as_str).collect();
-                    let more = if values.len() > LISTED { ", …" } else { "" };
-                    found.help(format!("the values of `{column}` are {}{more}", some.join(", ")))
-                }
+                None => found.help(format!("the values of `{column}` are {}", suggest::first(values))),
             }
         }
         TableErrorKind::UnknownValue { found: cell, expected } if expected.starts_with("a number") => {

@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// What is wrong with a table, and where.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -13,9 +14,9 @@ pub struct TableError {
 }
 
 impl TableError {
-    /// Counts another cell that has the same wrong value: it is one mistake in many rows. Whether the other error is about such a
-    /// one.
-    pub fn has_again(&mut self, other: &Self) -> bool {
+    /// Whether the other error is about the same wrong value in another cell, which then counts here: it is one mistake in many
+    /// rows.
+    pub fn counts(&mut self, other: &Self) -> bool {
         let (
             TableErrorKind::NoValue {
                 found,
@@ -146,7 +147,7 @@ pub enum TableErrorKind {
         /// The column.
         column: String,
         /// The values that it may have.
-        values: Vec<String>,
+        values: Arc<[String]>,
         /// How many cells have it; the first of them is told.
         cells: usize,
     },

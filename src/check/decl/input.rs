@@ -13,9 +13,6 @@ use crate::source::Span;
 use crate::spelling::spelled;
 use crate::syntax::ast::{self, BinaryOp, Expr, Ident, Ref, Spanned};
 
-/// The most names that are listed where one was meant.
-const LISTED: usize = 8;
-
 /// A checked input with the type of its number; a category has none.
 #[derive(Clone, Debug)]
 pub struct InputSlot {
@@ -144,10 +141,9 @@ impl<'a> Checker<'a> {
             return Some(failed);
         }
         let listed = || {
-            let some = values.iter().take(LISTED);
-            let some: Vec<_> = some.map(|value| spelled(&value.name)).collect();
-            let more = if values.len() > LISTED { ", …" } else { "" };
-            format!("its values are {}{more}", some.join(", "))
+            let names = values.iter().map(|value| spelled(&value.name));
+            let names: Vec<_> = names.collect();
+            format!("its values are {}", suggest::first(&names))
         };
         let Some(asked) = plain_ref(value) else {
             let message = format!("`{name}` is compared with one of its values");

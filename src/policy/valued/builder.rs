@@ -8,6 +8,7 @@ use crate::policy::table::{Behaviors, MISTAKES};
 use crate::spelling;
 use rustc_hash::FxHashMap;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// A table of values that is being read.
 #[derive(Debug, Default)]
@@ -32,8 +33,8 @@ struct Open {
     /// The codes of what has been met: of numbers by their bits, of values by their names.
     numbers: FxHashMap<u64, u32>,
     names: FxHashMap<String, u32>,
-    /// Whether it may have the values that were listed alone.
-    listed: bool,
+    /// The values that it may have alone, where they were listed.
+    listed: Option<Arc<[String]>>,
 }
 
 impl Builder {
@@ -48,14 +49,9 @@ impl Builder {
     /// Says what is wrong.
     pub fn mistake(&mut self, error: TableError) {
         self.clean = false;
-        if self
-            .mistakes
-            .iter_mut()
-            .any(|known| known.has_again(&error))
-        {
-            return;
-        }
-        if self.mistakes.len() < MISTAKES {
+        let mut known = self.mistakes.iter_mut();
+        let counted = known.any(|known| known.counts(&error));
+        if !counted && self.mistakes.len() < MISTAKES {
             self.mistakes.push(error);
         }
     }
@@ -72,17 +68,17 @@ impl Builder {
 
     /// A column of truth values.
     pub fn truth(&mut self, name: &str, place: &Range<usize>) -> usize {
-        self.column(name, place, Kind::Truth(AtomName::read(name)), false)
+        self.column(name, place, Kind::Truth(AtomName::read(name)), None)
     }
 
     /// A column of numbers.
     pub fn number(&mut self, name: &str, place: &Range<usize>, measure: Measure) -> usize {
-        self.column(name, place, Kind::Number(measure, Vec::new()), false)
+        self.column(name, place, Kind::Number(measure, Vec::new()), None)
     }
 
     /// A column that has one of these values, or if there are none, one of those that appear.
     pub fn category(&mut self, name: &str, place: &Range<usize>, values: Vec<String>) -> usize {
-        let listed = !values.is_empty();
+        let listed = (!values.is_empty()).then(|| values.clone().into());
         let mut known: FxHashMap<String, u32> = FxHashMap::default();
         for (value, code) in values.iter().zip(0..) {
             if let Some(why) = spelling::unusable(value) {
@@ -100,7 +96,13 @@ impl Builder {
         at
     }
 
-    fn column(&mut self, name: &str, place: &Range<usize>, kind: Kind, listed: bool) -> usize {
+    fn column(
+        &mut self,
+        name: &str,
+        place: &Range<usize>,
+        kind: Kind,
+        listed: Option<Arc<[String]>>,
+    ) -> usize {
         let name = match &kind {
             Kind::Truth(atom) => atom.to_string(),
             _ => spelling::bare(name).to_owned(),
@@ -288,11 +290,11 @@ impl Open {
                 if text == "-" {
                     return Ok(OPEN);
                 }
-                if self.listed {
+                if let Some(listed) = &self.listed {
                     return Err(TableErrorKind::NoValue {
                         found: value.to_owned(),
                         column: self.column.name.clone(),
-                        values: values.clone(),
+                        values: listed.clone(),
                         cells: 1,
                     });
                 }
