@@ -214,6 +214,9 @@ fn located(file: FileId, text: &str, error: &TableError) -> Diagnostic {
             found.help("JSON Lines has an object a line: `{\"low\": true, \"action\": \"charge\"}`")
         }
         TableErrorKind::Foreign { help: Some(help), .. } => found.help(*help),
+        TableErrorKind::Numerous { .. } => {
+            found.help("numbers that are rounded to fewer values need fewer comparisons")
+        }
         TableErrorKind::SharedInput(_) => {
             found.help("the language has one name for one thing: rename the column, or the behaviour")
         }
@@ -307,6 +310,7 @@ fn code(kind: &TableErrorKind) -> Code {
         | TableErrorKind::RepeatedValue(_) => Code::E0824,
         TableErrorKind::Foreign { .. } => Code::E0825,
         TableErrorKind::Several => Code::E0823,
+        TableErrorKind::Numerous { .. } => Code::E0826,
         TableErrorKind::UnknownColumn(_)
         | TableErrorKind::UnknownBehavior(_)
         | TableErrorKind::Unseen => Code::E0610,

@@ -173,6 +173,25 @@ impl Columns {
         all
     }
 
+    /// The table of minterms without the atoms that do not divide its rows, or divide them as the atom before does, and with `most` of
+    /// the others at most, evenly spread. Those that are left have other numbers.
+    #[must_use]
+    pub(super) fn dividing(mut self, most: usize) -> Self {
+        if self.are_minterms() {
+            let rows = self.rows;
+            self.ones.dedup();
+            self.ones
+                .retain(|column| (1..rows).contains(&column.count()));
+            let count = self.ones.len();
+            let mut numbers = 0..count;
+            self.ones.retain(|_| {
+                let number = numbers.next().unwrap_or(0);
+                count <= most || number * most / count != (number + 1) * most / count
+            });
+        }
+        self
+    }
+
     /// The table of these rows alone, in this order.
     #[must_use]
     pub fn pick(&self, rows: &[usize]) -> Self {

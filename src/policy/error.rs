@@ -153,6 +153,13 @@ pub enum TableErrorKind {
     },
     /// A behaviour is called as an input is.
     SharedInput(String),
+    /// Rows that differ in more numbers than are compared.
+    Numerous {
+        /// The comparisons that tell them apart.
+        comparisons: usize,
+        /// The most for so many rows.
+        most: usize,
+    },
     /// A policy of another tool does not say what a table needs.
     Foreign {
         /// What is wrong.
@@ -248,6 +255,10 @@ impl fmt::Display for TableError {
                 write!(f, "`{found}` is no value of `{column}`")
             }
             TableErrorKind::SharedInput(name) => write!(f, "`{name}` is an input and a behaviour"),
+            TableErrorKind::Numerous { comparisons, most } => write!(
+                f,
+                "{comparisons} comparisons tell these rows apart, and {most} are the most for so many rows"
+            ),
             TableErrorKind::Foreign { message, .. } => f.write_str(message),
         }
     }

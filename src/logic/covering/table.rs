@@ -5,6 +5,7 @@ use crate::logic::bits::Bits;
 use crate::logic::columns::Columns;
 use crate::logic::random::Random;
 
+#[derive(Clone)]
 pub(super) struct Table {
     pub(super) columns: Columns,
     /// The classes that have rows here, with these.
@@ -42,6 +43,14 @@ impl Table {
         Self {
             columns: columns.pick(&rows),
             classes,
+        }
+    }
+
+    /// The same rows with at most so many of the atoms that divide them, if it does not matter which do.
+    pub(super) fn dividing(self, most: usize) -> Self {
+        Self {
+            columns: self.columns.dividing(most),
+            ..self
         }
     }
 

@@ -22,6 +22,8 @@ use leaves::leaves;
 const SAMPLE: usize = 1024;
 const GLANCE: usize = 320;
 const FEWEST: usize = 8;
+/// The most atoms by which leaves are counted.
+const ASKED: usize = 192;
 /// Cubes that are looked at in the larger sample.
 const LOOKED_AT: usize = 6;
 /// A sample with more leaves than one for so many rows has no structure that this finds.
@@ -30,6 +32,10 @@ const RARE: usize = 4;
 const LEAF: usize = 3;
 /// The seed of the first sample.
 const FIRST: u64 = 2;
+/// One part in so many of the rows says how long a list will be, and with so many times more nodes than are wanted it is sought in
+/// vain. So it is where half of the work has not come so far.
+const SHOWN: usize = 8;
+const FAR: usize = 8;
 /// Groups within groups.
 const DEPTH: usize = 16;
 
@@ -45,12 +51,13 @@ pub enum Sought {
     Any,
 }
 
-/// A list with groups that decides every row rightly; `None` where the table has too little structure for it, or the account is spent.
-/// Rows are minterms. Another number, another sample.
+/// A list with groups that decides every row rightly; `None` where the table has too little structure for it, the account is spent, or
+/// it is on the way to far more than `most` nodes. Rows are minterms. Another number, another sample.
 pub fn top_down(
     columns: &Columns,
     classes: &[Bits],
     (number, sought): (u64, Sought),
+    most: usize,
     account: &Account,
 ) -> Option<Grouped> {
     let all = Bits::full(columns.rows());
@@ -59,6 +66,10 @@ pub fn top_down(
         classes,
         account,
         random: Random::new(FIRST + number),
+        most,
+        half: account.spent() + account.left() / 2,
+        nodes: 0,
+        decided: 0,
     };
     let table = search.sample(&all, SAMPLE);
     let rows = table.columns.rows();
@@ -82,6 +93,13 @@ struct Search<'a> {
     classes: &'a [Bits],
     account: &'a Account,
     random: Random,
+    /// The nodes that are wanted at most.
+    most: usize,
+    /// What is spent of the account when half of the work is done.
+    half: u64,
+    /// The nodes of what stands, and the rows that it decides.
+    nodes: usize,
+    decided: usize,
 }
 
 impl Search<'_> {
@@ -92,14 +110,17 @@ impl Search<'_> {
         loop {
             let sole = |own: &Bits| left.is_subset(own);
             if let Some(last) = self.classes.iter().position(sole) {
+                self.nodes += 1;
+                self.decided += left.count();
                 return Some(Grouped { parts, last });
             }
-            if depth == 0 || self.account.is_spent() {
+            if depth == 0 || self.account.is_spent() || self.is_vain() {
                 return None;
             }
             let cube = self.next(&left)?;
             let inside = self.columns.cube_rows(&cube, &left);
             left.subtract(&inside);
+            self.nodes += 1 + cube.literals().len();
             let inner = self.list(&inside, depth - 1)?;
             parts.push(match inner.parts.is_empty() {
                 true => Part::Rule(Rule {
@@ -111,14 +132,24 @@ impl Search<'_> {
         }
     }
 
+    /// Whether the list will be far too long if what it leaves takes as many nodes a row as what it has, or takes far too much work.
+    fn is_vain(&self) -> bool {
+        let rows = self.columns.rows();
+        match SHOWN * self.decided >= rows {
+            true => self.nodes.saturating_mul(rows) / self.decided.max(1) / FAR > self.most,
+            false => self.account.spent() > self.half,
+        }
+    }
+
     /// The cube that stands next among these rows: the best of those that look good on a small sample.
     fn next(&mut self, left: &Bits) -> Option<Cube> {
         let table = self.sample(left, SAMPLE);
         let mut cubes = cubes(&table, self.account);
         if table.columns.rows() > 2 * GLANCE {
             let small = self.sample(left, GLANCE);
+            let few = small.clone().dividing(ASKED);
             let costs = cubes.into_iter().filter_map(|cube| {
-                let cost = self.cost(&small, &cube, usize::MAX)?;
+                let cost = self.cost(&small, &few, &cube, usize::MAX)?;
                 Some((cost, cube))
             });
             let mut costs: Vec<([usize; 2], Cube)> = costs.collect();
@@ -126,11 +157,12 @@ impl Search<'_> {
             costs.truncate(LOOKED_AT);
             cubes = costs.into_iter().map(|(_, cube)| cube).collect();
         }
+        let few = table.clone().dividing(ASKED);
         let mut best: Option<([usize; 2], Cube)> = None;
         for cube in cubes {
             let least = best.as_ref().map_or([usize::MAX; 2], |(cost, _)| *cost);
             let [most, _] = least;
-            let cost = self.cost(&table, &cube, most);
+            let cost = self.cost(&table, &few, &cube, most);
             if let Some(cost) = cost.filter(|cost| *cost < least) {
                 best = Some((cost, cube));
             }
@@ -138,9 +170,9 @@ impl Search<'_> {
         best.map(|(_, cube)| cube)
     }
 
-    /// What it costs to tell rows apart inside and outside of a cube, and of that, the leaves inside; `None` for more than `most`, and
-    /// for a cube that divides nothing.
-    fn cost(&self, table: &Table, cube: &Cube, most: usize) -> Option<[usize; 2]> {
+    /// What it costs to tell rows apart inside and outside of a cube by few of their atoms, and of that, the leaves inside; `None` for
+    /// more than `most`, and for a cube that divides nothing.
+    fn cost(&self, table: &Table, few: &Table, cube: &Cube, most: usize) -> Option<[usize; 2]> {
         let all = Bits::full(table.columns.rows());
         let inside = table.columns.cube_rows(cube, &all);
         let outside = all.minus(&inside);
@@ -149,8 +181,8 @@ impl Search<'_> {
         }
         let literals = cube.literals().len();
         let most = most.saturating_sub(literals) / LEAF;
-        let inner = leaves(table, &inside, most, self.account)?;
-        let outer = leaves(table, &outside, most - inner, self.account)?;
+        let inner = leaves(few, &inside, most, self.account)?;
+        let outer = leaves(few, &outside, most - inner, self.account)?;
         Some([LEAF * (inner + outer) + literals, inner])
     }
 

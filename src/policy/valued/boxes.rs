@@ -6,6 +6,7 @@
 use super::cuts::shortest;
 use super::ordered::Ordered;
 use super::{Asks, Comparison, Kind, OPEN, Valued};
+use crate::logic::Bits;
 use crate::logic::impurity::information;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
@@ -13,7 +14,11 @@ use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 /// The most cells that are looked at.
-const WORK: usize = 600_000_000;
+const WORK: usize = 200_000_000;
+
+/// The cells of rows on which boxes are compared, where there are more, and how many of the best are compared on all rows.
+const GLANCE: usize = 60_000;
+const FINALISTS: usize = 2;
 
 /// The most boxes of a list, and how many of the last say how many there are to be.
 const BOXES: usize = 200;
@@ -43,21 +48,9 @@ pub(super) fn used(valued: &Valued) -> Option<BTreeSet<Comparison>> {
     let mut ordered = Ordered::new(valued, &left);
     while !valued.agree(&left) {
         let seeds = seeds(valued, &left, found.len() as u64);
-        let grown = seeds.into_par_iter().map(|(seed, behavior)| {
-            let mut growth = Growth::new(valued, (&left, &ordered), behavior);
-            let grown = growth.grow(seed);
-            (grown, growth.work)
-        });
-        let grown: Vec<(Option<Covering>, usize)> = grown.collect();
-        work += grown.iter().map(|(_, work)| work).sum::<usize>();
-        let grown = grown.into_iter().filter_map(|(grown, _)| grown);
-        let best = grown.reduce(|best, next| match next.pays() > best.pays() {
-            true => next,
-            false => best,
-        })?;
-        let stays = |row: u32| !best.loose.contains(valued, row);
-        left.retain(|row| stays(*row));
-        ordered.retain(stays);
+        let best = best(valued, (&left, &ordered), seeds, &mut work)?;
+        left.retain(|row| !best.loose.contains(valued, *row));
+        ordered.retain(&set(valued, &left));
         found.push(best);
         let last = found.iter().rev().take(LAST);
         let (few, rows) = (last.clone().count(), last.map(|it| it.rows).sum::<usize>());
@@ -69,8 +62,59 @@ pub(super) fn used(valued: &Valued) -> Option<BTreeSet<Comparison>> {
     Some(comparisons(valued, &found))
 }
 
+/// The box that decides most rows for its price, of those that grow from these seeds. Of many rows some tell which grow on all.
+fn best(
+    valued: &Valued,
+    (left, ordered): (&[u32], &Ordered),
+    mut seeds: Vec<Seed>,
+    work: &mut usize,
+) -> Option<Covering> {
+    let cells = left.len() * valued.columns.len();
+    if cells > GLANCE {
+        *work += cells;
+        let step = cells.div_ceil(GLANCE);
+        let mut some: Vec<u32> = left.iter().copied().step_by(step).collect();
+        some.extend(seeds.iter().map(|(row, _)| *row));
+        some.sort_unstable();
+        some.dedup();
+        let ordered = ordered.only(&set(valued, &some));
+        let grown = grown(valued, (&some, &ordered), seeds, work);
+        seeds = grown.into_iter().map(|(seed, _)| seed).collect();
+        seeds.truncate(FINALISTS);
+    }
+    let grown = grown(valued, (left, ordered), seeds, work);
+    grown.into_iter().map(|(_, grown)| grown).next()
+}
+
+/// The boxes that grow from these seeds among some rows, the best first.
+fn grown(
+    valued: &Valued,
+    rows: (&[u32], &Ordered),
+    seeds: Vec<Seed>,
+    work: &mut usize,
+) -> Vec<(Seed, Covering)> {
+    let grown = seeds.into_par_iter().map(|(seed, behavior)| {
+        let mut growth = Growth::new(valued, rows, behavior);
+        let grown = growth.grow(seed);
+        (growth.work, grown.map(|grown| ((seed, behavior), grown)))
+    });
+    let grown: Vec<(usize, Option<(Seed, Covering)>)> = grown.collect();
+    *work += grown.iter().map(|(work, _)| work).sum::<usize>();
+    let mut grown: Vec<(Seed, Covering)> = grown.into_iter().filter_map(|(_, it)| it).collect();
+    grown.sort_by(|(_, a), (_, b)| b.pays().total_cmp(&a.pays()));
+    grown
+}
+
+/// Rows as a set.
+fn set(valued: &Valued, rows: &[u32]) -> Bits {
+    Bits::collect(valued.len(), rows.iter().map(|row| *row as usize))
+}
+
+/// A row from which a box grows, and the behaviour that its rows are to allow.
+type Seed = (u32, u32);
+
 /// The rows from which boxes grow, each with a behaviour that it allows.
-fn seeds(valued: &Valued, left: &[u32], number: u64) -> Vec<(u32, u32)> {
+fn seeds(valued: &Valued, left: &[u32], number: u64) -> Vec<Seed> {
     // Here and there, and elsewhere each time.
     let rows = (0..SEEDS).filter_map(|seed| {
         let at = (seed * SEEDS + number) * STRIDE % left.len().max(1) as u64;
@@ -156,19 +200,16 @@ struct Growth<'v> {
     valued: &'v Valued,
     left: &'v [u32],
     ordered: &'v Ordered,
-    /// For each row, whether it allows the behaviour.
-    own: Vec<bool>,
+    /// The rows that allow the behaviour.
+    own: Bits,
     work: usize,
 }
 
 impl<'v> Growth<'v> {
     fn new(valued: &'v Valued, (left, ordered): (&'v [u32], &'v Ordered), behavior: u32) -> Self {
-        let mut own = vec![false; valued.len()];
-        for row in left {
-            if let Some(own) = own.get_mut(*row as usize) {
-                *own = valued.allowed(*row as usize).contains(&behavior);
-            }
-        }
+        let allows = |row: &&u32| valued.allowed(**row as usize).contains(&behavior);
+        let own = left.iter().filter(allows).map(|row| *row as usize);
+        let own = Bits::collect(valued.len(), own);
         Self {
             valued,
             left,
@@ -179,7 +220,7 @@ impl<'v> Growth<'v> {
     }
 
     fn allows(&self, row: u32) -> bool {
-        self.own.get(row as usize).copied().unwrap_or(false)
+        self.own.contains(row as usize)
     }
 
     /// The box around a row; `None` if no box divides it from all others.
@@ -194,11 +235,11 @@ impl<'v> Growth<'v> {
             narrow(bounds.0.get_mut(column)?, cut);
             cuts.push((column, cut));
             let side = bounds.0.get(column)?;
-            let stays = |row: u32| side.contains(self.valued.code(column, row as usize));
-            inside.retain(|row| stays(*row));
+            inside.retain(|row| side.contains(self.valued.code(column, *row as usize)));
+            let stay = set(self.valued, &inside);
             match &mut ordered {
-                Cow::Borrowed(all) => ordered = Cow::Owned(all.only(stays)),
-                Cow::Owned(some) => some.retain(stays),
+                Cow::Borrowed(all) => ordered = Cow::Owned(all.only(&stay)),
+                Cow::Owned(some) => some.retain(&stay),
             }
         }
         self.widen(&mut bounds, &cuts, seed);

@@ -3,6 +3,7 @@
 use super::cuts::shortest;
 use super::ordered::Ordered;
 use super::{Asks, Comparison, Kind, OPEN, Valued};
+use crate::logic::Bits;
 use crate::logic::impurity::{self, Impurity, Mixture};
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
@@ -45,12 +46,14 @@ pub(super) fn used(
             found.insert(best);
         }
         open.extend([true, false].map(|wanted| {
-            let is_on = |row: u32| match code(valued, best.column, row) {
+            let is_on = |row: &u32| match code(valued, best.column, *row) {
                 OPEN => true,
                 code => best.asks.holds(code) == wanted,
             };
-            let on = rows.iter().copied().filter(|row| is_on(*row));
-            (ordered.only(is_on), on.collect(), depth + 1)
+            let on: Vec<u32> = rows.iter().copied().filter(is_on).collect();
+            let numbers = on.iter().map(|row| *row as usize);
+            let part = Bits::collect(valued.len(), numbers);
+            (ordered.only(&part), on, depth + 1)
         }));
     }
     Some(found)
@@ -154,8 +157,7 @@ fn best(
         for cell in cells {
             all.change(classes.of(cell.row), 1);
         }
-        let mut rest = all.clone();
-        let mut taken = left_open.clone();
+        let (mut rest, mut taken) = (all, left_open);
         let ordered = matches!(of.kind, Kind::Number(..));
         let mut groups = cells.chunk_by(|a, b| a.code == b.code).peekable();
         let mut divided = false;
@@ -163,9 +165,6 @@ fn best(
             let Some(code) = group.first().map(|cell| cell.code) else {
                 continue;
             };
-            if !ordered {
-                (rest, taken) = (all.clone(), left_open.clone());
-            }
             for cell in group {
                 let class = classes.of(cell.row);
                 taken.change(class, 1);
@@ -186,6 +185,12 @@ fn best(
                     next: next.map(|cell| cell.code),
                 };
                 best = Some((mixed, split));
+            }
+            // Words stand alone.
+            for cell in group.iter().filter(|_| !ordered) {
+                let class = classes.of(cell.row);
+                taken.change(class, -1);
+                rest.change(class, 1);
             }
         }
     }

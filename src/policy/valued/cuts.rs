@@ -2,6 +2,7 @@
 
 use super::{Decimal, Kind, OPEN, Valued, boxes, cart};
 use crate::logic::impurity::Impurity;
+use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -111,19 +112,14 @@ impl Valued {
 
     /// The table in which rows that these comparisons do not tell apart allow what all of them do; `None` if that is nothing.
     fn narrowed(&self, comparisons: &[Comparison]) -> Option<Self> {
+        let kinds = self.kinds(comparisons);
         let mut groups: FxHashMap<Vec<u32>, Vec<usize>> = FxHashMap::default();
-        let truths = self.columns.iter().enumerate();
-        let truths = truths.filter(|(_, column)| matches!(column.kind, Kind::Truth(_)));
-        let truths: Vec<usize> = truths.map(|(at, _)| at).collect();
         for row in 0..self.len() {
-            let asked = comparisons.iter().map(|comparison| {
-                u32::from(comparison.asks.holds(self.code(comparison.column, row)))
+            let kinds = kinds.iter().enumerate().map(|(column, kinds)| {
+                let code = self.code(column, row);
+                kinds.get(code as usize).copied().unwrap_or(code)
             });
-            let truths = truths.iter().map(|column| self.code(*column, row));
-            groups
-                .entry(asked.chain(truths).collect())
-                .or_default()
-                .push(row);
+            groups.entry(kinds.collect()).or_default().push(row);
         }
         let mut narrowed = self.clone();
         let mut groups: Vec<Vec<usize>> = groups.into_values().collect();
@@ -146,11 +142,32 @@ impl Valued {
         Some(narrowed)
     }
 
+    /// The kind of each code of each column. Codes that no comparison tells apart are of one kind.
+    fn kinds(&self, comparisons: &[Comparison]) -> Vec<Vec<u32>> {
+        let columns = self.columns.iter().enumerate().map(|(column, of)| {
+            let own = comparisons.iter().filter(|own| own.column == column);
+            let mut own: Vec<Asks> = own.map(|own| own.asks).collect();
+            own.sort_unstable();
+            let codes = 0..of.kind.values() as u32;
+            let kinds = codes.map(|code| match of.kind {
+                Kind::Truth(_) => code,
+                Kind::Number(..) => own.partition_point(|asks| !asks.holds(code)) as u32,
+                Kind::Category(_) => match own.binary_search(&Asks::Is(code)) {
+                    Ok(asked) => asked as u32,
+                    Err(_) => own.len() as u32,
+                },
+            });
+            kinds.collect()
+        });
+        columns.collect()
+    }
+
     /// The comparisons that partitions of the rows use.
     fn partitioned(&self, shared: bool) -> Option<Vec<Comparison>> {
         let partitions = [Impurity::Gini, Impurity::Entropy];
+        let partitions = partitions.into_par_iter();
         let partitions = partitions.map(|impurity| cart::used(self, impurity, shared));
-        let used: Vec<BTreeSet<Comparison>> = partitions.into_iter().flatten().collect();
+        let used: Vec<BTreeSet<Comparison>> = partitions.flatten().collect();
         let both: BTreeSet<Comparison> = used.iter().flatten().copied().collect();
         let fewest = used.into_iter().min_by_key(BTreeSet::len);
         match fewest {

@@ -1,6 +1,7 @@
 //! Rows in the order of their values, column by column: sorted once, and divided ever after.
 
 use super::{OPEN, Valued};
+use crate::logic::Bits;
 
 /// The value of a row in a column, by its code; those that leave it open come last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -34,17 +35,18 @@ impl Ordered {
         self.0.iter().map(Vec::as_slice)
     }
 
-    /// Keeps the rows that are wanted.
-    pub(super) fn retain(&mut self, wanted: impl Fn(u32) -> bool) {
+    /// Keeps these rows.
+    pub(super) fn retain(&mut self, wanted: &Bits) {
         for cells in &mut self.0 {
-            cells.retain(|cell| wanted(cell.row));
+            cells.retain(|cell| wanted.contains(cell.row as usize));
         }
     }
 
-    /// The rows that are wanted.
-    pub(super) fn only(&self, wanted: impl Fn(u32) -> bool) -> Self {
+    /// These of the rows.
+    pub(super) fn only(&self, wanted: &Bits) -> Self {
         let columns = self.0.iter().map(|cells| {
-            let wanted = cells.iter().filter(|cell| wanted(cell.row));
+            let cells = cells.iter();
+            let wanted = cells.filter(|cell| wanted.contains(cell.row as usize));
             wanted.copied().collect()
         });
         Self(columns.collect())

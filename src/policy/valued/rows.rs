@@ -12,6 +12,9 @@ use std::ops::Range;
 /// The most rows that stand for those which leave inputs open.
 const WRITTEN_OUT: usize = 16_384;
 
+/// The most rows times tests: each row has a bit for each test.
+const CELLS: usize = 1 << 30;
+
 /// How many rows one that leaves inputs open may stand for, if those which stand for more are cubes.
 fn most_written_out(mut counts: Vec<usize>) -> usize {
     counts.retain(|count| *count > 1);
@@ -87,8 +90,17 @@ impl Valued {
     /// tells from others, or is a cube where these would be many.
     ///
     /// # Errors
-    /// Rows that contradict each other, or names that do not go together.
+    /// Rows that contradict each other, names that do not go together, or more tests than there is room for.
     pub fn table(&self, tests: &[Test]) -> Result<Table, Vec<TableError>> {
+        let most = CELLS / self.len().max(1);
+        if tests.len() > most {
+            let kind = TableErrorKind::Numerous {
+                comparisons: tests.len(),
+                most,
+            };
+            let span = self.header.clone();
+            return Err(vec![TableError { span, kind }]);
+        }
         let mut reading = Reading::over(
             tests
                 .iter()

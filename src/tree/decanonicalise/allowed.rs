@@ -159,8 +159,11 @@ fn renumbered(list: &Grouped, number: &impl Fn(usize) -> Option<usize>) -> Group
 /// The behaviour of each row by the smallest of a few lists with groups that are made from the top.
 fn from_the_top(columns: &Columns, classes: &[Bits], account: &Account) -> Option<Vec<usize>> {
     let part = account.part(2);
-    let made =
-        (0..SAMPLES).map_while(|sample| top_down(columns, classes, (sample, Sought::Plain), &part));
+    let sample = |number: u64| {
+        let sought = (number, Sought::Plain);
+        top_down(columns, classes, sought, usize::MAX, &part)
+    };
+    let made = (0..SAMPLES).map_while(sample);
     let least = made.min_by_key(Grouped::nodes);
     account.settle(&part);
     let mut choice = vec![0; columns.rows()];

@@ -188,7 +188,7 @@ pub(super) fn samples(
             0 => whole.part(1),
             _ => whole.part(2),
         };
-        let made = top_down(columns, &classes, (sample, sought), &part);
+        let made = top_down(columns, &classes, (sample, sought), most, &part);
         whole.settle(&part);
         let Some(list) = made else { break };
         found.push(Children::grouped(problem, &list).node());

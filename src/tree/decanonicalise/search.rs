@@ -43,8 +43,6 @@ const WINDOWED: usize = 2000;
 const LOST: usize = 300;
 /// A list for some of the rows is made right on all of them if it is so many times smaller than the smallest tree.
 const SMALLER: usize = 2;
-/// What is allowed for one from the top, in accounts.
-const FURTHER: u64 = 3;
 
 /// One part in so many of an account is for trees that ask some atoms last.
 const CHOICES: usize = 8;
@@ -204,7 +202,7 @@ fn further(
     }
     // Other samples cost as much as the first, and seldom lead to a clearly smaller list where that did not.
     let sought = (Sought::Any, held / CLEAR);
-    let mut found = alone::samples(problem, sought, core, known, &account.again(FURTHER));
+    let mut found = alone::samples(problem, sought, core, known, &account.again(1).part(2));
     let least = smallest_of(&found).map_or(least, |own| own.min(least));
     found.extend(finish(core, known, least));
     found

@@ -242,6 +242,11 @@ fn what_is_too_much_is_refused() {
     };
     assert_eq!(code(&digits(64)), None);
     assert_eq!(code(&digits(65)), Some(Code::E0814));
+    let mut to_and_fro = "x:number,action\n".to_owned();
+    for x in 0..40_000 {
+        to_and_fro += &format!("{x},{}\n", if x % 2 == 0 { "go" } else { "wait" });
+    }
+    assert_eq!(code(&to_and_fro), Some(Code::E0826));
     let program = |cuts: usize| {
         let mut items = "input x: number\ninput y: number\nbehavior go\nbehavior wait\n".to_owned();
         let mut guard = vec!["x_0".to_owned()];

@@ -21,7 +21,7 @@ pub(super) fn leaves(table: &Table, among: &Bits, most: usize, account: &Account
 fn count(table: &Table, among: &Bits, left: &mut usize, account: &Account) -> Option<()> {
     let rows = table.columns.rows();
     if rows > 64 && FEW * among.count() <= rows {
-        let alone = table.among(among, account);
+        let alone = table.among(among, account).dividing(usize::MAX);
         let all = Bits::full(alone.columns.rows());
         return divide(&alone, &all, left, account);
     }
