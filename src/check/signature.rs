@@ -7,7 +7,7 @@ use super::names::is_built_in;
 use super::report::listed;
 use crate::diagnostic::{Applicability, Code};
 use crate::source::Span;
-use crate::syntax::ast::{Arg, ArgKind, Expr, Ident, Ref};
+use crate::syntax::ast::{Arg, ArgKind, Expr, ExprKind, Ident, Literal, Ref};
 use crate::syntax::print;
 use crate::syntax::words::SHAPES;
 
@@ -350,19 +350,44 @@ impl<'a> Checker<'a> {
             (a, b) => format!("{a} or {b} arguments"),
         };
         let surplus = args.get(most).map_or(reference.span, |arg| arg.span);
-        self.error(
-            Code::E0305,
-            surplus,
-            format!("`{name}` takes {wanted}, not {}", values.len()),
-        )
-        .label(if values.len() > most {
-            "one too many"
-        } else {
-            "too few"
-        });
+        let torn = (values.len() > most).then(|| decimal_comma(&values));
+        let message = format!("`{name}` takes {wanted}, not {}", values.len());
+        let draft = self
+            .error(Code::E0305, surplus, message)
+            .label(match values.len() > most {
+                true => "one too many",
+                false => "too few",
+            });
+        match torn.flatten() {
+            Some((place, number)) => {
+                let title = "a decimal fraction has a point";
+                draft.fix(title, place, number, Applicability::Unsafe);
+            }
+            None => draft.emit(),
+        }
         for value in values {
             self.expr(value);
         }
         None
     }
+}
+
+/// The comma of the first decimal fraction that is written with one, as in `0,18 m`, and a point in its place.
+fn decimal_comma(values: &[&Expr]) -> Option<(Span, &'static str)> {
+    let digits = |literal: &Literal| literal.digits.bytes().all(|byte| byte.is_ascii_digit());
+    values
+        .iter()
+        .zip(values.get(1..)?)
+        .find_map(|(whole, rest)| {
+            let (ExprKind::Number(one), ExprKind::Number(other)) = (&whole.kind, &rest.kind) else {
+                return None;
+            };
+            let comma = Span {
+                start: whole.span.end,
+                end: rest.span.start,
+                ..whole.span
+            };
+            let torn = one.unit.is_none() && digits(one) && digits(other);
+            (torn && comma.range().len() == 1).then_some((comma, "."))
+        })
 }

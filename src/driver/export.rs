@@ -121,5 +121,9 @@ fn refused(refusal: &Refusal, span: Span) -> Diagnostic {
         Reason::Time => Diagnostic::new(Code::E0822, span, "no clock counts so long")
             .label("longer than 49 days")
             .note("BehaviorTree.CPP counts milliseconds in 32 bits"),
+        Reason::Ticks => Diagnostic::new(Code::E0822, span, "nothing says how long these ticks are")
+            .label("a program without a world has no `tick`")
+            .note("the libraries that run trees on robots go by the clock")
+            .help("add a `world` with a `tick`, or leave the `timeout` to the behaviour"),
     }
 }

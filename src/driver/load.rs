@@ -263,7 +263,7 @@ impl Loader<'_> {
         if !broken {
             self.diagnostics.extend(mistakes);
         }
-        if !library {
+        if !library && !broken {
             let hidden = unseen(file, text.as_deref().unwrap_or_default());
             let hidden = hidden.take(UNSEEN);
             let hidden: Vec<Diagnostic> = hidden.filter(|found| !self.is_told(found)).collect();

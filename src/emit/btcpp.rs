@@ -133,10 +133,10 @@ fn reason(node: &Node, tick: Option<f64>) -> Option<Reason> {
         Node::Decorator {
             kind: Decorator::Timeout(ticks),
             ..
-        } => {
-            let fits = tick.is_some_and(|tick| *ticks as f64 * tick <= f64::from(u32::MAX));
-            (!fits).then_some(Reason::Time)
-        }
+        } => match tick {
+            None => Some(Reason::Ticks),
+            Some(tick) => (*ticks as f64 * tick > f64::from(u32::MAX)).then_some(Reason::Time),
+        },
         _ => None,
     }
 }

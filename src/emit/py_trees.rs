@@ -107,7 +107,7 @@ fn reason(node: &Node, tick: Option<f64>) -> Option<Reason> {
         Node::Decorator {
             kind: Decorator::Timeout(_),
             ..
-        } => tick.is_none().then_some(Reason::Time),
+        } => tick.is_none().then_some(Reason::Ticks),
         _ => None,
     }
 }

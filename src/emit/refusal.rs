@@ -18,8 +18,10 @@ pub enum Reason {
     Finished,
     /// A `parallel` of py_trees fails with its first child.
     Partial,
-    /// A time that the runtime cannot count, or ticks of unknown length.
+    /// A time that the runtime cannot count.
     Time,
+    /// Ticks, and no world says how long one is.
+    Ticks,
 }
 
 /// The first node from the left for which there is a reason.

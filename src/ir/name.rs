@@ -54,6 +54,21 @@ pub enum Coordinate {
 }
 
 impl Name {
+    /// Whether the two are of one family and one robot and have the same arguments but for numbers.
+    pub fn differs_in_numbers(&self, other: &Self) -> bool {
+        let is_number = |given: &Given| match given {
+            Given::Name(_) => false,
+            Given::Text(text) => text.starts_with(|c: char| c.is_ascii_digit() || c == '-'),
+            Given::Tuned { .. } => true,
+        };
+        let rest = |name: &Self| -> Vec<Option<Given>> {
+            let given = name.arguments.iter().map(|argument| &argument.value);
+            let rest = given.map(|given| given.clone().filter(|given| !is_number(given)));
+            rest.collect()
+        };
+        self.family == other.family && self.robot == other.robot && rest(self) == rest(other)
+    }
+
     /// A name without arguments.
     pub fn word(word: impl Into<String>) -> Self {
         Self {

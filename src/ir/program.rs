@@ -1,6 +1,6 @@
 //! The whole program.
 
-use super::expr::{ExprId, Pool, Temp};
+use super::expr::{Expr, ExprId, Pool, Temp};
 use super::input::Input;
 use super::law::{Behavior, Block};
 use super::name::Name;
@@ -115,6 +115,18 @@ pub struct Predicate {
 }
 
 impl Program {
+    /// What `or` joins in a condition and in the events that it names.
+    pub fn alternatives(&self, condition: ExprId) -> Vec<ExprId> {
+        let (mut found, mut at) = (self.pool.alternatives(condition), 0);
+        while let Some(&id) = found.get(at) {
+            at += 1;
+            if let Expr::Event(event) = self.pool.get(id) {
+                found.splice(at..at, self.pool.alternatives(self.events[event].when));
+            }
+        }
+        found
+    }
+
     /// The name of an atom.
     pub fn atom_name(&self, atom: Atom) -> Name {
         match atom {

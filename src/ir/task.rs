@@ -3,11 +3,12 @@
 use super::expr::ExprId;
 use super::law::{Behavior, Block};
 use super::name::Name;
-use super::program::{Event, Predicate, State};
+use super::program::{Event, Predicate, Program, State};
 use super::table::Id;
-use super::tree::{Status, Tree};
+use super::tree::{Node, Status, Tree};
 use super::world::Robot;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
 
 /// What is worth doing, and when an episode starts and ends.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,6 +40,26 @@ pub struct Task {
 }
 
 impl Task {
+    /// What the lines of `reward` on its own events pay for each line of `end on`, whatever else happens in the same tick; `None` where
+    /// there are none, one is no constant, or some are gains and others are not.
+    pub fn worths(&self, program: &Program) -> Vec<Option<f64>> {
+        let events = |id: &ExprId| program.alternatives(*id);
+        let lines = self.reward.iter();
+        let lines: Vec<(Vec<ExprId>, Option<f64>)> = lines
+            .map(|line| (events(&line.event), program.pool.constant(line.value)))
+            .collect();
+        let worth = |end: &ExprId| {
+            let ends = events(end);
+            let own = lines.iter();
+            let mut own = own.filter(|(on, _)| on.iter().any(|event| ends.contains(event)));
+            let first = own.next()?.1?;
+            let is_alike = |value: f64| (value > 0.0) == (first > 0.0);
+            own.all(|(_, value)| value.is_some_and(is_alike))
+                .then_some(first)
+        };
+        self.end_on.iter().map(worth).collect()
+    }
+
     /// The first behaviour of a tree that the task does not choose among.
     pub fn lacks(&self, tree: &Tree) -> Option<Id<Behavior>> {
         let mut lacking = None;
@@ -47,6 +68,36 @@ impl Task {
             lacking = lacking.or(lacks.then_some(behavior));
         });
         lacking
+    }
+}
+
+/// What stands in a tree for behaviours that the task does not choose among: each with one of those it does.
+pub type StandIns = Vec<(Id<Behavior>, Id<Behavior>)>;
+
+impl Task {
+    /// The tree with what the task chooses among in the place of what it does not: the same behaviour with another number. `None` if
+    /// there is no such one.
+    pub fn fitted(&self, program: &Program, tree: &Tree) -> Option<(Node, StandIns)> {
+        let mut asked = BTreeSet::new();
+        tree.root.visit_behaviors(&mut |behavior| {
+            asked.insert(behavior);
+        });
+        let lacking = asked.into_iter().filter(|id| !self.choose.contains(id));
+        let stand_in = |id: Id<Behavior>| {
+            let alike = |other: &&Id<Behavior>| {
+                program.behaviors[id]
+                    .name
+                    .differs_in_numbers(&program.behaviors[**other].name)
+            };
+            Some((id, *self.choose.iter().find(alike)?))
+        };
+        let stand_ins: StandIns = lacking.map(stand_in).collect::<Option<_>>()?;
+        let of = |id| {
+            let mut stand_ins = stand_ins.iter();
+            let own = stand_ins.find(|(lacking, _)| *lacking == id);
+            own.map_or(id, |(_, other)| *other)
+        };
+        Some((tree.root.clone().with_behaviors(&of), stand_ins))
     }
 }
 

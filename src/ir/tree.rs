@@ -226,6 +226,23 @@ impl Guard {
     }
 }
 
+impl Guard {
+    fn with_behaviors(self, of: &impl Fn(Id<Behavior>) -> Id<Behavior>) -> Self {
+        let all = |guards: Vec<Guard>| {
+            let guards = guards.into_iter();
+            guards.map(|guard| guard.with_behaviors(of)).collect()
+        };
+        match self {
+            Guard::Atom(Atom::Done(id)) => Guard::Atom(Atom::Done(of(id))),
+            Guard::Atom(Atom::Failed(id)) => Guard::Atom(Atom::Failed(of(id))),
+            Guard::Const(_) | Guard::Atom(Atom::Predicate(_)) => self,
+            Guard::Not(guard) => Guard::Not(Box::new(guard.with_behaviors(of))),
+            Guard::And(guards) => Guard::And(all(guards)),
+            Guard::Or(guards) => Guard::Or(all(guards)),
+        }
+    }
+}
+
 impl Node {
     /// The children, from the left.
     pub fn children(&self) -> &[Node] {
@@ -264,6 +281,39 @@ impl Node {
             Node::Condition(_) | Node::Behavior(_) => false,
         };
         !keeps && self.children().iter().all(Node::answers_again)
+    }
+
+    /// Puts what `of` gives in the place of every behaviour: in the leaves, and in the history that conditions ask.
+    #[must_use]
+    pub fn with_behaviors(self, of: &impl Fn(Id<Behavior>) -> Id<Behavior>) -> Self {
+        let all = |children: Vec<Node>| {
+            let children = children.into_iter();
+            children.map(|child| child.with_behaviors(of)).collect()
+        };
+        match self {
+            Node::Condition(guard) => Node::Condition(guard.with_behaviors(of)),
+            Node::Behavior(id) => Node::Behavior(of(id)),
+            Node::Composite {
+                kind,
+                memory,
+                children,
+            } => Node::Composite {
+                kind,
+                memory,
+                children: all(children),
+            },
+            Node::Parallel {
+                successes,
+                children,
+            } => Node::Parallel {
+                successes,
+                children: all(children),
+            },
+            Node::Decorator { kind, child } => Node::Decorator {
+                kind,
+                child: Box::new(child.with_behaviors(of)),
+            },
+        }
     }
 
     /// Calls `visit` for every behaviour leaf, from the left.

@@ -1,9 +1,9 @@
 //! The figures of episodes.
 
 use super::coverage::Coverage;
-use super::ends::Ended;
+use super::ends::{EndLine, Ended};
 use super::json::{self, Named};
-use super::words::{self, end_names, numbered};
+use super::words::{self, numbered};
 use crate::ir::Program;
 use crate::ir::task::Task;
 use crate::learn::rate;
@@ -18,7 +18,7 @@ pub struct Episodes {
     /// The names of the events, as in [`Summary::events`].
     pub events: Vec<String>,
     /// The names of what ends episodes, as in [`Summary::ended`].
-    pub ends: Vec<String>,
+    pub ends: Vec<EndLine>,
     /// What the nodes of the tree have answered, where that was asked.
     pub coverage: Option<Coverage>,
 }
@@ -66,7 +66,7 @@ impl Episodes {
         Self {
             summary,
             events: events.map(|event| event.name.to_string()).collect(),
-            ends: end_names(program, task),
+            ends: EndLine::all(program, task),
             coverage: None,
         }
     }

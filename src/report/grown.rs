@@ -1,8 +1,8 @@
 //! A grown tree in words and figures.
 
-use super::ends::Ended;
+use super::ends::{EndLine, Ended};
 use super::episodes::Episodes;
-use super::words::{end_names, line, numbered};
+use super::words::{line, numbered};
 use crate::emit::svg;
 use crate::grow::{Figures, Grown, Point};
 use crate::ir::Program;
@@ -257,5 +257,5 @@ impl<'a> Document<'a> {
 
 /// The episodes that each line of `end on` ended.
 fn ended(program: &Program, task: &Task, figures: &Figures) -> Vec<Ended> {
-    Ended::all(&end_names(program, task), &figures.summary)
+    Ended::all(&EndLine::all(program, task), &figures.summary)
 }

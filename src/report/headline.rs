@@ -1,10 +1,10 @@
 //! The report of `btc learn` in five lines: four on the tree that is printed, one on the values of the policy.
 
-use super::ends::Ended;
+use super::ends::{EndLine, Ended};
 use super::grown;
 use super::results::Results;
 use super::value::Value;
-use super::words::{self, end_names, line, numbered};
+use super::words::{self, line, numbered};
 
 /// Return, events, ends, size with what was proved or tested, and values.
 pub fn lines<W>(results: &Results<W>) -> Vec<String> {
@@ -12,9 +12,9 @@ pub fn lines<W>(results: &Results<W>) -> Vec<String> {
     let summary = printed.summary;
     let experiment = results.experiment;
     let program = experiment.program;
-    let mut ends = Ended::all(&end_names(program, experiment.task), summary);
+    let mut ends = Ended::all(&EndLine::all(program, experiment.task), summary);
     // What is not wanted stands first.
-    ends.sort_by_key(Ended::is_goal);
+    ends.sort_by_key(|end| end.is_goal);
     let [low, high] = summary.total.ci95;
     let mut first = format!(
         "{:.3}, 95 % [{low:.3}, {high:.3}], in {}",

@@ -1,9 +1,9 @@
 //! The report of `btc learn`.
 
-use super::ends::Ended;
+use super::ends::{EndLine, Ended};
 use super::results::Results;
 use super::value::Value;
-use super::words::{self, end_names, numbered};
+use super::words::{self, numbered};
 use crate::learn::binomial::upper95;
 use crate::learn::bootstrap::quantile;
 use crate::learn::curve::pooled;
@@ -235,8 +235,8 @@ impl<W> Report<'_, W> {
             );
             self.line(&event.name.to_string(), text);
         }
-        let names = end_names(program, self.results.experiment.task);
-        for end in Ended::all(&names, summary) {
+        let lines = EndLine::all(program, self.results.experiment.task);
+        for end in Ended::all(&lines, summary) {
             let text = format!(
                 "{} of {} by {}, {}",
                 end.count,

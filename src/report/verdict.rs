@@ -107,9 +107,12 @@ pub fn text(
             difference(program, (left, right), &along, trace)
         }
         (Verdict::Undecided(explored), greedy) => {
-            let settles = match greedy {
-                Some(_) => "fewer transitions would settle it",
-                None => {
+            let settles = match (greedy, explored.means) {
+                (Some(_), _) => "fewer transitions would settle it",
+                (None, Means::Solver { .. }) => {
+                    "`use` of recorded transitions, or guards of fewer atoms, would settle it"
+                }
+                (None, _) => {
                     "`use` of recorded transitions, or less memory in the trees, would settle it"
                 }
             };

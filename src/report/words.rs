@@ -1,6 +1,5 @@
 //! Words that several reports use.
 
-use crate::ir::expr::Binary;
 use crate::ir::task::Task;
 use crate::ir::tree::Atom;
 use crate::ir::{Expr, ExprId, Program};
@@ -127,13 +126,10 @@ pub fn end_names(program: &Program, task: &Task) -> Vec<String> {
 
 /// The names of the events that are joined by `or`, if there is nothing else.
 fn events_of(program: &Program, id: ExprId) -> Option<Vec<String>> {
-    match program.pool.get(id) {
-        Expr::Event(event) => Some(vec![program.events[event].name.to_string()]),
-        Expr::Binary(Binary::Or, left, right) => {
-            let mut events = events_of(program, left)?;
-            events.extend(events_of(program, right)?);
-            Some(events)
-        }
+    let name = |id| match program.pool.get(id) {
+        Expr::Event(event) => Some(program.events[event].name.to_string()),
         _ => None,
-    }
+    };
+    let alternatives = program.pool.alternatives(id).into_iter();
+    alternatives.map(name).collect()
 }

@@ -106,6 +106,7 @@ pub(super) fn failure(
         .or_else(|| place.word_before_name())
         .or_else(|| place.given_by_colon())
         .or_else(|| place.grouped_digits())
+        .or_else(|| place.second_point())
         .or_else(|| place.unit())
         .or_else(|| place.modulo())
         .or_else(|| place.reserved())

@@ -54,7 +54,7 @@ impl<'t> Glance<'t> {
             }
             glance.words.insert(name);
             let is_unit = before.is_some_and(|before| before.kind == Kind::Number);
-            let marked = matches!(next, ":" | "=" | "in") && !is_unit;
+            let marked = matches!(next, ":" | "=" | "in") && !is_unit && word != "on";
             let introduced = matches!(word, "let" | "state" | "place" | "predicate" | "enum");
             if marked || introduced || matches!(word, "{" | ",") && ends {
                 glance.declared.insert(name);

@@ -11,6 +11,7 @@ mod follow_ups;
 mod glance;
 mod grammar;
 mod nesting;
+mod parens;
 mod parse;
 pub mod print;
 mod reparse;

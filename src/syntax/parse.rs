@@ -6,6 +6,7 @@ use super::conflicts::{Conflict, conflicts};
 use super::diagnose::{dashed, other_comment};
 use super::follow_ups;
 use super::nesting;
+use super::parens::{Body, bodies};
 use super::reparse::{Read, Unread};
 use super::tokens::tokens;
 use crate::diagnostic::{self, Code, Diagnostic};
@@ -51,6 +52,10 @@ fn parse_after(
         return without_dashes(before, file, text, &dashed);
     }
     let tokens = tokens(text);
+    let bodies = bodies(text, &tokens);
+    if !bodies.is_empty() {
+        return with_braces(before, file, text, &bodies);
+    }
     let comments = comments(file, text, &tokens);
     let unread = Unread {
         file,
@@ -110,6 +115,23 @@ fn without_dashes(
     let ((tree, mut found), read) = parse_after(before, file, &meant);
     let marks = dashed.iter().map(|at| Span::new(file, *at, at + 2));
     found.extend(marks.map(|mark| other_comment(mark, "--")));
+    diagnostic::sort(&mut found);
+    ((tree, found), read)
+}
+
+/// The tree of a text in which these bodies stand in parentheses, read as if they stood in braces.
+fn with_braces(
+    before: Option<&Read>,
+    file: FileId,
+    text: &str,
+    bodies: &[Body],
+) -> ((File, Vec<Diagnostic>), Option<Read>) {
+    let mut meant = text.to_owned();
+    for (at, brace) in bodies.iter().flat_map(Body::braces) {
+        meant.replace_range(at..=at, brace);
+    }
+    let ((tree, mut found), read) = parse_after(before, file, &meant);
+    found.extend(bodies.iter().map(|body| body.told(file)));
     diagnostic::sort(&mut found);
     ((tree, found), read)
 }

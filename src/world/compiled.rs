@@ -34,6 +34,8 @@ pub(super) struct Compiled {
     pub(super) otherwise: Option<f64>,
     /// What a tick pays, whatever happens in it, where that is always the same.
     pub(super) flow: Option<f64>,
+    /// What the reward says that each line of `end on` is worth.
+    pub(super) worths: Vec<Option<f64>>,
 }
 
 /// A behaviour.
@@ -129,6 +131,7 @@ impl Compiled {
             starts,
             otherwise,
             flow,
+            worths: task.worths(program),
         })
     }
 }

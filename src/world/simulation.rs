@@ -332,8 +332,11 @@ impl<'a> Simulation<'a> {
         tick.closed = self.registers.get(Fixed::Closed.register()) != 0.0;
         tick.reward = self.registers.get(Fixed::Reward.register());
         let line = self.registers.get(Fixed::End.register()) as usize;
-        tick.end = line.checked_sub(1).map(End::On);
-        tick.lost = tick.end.is_some() && tick.closed && tick.reward < 0.0;
+        let line = line.checked_sub(1);
+        tick.end = line.map(End::On);
+        let worth = line.and_then(|line| *self.simulator.compiled.worths.get(line)?);
+        let paid = if tick.closed { tick.reward } else { 0.0 };
+        tick.lost = line.is_some() && worth.unwrap_or(paid) < 0.0;
         for &event in &self.body.fired {
             if let Some(count) = self.counts.get_mut(usize::from(event)) {
                 *count += 1;

@@ -199,6 +199,9 @@ impl<'a> Checker<'a> {
                         .this_is(&typed.ty)
                         .none();
                 }
+                if op.node == AssignOp::Div {
+                    self.no_division_by_zero(&typed)?;
+                }
                 typed
             }
         };

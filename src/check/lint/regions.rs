@@ -254,6 +254,7 @@ impl<'a> Checker<'a> {
         let program = &self.program;
         let every = |test: &dyn Fn(View, &Law) -> bool| own.iter().all(|id| of(program, *id, test));
         let requires_never = every(&|view, law| of_expr(view, law.requires, true).is_never());
+        let requires_always = every(&|view, law| of_expr(view, law.requires, false).is_never());
         // What never runs is told of what it requires.
         let refused_is_told = clauses.iter().any(|clause| {
             matches!(clause.kind, ClauseKind::Requires(_))
@@ -346,6 +347,9 @@ impl<'a> Checker<'a> {
             self.warning(Code::W0302, at, "this behaviour never succeeds")
                 .label(label)
                 .note_if(why);
+        } else if let (true, Some(at)) = (requires_always, requires) {
+            self.warning(Code::W0604, at, "this requires nothing")
+                .label("it always holds");
         } else {
             self.fails_without_effect(clauses);
         }

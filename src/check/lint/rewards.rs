@@ -46,6 +46,10 @@ impl<'a> Checker<'a> {
     ) {
         let checked = self.program.tasks[id].clone();
         let mut ends = 0;
+        let values = checked.reward.iter().map(|line| line.value);
+        let prices = checked.prices.iter().map(|price| price.per_second);
+        let mut values = values.chain(prices).chain([checked.otherwise]);
+        let pays_nothing = values.all(|id| self.program.pool.constant(id) == Some(0.0));
         let paid = self.cases_of(checked.reward.iter().map(|line| &line.event));
         let denied = denied(task);
         for aspect in &task.aspects {
@@ -53,11 +57,7 @@ impl<'a> Checker<'a> {
                 AspectKind::Reward { lines, otherwise } => {
                     self.lines_without_effect(lines, (id, &checked), happen, setters);
                     self.prices_twice(lines);
-                    let values = checked.reward.iter().map(|line| line.value);
-                    let prices = checked.prices.iter().map(|price| price.per_second);
-                    let mut values = values.chain(prices).chain([checked.otherwise]);
-                    let zero = |id: ExprId| self.program.pool.constant(id) == Some(0.0);
-                    if values.all(zero) {
+                    if pays_nothing {
                         let last = otherwise.as_ref().or(lines.last().map(|line| &line.value));
                         let span = last.map_or(aspect.span, |value| value.span);
                         self.warning(Code::W0510, span, "every reward of this task is 0")
@@ -67,8 +67,8 @@ impl<'a> Checker<'a> {
                     }
                 }
                 AspectKind::EndOn(event) => {
-                    // Of a line that waits for its absence another warning is told.
-                    if !denied.contains(&print::expr(event)) {
+                    // Of a line that waits for its absence another warning is told, and of a reward that pays nothing.
+                    if !denied.contains(&print::expr(event)) && !pays_nothing {
                         self.end_without_value(event, ends, &checked, (&paid, happen));
                     }
                     ends += 1;
@@ -229,13 +229,21 @@ impl<'a> Checker<'a> {
                 continue;
             };
             let during = during.as_ref().map(print::expr);
-            let written = (during, print::expr(time), print::expr(&line.value));
-            let earlier = *first.entry(written).or_insert(line.span);
-            if earlier != line.span {
-                self.warning(Code::W0303, line.span, "this price is given twice")
-                    .label("both are paid")
-                    .also(earlier, "the first time");
+            let (written, value) = ((during, print::expr(time)), print::expr(&line.value));
+            let (earlier, other) = first
+                .entry(written)
+                .or_insert((line.span, value.clone()))
+                .clone();
+            if earlier == line.span {
+                continue;
             }
+            let message = match other == value {
+                true => "this price is given twice",
+                false => "a second price for the same time",
+            };
+            self.warning(Code::W0303, line.span, message)
+                .label("both are paid")
+                .also(earlier, "the first time");
         }
     }
 

@@ -188,13 +188,13 @@ fn grown<W: World>(
         ..
     } = *experiment;
     let ground = grow::ground(experiment, seed);
-    let played =
-        |tree: &&Tree| tree.task.is_none_or(|of| of == learner.task) && task.lacks(tree).is_none();
-    let others = program
-        .trees
-        .values()
-        .filter(played)
-        .map(|tree| (tree.name.to_string(), tree.root.clone()));
+    let played = |tree: &&Tree| tree.task.is_none_or(|of| of == learner.task);
+    let others = program.trees.values().filter(played).filter_map(|tree| {
+        // What is for any task is a part of others.
+        let (root, stand_ins) = task.fitted(program, tree)?;
+        let fits = tree.task.is_some() || stand_ins.is_empty();
+        fits.then(|| (tree.name.to_string(), root))
+    });
     let starts = Starts {
         exact: exact.clone(),
         others: others.collect(),

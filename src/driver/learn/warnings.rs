@@ -13,9 +13,9 @@ use crate::ir::{Expr, ExprId, Id, Program};
 use crate::learn::curve::Point;
 use crate::learn::poisson::interval95;
 use crate::learn::statistics::Mean;
-use crate::report::ends::Ended;
+use crate::report::ends::{EndLine, Ended};
 use crate::report::results::Results;
-use crate::report::words::{self, end_names};
+use crate::report::words;
 
 /// Decisions for a behaviour that are enough to see whether it ever succeeds.
 const TRIED: u64 = 20;
@@ -203,9 +203,9 @@ impl Warner<'_> {
             return Vec::new();
         };
         let record = &run.record;
-        let names = end_names(self.program, self.task);
-        let ends = Ended::all(&names, summary);
-        let ends = ends.iter().enumerate().filter(|(_, end)| !end.is_goal());
+        let lines = EndLine::all(self.program, self.task);
+        let ends = Ended::all(&lines, summary);
+        let ends = ends.iter().enumerate().filter(|(_, end)| !end.is_goal);
         let warning = |(at, end): (usize, &Ended)| {
             let trained = record.ended.get(at).copied().unwrap_or(0);
             let least = interval95(end.count)[0] / summary.ticks.max(1) as f64;
@@ -339,6 +339,19 @@ impl Warner<'_> {
         let warning = |tree: &Tree| {
             let behavior = &self.program.behaviors[self.task.lacks(tree)?].name;
             let name = &tree.name;
+            if let Some((_, stand_ins)) = self.task.fitted(self.program, tree) {
+                let (lacking, other) = *stand_ins.first()?;
+                let [lacking, other] = [lacking, other].map(|id| &self.program.behaviors[id].name);
+                let message = format!("learning takes `{other}` for `{lacking}` in `{name}`");
+                return Some(
+                    Diagnostic::new(Code::W0523, self.places.tree(name), message)
+                        .label(format!(
+                            "it does `{lacking}`, which the task does not choose among"
+                        ))
+                        .note("so it is changed where trees grow from it and where it is compared")
+                        .help(format!("list `{lacking}` under `choose`")),
+                );
+            }
             let message = format!("learning leaves `{name}` out");
             let label = format!("it does `{behavior}`, which the task does not choose among");
             Some(

@@ -1,6 +1,7 @@
 //! What is missing between two entries and looks like a comma: quotes, brackets, an arrow, a word that joins.
 
 use super::Builder;
+use super::number::rates;
 use crate::diagnostic::{Applicability, Code, Diagnostic, suggest};
 use crate::source::Span;
 use crate::spelling::RESERVED;
@@ -362,8 +363,26 @@ impl<'i> Builder<'i> {
                 .label("leave this `1` out")
                 .fix("write `/` alone", one, "/", Applicability::Safe)
             }
+            "1" if name.parse::<f64>().is_ok() && self.divides(place) => {
+                let rest = self.text.get(place.range().start..).unwrap_or_default();
+                let unit = rest.find('/').unwrap_or_default() + 1;
+                let letters = rest.get(unit..).unwrap_or_default();
+                let letters = letters.find(|c: char| !c.is_ascii_alphabetic() && c != ' ');
+                let end = unit + letters.unwrap_or(rest.len() - unit);
+                let written = rest.get(..end).unwrap_or_default().trim_end();
+                let span = Span::new(self.file, place.range().start, place.range().start + end);
+                self.failed_at = Some(place.range().start + end);
+                Diagnostic::new(
+                    Code::E0114,
+                    span,
+                    format!("`{written}` is not a unit of its own"),
+                )
+                .label("per what?")
+                .help(rates(name))
+            }
             _ => {
-                let is_word = name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+                let is_word = name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+                    && !name.starts_with(|c: char| c.is_ascii_digit());
                 let rest = self.text.get(place.range().start..).unwrap_or_default();
                 let rest = rest.split(['\n', ',', '}']).next().unwrap_or_default();
                 // In `success(wait 5 s)` the call around it ends.

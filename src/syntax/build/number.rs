@@ -186,9 +186,7 @@ impl<'i> Builder<'i> {
                 format!("`/{name}` is not a unit of its own"),
             )
             .label("per what?")
-            .help(format!(
-                "a frequency is `{digits} Hz`, a turn rate `{digits} rad/s`, a speed `{digits} m/s`"
-            ));
+            .help(rates(digits));
             self.report(diagnostic);
             return Some(self.error_expr(span));
         };
@@ -281,4 +279,9 @@ fn well_written(digits: &str) -> String {
     let fraction: String = fraction.chars().filter(|&letter| letter != '_').collect();
     let point = if fraction.is_empty() { "" } else { "." };
     format!("{whole}{point}{fraction}{exponent}")
+}
+
+/// How rates of a number are written.
+pub(super) fn rates(digits: &str) -> String {
+    format!("a frequency is `{digits} Hz`, a turn rate `{digits} rad/s`, a speed `{digits} m/s`")
 }

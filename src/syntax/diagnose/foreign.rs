@@ -3,7 +3,7 @@
 
 use super::Place;
 use super::words::of_kind;
-use crate::diagnostic::{Applicability, Code, Diagnostic};
+use crate::diagnostic::{Applicability, Code, Diagnostic, Fix};
 use crate::source::Span;
 use crate::spelling::quoted;
 use crate::syntax::follow_ups::CLOSED_ABOVE;
@@ -109,10 +109,60 @@ impl Place<'_> {
                     .help(help),
             );
         }
-        Some(other_comment(
-            Span::new(self.file, at, at + begins.len()),
-            begins,
-        ))
+        let span = Span::new(self.file, at, at + begins.len());
+        let mut diagnostic = other_comment(span, begins);
+        let lines = self.as_lines(at, begins).map(|edits| Fix {
+            title: "write `//` on each of its lines".to_owned(),
+            edits,
+            applicability: Applicability::Safe,
+        });
+        diagnostic.fixes.extend(lines);
+        Some(diagnostic)
+    }
+
+    /// What makes comments of the language of one that begins here and ends at a mark of its own, with nothing behind it on its line.
+    fn as_lines(&self, at: usize, begins: &str) -> Option<Vec<(Span, String)>> {
+        let ends = match begins {
+            "/*" => "*/",
+            "<!--" => "-->",
+            _ => return None,
+        };
+        let start = at + begins.len();
+        let rest = self.text.get(start..)?;
+        let said = rest.get(..rest.find(ends)?)?;
+        let behind = rest.get(said.len() + ends.len()..)?;
+        let behind = behind.lines().next().unwrap_or_default();
+        if !behind.trim().is_empty() {
+            return None;
+        }
+        let edit =
+            |from: usize, to: usize, text: &str| (Span::new(self.file, from, to), text.to_owned());
+        let mut edits = vec![edit(at, start, "//")];
+        let mut line = start;
+        for (number, own) in said.split('\n').enumerate() {
+            let trimmed = own.trim_start();
+            let text = line + own.len() - trimmed.len();
+            let stars = trimmed.len() - trimmed.trim_start_matches('*').len();
+            if number > 0 && !trimmed.is_empty() {
+                // The stars stand below the first one.
+                let below = stars > 0 && own.starts_with(' ');
+                let blank = if stars > 0 { "" } else { " " };
+                edits.push(edit(
+                    text - usize::from(below),
+                    text + stars,
+                    &format!("//{blank}"),
+                ));
+            }
+            line += own.len() + 1;
+        }
+        // A mark on a line of its own leaves nothing of it.
+        let kept = said.trim_end_matches([' ', '\t']);
+        edits.push(edit(
+            start + kept.len(),
+            start + said.len() + ends.len(),
+            "",
+        ));
+        Some(edits)
     }
 
     /// A name with letters that a name has in backquotes only.

@@ -8,6 +8,18 @@ use crate::syntax::grammar::Rule;
 use crate::syntax::tokens::{Kind, Token};
 use crate::syntax::words::UNITS;
 
+/// What begins a line that gives a name its value.
+const DEFINED: [&str; 8] = [
+    "arena ",
+    "event ",
+    "let ",
+    "place ",
+    "predicate ",
+    "state ",
+    "tick ",
+    "tree ",
+];
+
 impl Place<'_> {
     /// A number or a sign in two pieces, a unit behind no number, a value behind `return`.
     pub(super) fn in_pieces(&self) -> Option<Diagnostic> {
@@ -89,7 +101,18 @@ impl Place<'_> {
             _ => return None,
         };
         let span = self.span_of(before).to(self.span());
+        if sign == "==" && self.defines(before) {
+            return self.told(span, "a value is given with one `=`", "=");
+        }
         self.told(span, format!("`{sign}` is one sign"), sign)
+    }
+
+    /// Whether a `=` is the first of its line, which gives a name its value.
+    fn defines(&self, sign: Token) -> bool {
+        let before = self.text.get(..sign.start).unwrap_or_default();
+        let line = before.rsplit('\n').next().unwrap_or_default();
+        let begins = |word: &&str| line.trim_start().starts_with(*word);
+        DEFINED.iter().any(begins) && !line.contains('=')
     }
 
     /// `low = true`: a guard is true or false by itself.

@@ -64,6 +64,20 @@ impl Place<'_> {
         Some(no_such_unit(self.span(), word, links))
     }
 
+    /// `0.0.5`: a second point.
+    pub(super) fn second_point(&self) -> Option<Diagnostic> {
+        let before = self.before?;
+        let is_number = before.kind == Kind::Number && before.of(self.text).contains('.');
+        let digits = self.found().strip_prefix('.')?;
+        let is_fraction = digits.starts_with(|c: char| c.is_ascii_digit());
+        if !is_number || !is_fraction || before.end != self.found.start {
+            return None;
+        }
+        let span = self.span_of(before).to(self.span());
+        let message = format!("`{}{}` is not a number", before.of(self.text), self.found());
+        Some(Diagnostic::new(Code::E0124, span, message).label("a number has one point"))
+    }
+
     /// `2,000`: digits in groups.
     pub(super) fn grouped_digits(&self) -> Option<Diagnostic> {
         let (first, comma) = (self.second_before?, self.before?);

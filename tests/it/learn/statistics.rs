@@ -1,5 +1,7 @@
 //! Statistics against printed values and an independent library.
 
+use crate::program::{NoFiles, shown};
+use btc::driver::load::load;
 use btc::learn::binomial::{lower95, upper95};
 use btc::learn::bootstrap::{interquartile_mean, interval95, quantile};
 use btc::learn::curve::Point;
@@ -9,7 +11,7 @@ use btc::learn::rate::Rate;
 use btc::learn::statistics::{Mean, Summary};
 use btc::random::Random;
 use btc::report::curve;
-use btc::report::ends::Ended;
+use btc::report::ends::{EndLine, Ended};
 use btc::world::End;
 use statrs::distribution::{Beta, ContinuousCDF, Gamma};
 
@@ -148,17 +150,75 @@ fn an_end_that_is_rewarded_is_a_goal_and_is_bounded_below() {
     let summary = Summary::of(&episodes, 3);
     assert_eq!(summary.ended, [1, 2, 0]);
     assert_eq!(summary.paid, [-5.0, 1.0, 0.0]);
-    let names = ["dead", "home", "lost"].map(str::to_owned);
-    let bounds = Ended::all(&names, &summary);
-    let bounds: Vec<String> = bounds.iter().map(Ended::bound).collect();
+    let bounds = |worths: [Option<f64>; 3]| {
+        let lines = worths.map(|worth| EndLine {
+            name: "end".to_owned(),
+            worth,
+        });
+        let bounds = Ended::all(&lines, &summary);
+        bounds.iter().map(Ended::bound).collect::<Vec<String>>()
+    };
     assert_eq!(
-        bounds,
+        bounds([None; 3]),
         [
             "at most 86.46 % (95 %)",
             "at least 13.54 % (95 %)",
             "at most 63.16 % (95 %)"
         ]
     );
+    // What is paid in the same tick makes no goal of an end that costs, and none of a goal that is not.
+    let told = bounds([Some(2.0), Some(-5.0), Some(1.0)]);
+    let words: Vec<&str> = told.iter().map(|bound| &bound[..8]).collect();
+    assert_eq!(words, ["at least", "at most ", "at least"]);
+}
+
+#[test]
+fn the_reward_says_what_an_end_is_worth() {
+    let source = "
+        world yard {
+            tick  = 100 ms
+            arena = rect((0 m, 0 m), (9 m, 9 m))
+            place dock = disc((8 m, 8 m), 0.5 m)
+            robot rover {
+                body  = disc(20 cm)
+                drive = differential(max_speed = 0.5 m/s, max_turn = 2 rad/s)
+            }
+        }
+        state charge = 100%
+        predicate low = charge <= 20%
+        event dead = charge <= 0%
+        event home = distance(dock) <= 50 cm
+        event hall = position.x <= 1 m
+        event left = success(leave)
+        each tick { charge -= 0.1% }
+        behavior stay { control { drive(speed = 0 m/s, turn = 0 rad/s) } }
+        behavior leave { control { drive(speed = max_speed, turn = 0 rad/s) } succeed when position.y >= 8 m }
+        task deliver {
+            observe low
+            choose  stay, leave
+            start { pose = anywhere }
+            end on dead
+            end on home or hall
+            end on home
+            end on hall
+            end on left
+            end on home or dead
+            end on charge <= 0%
+            end after 1 min
+            reward {
+                on home:           +9
+                on dead:           -5
+                on success(leave): -1
+            }
+        }
+    ";
+    let loaded = load("yard.bt", source.into(), &mut NoFiles);
+    assert!(!loaded.has_errors(), "{}", shown(&loaded));
+    let program = &loaded.program;
+    let task = program.tasks.values().next().unwrap();
+    let (home, dead, left) = (Some(9.0), Some(-5.0), Some(-1.0));
+    let worths = [dead, home, home, None, left, None, dead];
+    assert_eq!(task.worths(program), worths);
 }
 
 #[test]
