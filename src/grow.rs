@@ -46,6 +46,7 @@ pub use front::{Choice, Grown, Point};
 use ground::Ground;
 use grower::Grower;
 use iterate::{Iteration, Pace};
+use serde::{Deserialize, Serialize};
 pub use tested::{Beside, Figures};
 
 /// What a search starts from.
@@ -57,6 +58,8 @@ pub struct Starts {
     pub others: Vec<(String, Node)>,
     /// The minterms of the policy.
     pub minterms: Vec<Key>,
+    /// Trees that were found where episodes end early.
+    pub found: Vec<Node>,
 }
 
 /// How a search is done.
@@ -248,6 +251,18 @@ pub fn grow<W: World>(
     if let Some(grown) = whole.resume() {
         return Ok(grown);
     }
+    let early = match is_long(ground, &starts.exact)? {
+        true => early(ground, starts, settings, keeper, progress)?,
+        false => Early::default(),
+    };
+    let starts = &Starts {
+        found: early.found.clone(),
+        ..starts.clone()
+    };
+    let settings = &Settings {
+        effort: settings.effort - early.ticks,
+        ..settings.clone()
+    };
     let part = Part::new(keeper, "tree");
     let searching = Settings {
         effort: share(settings.effort, 1.0 - CHOOSING),
@@ -264,8 +279,63 @@ pub fn grow<W: World>(
         grown.front = front::drawn(&mut grower, candidates, starts, settings, &grown.root);
         grown.ticks = grower.judge.seen.ticks;
     }
+    grown.ticks += early.ticks;
     whole.save(|| &grown);
     Ok(grown)
+}
+
+/// The most ticks of an episode that ends early, and so many times more have those that are ended for it, on average.
+const EARLY: u64 = 3_000;
+const LONGER: u64 = 2;
+/// The part of the effort that is spent on such episodes.
+const EARLIER: f64 = 0.5;
+
+/// What a search has found where episodes end early.
+#[derive(Debug, Default, Serialize, Deserialize)]
+struct Early {
+    found: Vec<Node>,
+    ticks: u64,
+}
+
+/// What is found where long episodes end early: a search plays thousands of them, of which the effort has too few if they are long.
+fn early<W: World>(
+    ground: &Ground<W>,
+    starts: &Starts,
+    settings: &Settings,
+    keeper: &dyn Keeper,
+    progress: &(dyn Fn(Progress) + Sync),
+) -> Result<Early, Atom> {
+    let early = Part::new(keeper, "early");
+    if let Some(early) = early.resume() {
+        return Ok(early);
+    }
+    let ground = ground.until(EARLY);
+    let of = settings.effort;
+    let settings = Settings {
+        effort: share(of, EARLIER),
+        ..settings.clone()
+    };
+    let progress = |told: Progress| progress(Progress { of, ..told });
+    let mut grower = Grower::new(&ground, &settings, &progress);
+    let found = grower.run(starts, &Part::new(keeper, "early tree"))?;
+    let found = Early {
+        found: vec![found],
+        ticks: grower.judge.seen.ticks,
+    };
+    early.save(|| &found);
+    Ok(found)
+}
+
+/// Whether the episodes of a tree are long.
+fn is_long<W: World>(ground: &Ground<W>, tree: &Node) -> Result<bool, Atom> {
+    const SHOWN: usize = 4;
+    if ground.start.limit <= LONGER * EARLY {
+        return Ok(false);
+    }
+    let trials = ground.trials(Purpose::Grow, 0);
+    let mut contender = trials.contender(tree)?;
+    trials.play(&mut [&mut contender], SHOWN, None);
+    Ok(contender.length() > LONGER * EARLY)
 }
 
 #[cfg(test)]

@@ -224,7 +224,8 @@ pub(super) fn candidates((found, shrunk): (&[Visited], &[Visited]), starts: &Sta
             }
         }
     }
-    for (_, other) in &starts.others {
+    let others = starts.others.iter().map(|(_, other)| other);
+    for other in others.chain(&starts.found) {
         if !trees.contains(other) {
             trees.push(other.clone());
         }

@@ -45,6 +45,21 @@ pub struct Ground<'w, W> {
 const APART: u64 = 1 << 20;
 
 impl<'w, W: World> Ground<'w, W> {
+    /// The same with other seeds, where episodes have so many ticks at most.
+    pub fn until(&self, limit: u64) -> Self {
+        let until = |start: Start| Start {
+            limit: start.limit.min(limit),
+            ..start
+        };
+        Self {
+            start: until(self.start),
+            exploring: until(self.exploring),
+            seed: !self.seed,
+            never: self.never.clone(),
+            ..*self
+        }
+    }
+
     /// Episodes that nothing was chosen by so far: those of a purpose, from race number `race` on. Where trees grow, their
     /// decisions are noted.
     pub fn trials(&self, purpose: Purpose, race: u64) -> Trials<'_, W> {

@@ -222,8 +222,9 @@ impl<'g, 'w, 'a, W: World> Grower<'g, 'w, 'a, W> {
                 false => best,
             });
         self.single = best.map(|best| best.root.clone());
-        let theirs = starts.others.iter();
-        let theirs = theirs.filter_map(|(_, other)| self.judge.entrant(&trials, other));
+        let theirs = starts.others.iter().map(|(_, other)| other);
+        let theirs = theirs.chain(&starts.found);
+        let theirs = theirs.filter_map(|other| self.judge.entrant(&trials, other));
         let mut theirs: Vec<Entrant> = theirs.collect();
         let shown = self.judge.scaled(SHOWN);
         self.judge.play(&trials, &mut theirs, shown, Some(&exact));

@@ -44,6 +44,7 @@ fn shown(tree: &str, choice: Choice, front: bool) -> (Loaded, Grown) {
         minterms: Vec::new(),
         exact,
         others: Vec::new(),
+        found: Vec::new(),
     };
     let settings = Settings {
         effort: 2_000_000,

@@ -199,6 +199,7 @@ fn grown<W: World>(
         exact: exact.clone(),
         others: others.collect(),
         minterms: policy.rows.iter().map(|row| row.minterm.key()).collect(),
+        found: Vec::new(),
     };
     let requirements = grow::requirements(program, task);
     let settings = grow::Settings {
