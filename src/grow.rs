@@ -288,7 +288,7 @@ pub fn grow<W: World>(
 const EARLY: u64 = 3_000;
 const LONGER: u64 = 2;
 /// The part of the effort that is spent on such episodes.
-const EARLIER: f64 = 0.5;
+const EARLIER: f64 = 0.4;
 
 /// What a search has found where episodes end early.
 #[derive(Debug, Default, Serialize, Deserialize)]
