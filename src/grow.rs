@@ -260,7 +260,7 @@ pub fn grow<W: World>(
         ..starts.clone()
     };
     let settings = &Settings {
-        effort: settings.effort - early.ticks,
+        effort: settings.effort.saturating_sub(early.ticks),
         ..settings.clone()
     };
     let part = Part::new(keeper, "tree");
@@ -284,7 +284,7 @@ pub fn grow<W: World>(
     Ok(grown)
 }
 
-/// The most ticks of an episode that ends early, and so many times more have those that are ended for it, on average.
+/// The most ticks of an episode that ends early. Episodes are ended so if they have more than so many times as many, on average.
 const EARLY: u64 = 3_000;
 const LONGER: u64 = 2;
 /// The part of the effort that is spent on such episodes.

@@ -192,18 +192,6 @@ impl Pool {
         }
     }
 
-    /// What `or` joins in a condition, from left to right.
-    pub fn alternatives(&self, id: ExprId) -> Vec<ExprId> {
-        let (mut open, mut found) = (vec![id], Vec::new());
-        while let Some(id) = open.pop() {
-            match self.get(id) {
-                Expr::Binary(Binary::Or, left, right) => open.extend([right, left]),
-                _ => found.push(id),
-            }
-        }
-        found
-    }
-
     /// A leaf such as a state or a reading.
     pub fn leaf(&mut self, expr: Expr) -> ExprId {
         self.add(expr)

@@ -1,6 +1,6 @@
 //! The whole program.
 
-use super::expr::{Expr, ExprId, Pool, Temp};
+use super::expr::{Binary, Expr, ExprId, Pool, Temp};
 use super::input::Input;
 use super::law::{Behavior, Block};
 use super::name::Name;
@@ -10,6 +10,7 @@ use super::test::Test;
 use super::tree::{Atom, Status, Tree};
 use super::tunable::Tunable;
 use super::world::World;
+use rustc_hash::FxHashSet;
 use std::ops::RangeInclusive;
 
 /// A checked program.
@@ -115,14 +116,24 @@ pub struct Predicate {
 }
 
 impl Program {
-    /// What `or` joins in a condition and in the events that it names.
-    pub fn alternatives(&self, condition: ExprId) -> Vec<ExprId> {
-        let (mut found, mut at) = (self.pool.alternatives(condition), 0);
-        while let Some(&id) = found.get(at) {
-            at += 1;
-            if let Expr::Event(event) = self.pool.get(id) {
-                found.splice(at..at, self.pool.alternatives(self.events[event].when));
+    /// What `or` joins in a condition, from left to right, each once. Of an event that it names, that is both the event and what `or`
+    /// joins in it if events are to be `opened`.
+    pub fn alternatives(&self, condition: ExprId, opened: bool) -> Vec<ExprId> {
+        let (mut open, mut seen) = (vec![condition], FxHashSet::default());
+        let mut found = Vec::new();
+        while let Some(id) = open.pop() {
+            if !seen.insert(id) {
+                continue;
             }
+            match self.pool.get(id) {
+                Expr::Binary(Binary::Or, left, right) => {
+                    open.extend([right, left]);
+                    continue;
+                }
+                Expr::Event(event) if opened => open.push(self.events[event].when),
+                _ => {}
+            }
+            found.push(id);
         }
         found
     }

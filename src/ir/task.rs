@@ -7,6 +7,7 @@ use super::program::{Event, Predicate, Program, State};
 use super::table::Id;
 use super::tree::{Node, Status, Tree};
 use super::world::Robot;
+use rustc_hash::FxHashMap;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
@@ -43,19 +44,21 @@ impl Task {
     /// What the lines of `reward` on its own events pay for each line of `end on`, whatever else happens in the same tick; `None` where
     /// there are none, one is no constant, or some are gains and others are not.
     pub fn worths(&self, program: &Program) -> Vec<Option<f64>> {
-        let events = |id: &ExprId| program.alternatives(*id);
-        let lines = self.reward.iter();
-        let lines: Vec<(Vec<ExprId>, Option<f64>)> = lines
-            .map(|line| (events(&line.event), program.pool.constant(line.value)))
-            .collect();
+        let mut lines: FxHashMap<ExprId, Vec<usize>> = FxHashMap::default();
+        for (number, line) in self.reward.iter().enumerate() {
+            for event in program.alternatives(line.event, true) {
+                lines.entry(event).or_default().push(number);
+            }
+        }
+        let paid = |number: &usize| program.pool.constant(self.reward.get(*number)?.value);
         let worth = |end: &ExprId| {
-            let ends = events(end);
-            let own = lines.iter();
-            let mut own = own.filter(|(on, _)| on.iter().any(|event| ends.contains(event)));
-            let first = own.next()?.1?;
-            let is_alike = |value: f64| (value > 0.0) == (first > 0.0);
-            own.all(|(_, value)| value.is_some_and(is_alike))
-                .then_some(first)
+            let events = program.alternatives(*end, true);
+            let own = events.iter().filter_map(|event| lines.get(event));
+            let own: BTreeSet<usize> = own.flatten().copied().collect();
+            let paid: Vec<f64> = own.iter().map(paid).collect::<Option<_>>()?;
+            let (first, others) = paid.split_first()?;
+            let is_alike = |value: &f64| (*value > 0.0) == (*first > 0.0);
+            others.iter().all(is_alike).then_some(*first)
         };
         self.end_on.iter().map(worth).collect()
     }

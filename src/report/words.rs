@@ -130,6 +130,6 @@ fn events_of(program: &Program, id: ExprId) -> Option<Vec<String>> {
         Expr::Event(event) => Some(program.events[event].name.to_string()),
         _ => None,
     };
-    let alternatives = program.pool.alternatives(id).into_iter();
+    let alternatives = program.alternatives(id, false).into_iter();
     alternatives.map(name).collect()
 }

@@ -12,6 +12,7 @@ use super::tokens::tokens;
 use crate::diagnostic::{self, Code, Diagnostic};
 use crate::source::{FileId, Span};
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 /// The syntax tree of `text`, and all that is wrong with it.
 ///
@@ -45,16 +46,29 @@ fn parse_after(
 ) -> ((File, Vec<Diagnostic>), Option<Read>) {
     let conflicts = conflicts(text);
     if !conflicts.is_empty() {
-        return with_one_side(before, file, text, &conflicts);
+        // Of a conflict the first side is read.
+        let left_out = conflicts.iter().flat_map(Conflict::left_out);
+        let edits = left_out.map(|place| {
+            let written = blanked(text.get(place.clone()).unwrap_or_default());
+            (place, written)
+        });
+        let told = conflicts.iter().map(|conflict| conflict.told(file));
+        return read_as(before, (file, text), edits.collect(), told);
     }
     let dashed = dashed(text);
     if !dashed.is_empty() {
-        return without_dashes(before, file, text, &dashed);
+        let edits = dashed.iter().map(|at| (*at..at + 2, "//".to_owned()));
+        let marks = dashed.iter().map(|at| Span::new(file, *at, at + 2));
+        let told = marks.map(|mark| other_comment(mark, "--"));
+        return read_as(before, (file, text), edits.collect(), told);
     }
     let tokens = tokens(text);
     let bodies = bodies(text, &tokens);
     if !bodies.is_empty() {
-        return with_braces(before, file, text, &bodies);
+        let braces = bodies.iter().flat_map(Body::braces);
+        let edits = braces.map(|(at, brace)| (at..at + 1, brace.to_owned()));
+        let told = bodies.iter().map(|body| body.told(file));
+        return read_as(before, (file, text), edits.collect(), told);
     }
     let comments = comments(file, text, &tokens);
     let unread = Unread {
@@ -97,68 +111,35 @@ fn parse_after(
     ((tree, diagnostics), read)
 }
 
-/// The tree of a text in which comments begin with two dashes at these bytes, read as if they began with slashes.
-fn without_dashes(
+/// The tree of a text as it is meant, and what is told of its writing. Each edit is as long as what it replaces, so places stay.
+fn read_as(
     before: Option<&Read>,
-    file: FileId,
-    text: &str,
-    dashed: &[usize],
+    (file, text): (FileId, &str),
+    mut edits: Vec<(Range<usize>, String)>,
+    told: impl Iterator<Item = Diagnostic>,
 ) -> ((File, Vec<Diagnostic>), Option<Read>) {
+    edits.sort_by_key(|(place, _)| place.start);
     let mut meant = String::with_capacity(text.len());
     let mut end = 0;
-    for &at in dashed {
-        meant += text.get(end..at).unwrap_or_default();
-        meant += "//";
-        end = at + 2;
+    for (place, written) in edits {
+        meant += text.get(end..place.start).unwrap_or_default();
+        meant += &written;
+        end = place.end;
     }
     meant += text.get(end..).unwrap_or_default();
     let ((tree, mut found), read) = parse_after(before, file, &meant);
-    let marks = dashed.iter().map(|at| Span::new(file, *at, at + 2));
-    found.extend(marks.map(|mark| other_comment(mark, "--")));
+    found.extend(told);
     diagnostic::sort(&mut found);
     ((tree, found), read)
 }
 
-/// The tree of a text in which these bodies stand in parentheses, read as if they stood in braces.
-fn with_braces(
-    before: Option<&Read>,
-    file: FileId,
-    text: &str,
-    bodies: &[Body],
-) -> ((File, Vec<Diagnostic>), Option<Read>) {
-    let mut meant = text.to_owned();
-    for (at, brace) in bodies.iter().flat_map(Body::braces) {
-        meant.replace_range(at..=at, brace);
-    }
-    let ((tree, mut found), read) = parse_after(before, file, &meant);
-    found.extend(bodies.iter().map(|body| body.told(file)));
-    diagnostic::sort(&mut found);
-    ((tree, found), read)
-}
-
-/// The tree of a text with conflicts of a merge, of each of which the first side is read.
-fn with_one_side(
-    before: Option<&Read>,
-    file: FileId,
-    text: &str,
-    conflicts: &[Conflict],
-) -> ((File, Vec<Diagnostic>), Option<Read>) {
-    let mut meant = String::with_capacity(text.len());
-    let mut end = 0;
-    for left_out in conflicts.iter().flat_map(Conflict::left_out) {
-        meant += text.get(end..left_out.start).unwrap_or_default();
-        let blanked = text.get(left_out.clone()).unwrap_or_default();
-        meant.extend(blanked.bytes().map(|byte| match byte {
-            b'\n' => '\n',
-            _ => ' ',
-        }));
-        end = left_out.end;
-    }
-    meant += text.get(end..).unwrap_or_default();
-    let ((tree, mut found), read) = parse_after(before, file, &meant);
-    found.extend(conflicts.iter().map(|conflict| conflict.told(file)));
-    diagnostic::sort(&mut found);
-    ((tree, found), read)
+/// Blanks of the length of a text, on as many lines.
+fn blanked(text: &str) -> String {
+    let blanked = text.bytes().map(|byte| match byte {
+        b'\n' => '\n',
+        _ => ' ',
+    });
+    blanked.collect()
 }
 
 fn too_deep(place: Span) -> Diagnostic {

@@ -110,6 +110,26 @@ fn a_front_that_is_shown_changes_no_choice() {
     assert!(played.all(|episodes| Some(episodes) == first));
 }
 
+/// A tree of the file that gives other numbers is a start, with what the task chooses among; any other one is none.
+#[test]
+fn a_tree_with_other_numbers_is_fitted() {
+    let fitted = |tree: &str| {
+        let (loaded, task, _) = small(tree);
+        let program = &loaded.program;
+        let given = target::tree(&loaded, "given").unwrap();
+        let (root, stand_ins) = program.tasks[task].fitted(program, &program.trees[given])?;
+        Some((printed(&loaded, &root), stand_ins.len()))
+    };
+    let (expert, none) = fitted(EXPERT).unwrap();
+    assert_eq!(none, 0);
+    let other = EXPERT.replace("goto(C)", "goto(C, margin = 30 cm)");
+    assert_eq!(fitted(&other).unwrap(), (expert, 1));
+    let asked = |behavior: &str| format!("selector {{ done({behavior}) => {behavior}, goto(A) }}");
+    let (text, _) = fitted(&asked("goto(B, margin = 30 cm)")).unwrap();
+    assert!(text.contains("done(goto(B)) => goto(B)"), "{text}");
+    assert_eq!(fitted(&EXPERT.replace("goto(B)", "wait(1 s)")), None);
+}
+
 #[test]
 fn every_candidate_is_smaller_tidy_and_new() {
     let (.., mut root) = small(CLUMSY);

@@ -174,7 +174,10 @@ fn an_end_that_is_rewarded_is_a_goal_and_is_bounded_below() {
 
 #[test]
 fn the_reward_says_what_an_end_is_worth() {
+    let twice = |n| format!("event dead_{n} = dead_{m} or dead_{m}\n", m = n - 1);
+    let nested: String = (1..=60).map(twice).collect();
     let source = "
+        event dead_0 = charge <= 0%
         world yard {
             tick  = 100 ms
             arena = rect((0 m, 0 m), (9 m, 9 m))
@@ -204,6 +207,7 @@ fn the_reward_says_what_an_end_is_worth() {
             end on left
             end on home or dead
             end on charge <= 0%
+            end on dead_60
             end after 1 min
             reward {
                 on home:           +9
@@ -212,12 +216,12 @@ fn the_reward_says_what_an_end_is_worth() {
             }
         }
     ";
-    let loaded = load("yard.bt", source.into(), &mut NoFiles);
+    let loaded = load("yard.bt", (nested + source).into(), &mut NoFiles);
     assert!(!loaded.has_errors(), "{}", shown(&loaded));
     let program = &loaded.program;
     let task = program.tasks.values().next().unwrap();
     let (home, dead, left) = (Some(9.0), Some(-5.0), Some(-1.0));
-    let worths = [dead, home, home, None, left, None, dead];
+    let worths = [dead, home, home, None, left, None, dead, dead];
     assert_eq!(task.worths(program), worths);
 }
 

@@ -42,7 +42,7 @@ impl Keeper for Everything {
     fn publish(&self, _: &str, _: &str) {}
 }
 
-fn program(method: &str) -> Loaded {
+fn program(method: &str, ticks: u64) -> Loaded {
     let text = include_str!("../../../examples/delivery_small.bt");
     let methods = ["q_learning", "double_q", "model"];
     let text = methods.iter().fold(text.to_owned(), |text, other| {
@@ -52,6 +52,9 @@ fn program(method: &str) -> Loaded {
         )
     });
     assert!(text.contains(method), "{text}");
+    let limit = "end after 5_000 ticks";
+    assert!(text.contains(limit), "{text}");
+    let text = text.replace(limit, &format!("end after {ticks} ticks"));
     let loaded = load("small.bt", text.into_bytes(), &mut NoFiles);
     assert!(!loaded.has_errors(), "{:#?}", loaded.diagnostics);
     loaded
@@ -77,9 +80,9 @@ fn same(one: &Learned, other: &Learned, case: &str) {
     assert_eq!(one.report, other.report, "{case}");
 }
 
-/// Goes on from each n-th of all states.
-fn goes_on(method: &str, step: usize) {
-    let loaded = program(method);
+/// Goes on from each n-th of all states, these among them.
+fn goes_on((method, ticks): (&str, u64), step: usize, own: &[&str]) {
+    let loaded = program(method, ticks);
     let whole = learn(&loaded, &options(&Forgetful), &|_| {}).unwrap();
     let keeper = Everything {
         sparse: 1,
@@ -92,10 +95,11 @@ fn goes_on(method: &str, step: usize) {
     );
     let kept = keeper.kept.into_inner().unwrap();
     let parts: Vec<&String> = kept.iter().map(|(part, _)| part).collect();
-    for part in [
+    let usual = [
         "seed-1", "seed-2", "policy", "improved", "met", "tree", "grown",
-    ] {
-        assert!(parts.iter().any(|kept| *kept == part), "{part}: {parts:?}");
+    ];
+    for part in usual.iter().chain(own) {
+        assert!(parts.iter().any(|kept| kept == part), "{part}: {parts:?}");
     }
     for at in (0..kept.len()).step_by(step) {
         let before = kept[..=at].iter().cloned().collect();
@@ -114,9 +118,22 @@ fn goes_on(method: &str, step: usize) {
 
 #[test]
 fn a_run_goes_on_from_its_states() {
-    goes_on("model", 19);
-    goes_on("double_q", 61);
-    goes_on("q_learning", 61);
+    goes_on(("model", 5000), 19, &[]);
+    goes_on(("double_q", 5000), 61, &[]);
+    goes_on(("q_learning", 5000), 61, &[]);
+}
+
+/// Where episodes are long, a search in which they end early comes first. It may take more than all of the effort.
+#[test]
+fn a_run_of_long_episodes_goes_on_from_its_states() {
+    goes_on(("model", 20_000), 31, &["early", "early tree"]);
+    let loaded = program("model", 20_000);
+    let options = Options {
+        effort: 1,
+        ..options(&Forgetful)
+    };
+    let learned = learn(&loaded, &options, &|_| {}).unwrap();
+    assert!(!learned.report.is_empty());
 }
 
 /// A search for better values goes on from each state, and so does what is learned again under them: its states have names of
@@ -170,6 +187,6 @@ fn what_is_tuned_goes_on_from_its_states() {
 #[ignore = "takes minutes"]
 fn a_run_goes_on_from_each_of_its_states() {
     for method in ["model", "double_q", "q_learning"] {
-        goes_on(method, 1);
+        goes_on((method, 5000), 1, &[]);
     }
 }
