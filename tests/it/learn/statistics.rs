@@ -177,7 +177,6 @@ fn the_reward_says_what_an_end_is_worth() {
     let twice = |n| format!("event dead_{n} = dead_{m} or dead_{m}\n", m = n - 1);
     let nested: String = (1..=60).map(twice).collect();
     let source = "
-        event dead_0 = charge <= 0%
         world yard {
             tick  = 100 ms
             arena = rect((0 m, 0 m), (9 m, 9 m))
@@ -193,6 +192,7 @@ fn the_reward_says_what_an_end_is_worth() {
         event home = distance(dock) <= 50 cm
         event hall = position.x <= 1 m
         event left = success(leave)
+        event dead_0 = dead
         each tick { charge -= 0.1% }
         behavior stay { control { drive(speed = 0 m/s, turn = 0 rad/s) } }
         behavior leave { control { drive(speed = max_speed, turn = 0 rad/s) } succeed when position.y >= 8 m }
@@ -216,7 +216,8 @@ fn the_reward_says_what_an_end_is_worth() {
             }
         }
     ";
-    let loaded = load("yard.bt", (nested + source).into(), &mut NoFiles);
+    let source = source.replace("each tick", &format!("{nested}each tick"));
+    let loaded = load("yard.bt", source.into(), &mut NoFiles);
     assert!(!loaded.has_errors(), "{}", shown(&loaded));
     let program = &loaded.program;
     let task = program.tasks.values().next().unwrap();
